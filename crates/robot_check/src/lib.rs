@@ -9,5 +9,7 @@ mod check_value;
 pub mod difference;
 pub mod doctor;
 pub mod errata;
+#[cfg(test)]
+mod snapshot;
 
 pub use check_value::check_value;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::{RobotFile, shown};
 use robot_check::errata;
-use robot_document::{DIGITS, Equations, Error, Form, Letters, TermOrder, Trigonometry};
+use robot_document::{DIGITS, Equations, Error, Form, Letters, TermOrder, Trigonometry, Unlike};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
@@ -235,6 +235,35 @@ impl EquationArguments {
         terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
         tell_rounding(equations.rounded && self.digits.is_none(), terminal)
+    }
+
+    /// Says how many equations of the file given by `--like` are unlike those derived.
+    pub(crate) fn tell_unlike(
+        &self,
+        Unlike { foreign, all }: Unlike,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        if let Some(path) = self.like.as_ref().filter(|_| foreign > 0) {
+            let file = shown(path);
+            let message = format!(
+                "{foreign} of the {all} equations in {file} have no term in common with those of this robot, which \
+                 are printed in an order of their own; is it the right file for the robot?"
+            );
+            writeln!(terminal.errors, "warning: {message}")?;
+        }
+        Ok(())
+    }
+
+    /// What is wrong with the equations of a robot file.
+    pub(crate) fn failed(&self, robot: &RobotArgument, error: &Error) -> Failure {
+        let style = if self.like.is_some() { "--like" } else { "--style" };
+        match (hint(error), self.has_style()) {
+            (hint, true) if hint.contains("--form") => {
+                let hint = hint.replace('(', &format!("(without {style}: "));
+                Failure::input(format!("{}: {error}{hint}", shown(robot.path())))
+            }
+            _ => failed(robot, error),
+        }
     }
 
     /// Refuses friction that the robot has not.

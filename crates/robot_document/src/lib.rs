@@ -23,7 +23,7 @@ pub mod robot;
 pub use error::{Centimeters, Error};
 pub use forms::{Array, Cell, Room, Written};
 pub use forms::{
-    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, TermOrder,
+    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, TermOrder, Unlike,
     equations,
 };
 pub use layout::{DIGITS, Order, Rank, SymbolTable, Trigonometry};

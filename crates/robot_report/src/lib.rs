@@ -28,8 +28,7 @@ pub use scheme::{scheme_pdf, scheme_picture};
 
 use robot_build::ablation::ablation;
 use robot_build::{
-    Effects, Errors, FunctionKind, Functions, Options, Programs, Source, Unsolvable, programs,
-    unsolvable,
+    Effects, Errors, FunctionKind, Functions, Options, Programs, Source, programs, unsolvable,
 };
 use robot_document::markup::{Element, Node, element, holding};
 use robot_dynamics::mechanism::{self, Snap};
@@ -125,8 +124,8 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
         let lacks = lacking.iter().any(|lacking| lacking.functions.contains(kind));
         !lacks && kind.missing_in(&robot).is_none()
     };
-    let functions = Functions::Chosen(FUNCTIONS.into_iter().filter(has).collect());
-    let programs = programs(input.source, &Options { functions, ..input.options.clone() })?;
+    let functions = FUNCTIONS.into_iter().filter(has).collect();
+    let (programs, omitted) = programs_within_limits(input, functions)?;
     let (live, lacks) = match input.live.then(|| live(input, &robot)) {
         None => (None, None),
         Some(Ok(live)) => (Some(live), None),
@@ -146,10 +145,47 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
         Section { id: "equations", title: "Equations of motion", body: equations::forms(&shown) },
         structure(&shown),
         Section { id: "motion", title: "Joint torques by cause", body: motion::torques(&programs) },
-        costs(input, &programs, lacking.as_ref()),
+        costs(input, &programs, [lacking.map(|lacking| format!("Note: {lacking}.")), omitted]),
         evidence(input, &programs),
     ];
     Ok((robot, live, sections))
+}
+
+/// The programs of functions; if they need more expressions than code is made of, without those of pairs of joints, or in
+/// the end of inverse dynamics alone, and what the page says of that.
+fn programs_within_limits(
+    input: &Input<'_>,
+    functions: Vec<FunctionKind>,
+) -> Result<(Programs, Option<String>), Errors> {
+    let made = |functions: &[FunctionKind]| {
+        let functions = Functions::Chosen(functions.to_vec());
+        programs(input.source, &Options { functions, ..input.options.clone() })
+    };
+    let is_of_pairs = |kind: &FunctionKind| {
+        matches!(kind, FunctionKind::MassMatrix | FunctionKind::CoriolisMatrix)
+    };
+    let without_pairs: Vec<FunctionKind> =
+        functions.iter().copied().filter(|kind| !is_of_pairs(kind)).collect();
+    for chosen in [&functions, &without_pairs] {
+        match made(chosen) {
+            Err(errors) if is_too_large(&errors) => {}
+            Err(errors) => return Err(errors),
+            Ok(programs) => return Ok((programs, omission(&functions, chosen))),
+        }
+    }
+    Ok((made(&[FUNCTION])?, omission(&functions, &[FUNCTION])))
+}
+
+fn is_too_large(errors: &Errors) -> bool {
+    errors.as_slice().iter().any(|error| matches!(error, robot_build::Error::TooLarge { .. }))
+}
+
+/// The functions that the page leaves out, and why.
+fn omission(all: &[FunctionKind], chosen: &[FunctionKind]) -> Option<String> {
+    let omitted = all.iter().filter(|kind| !chosen.contains(kind)).map(|kind| kind.name());
+    let omitted: Vec<&str> = omitted.collect();
+    let words = "not shown: with them the code of a robot of so many joints has more expressions than code is made of.";
+    (!omitted.is_empty()).then(|| format!("Note: {} are {words}", omitted.join(", ")))
 }
 
 /// What the page says of constant angles that it shows as multiples of π/2 while code takes them as they are.
@@ -198,7 +234,7 @@ fn structure(robot: &Robot) -> Section {
     Section { id: "structure", title: "Structure of the equations", body }
 }
 
-fn costs(input: &Input<'_>, programs: &Programs, lacking: Option<&Unsolvable>) -> Section {
+fn costs(input: &Input<'_>, programs: &Programs, notes: [Option<String>; 2]) -> Section {
     let functions = Functions::Chosen(vec![FUNCTION]);
     let options = match ablation(input.source, &Options { functions, ..input.options.clone() }) {
         Ok(found) => costs::options(&found, FUNCTION.name()),
@@ -207,8 +243,10 @@ fn costs(input: &Input<'_>, programs: &Programs, lacking: Option<&Unsolvable>) -
             Some(holding("p", words).class("note"))
         }
     };
+    let [lacking, omitted] = notes.map(|note| note.map(|note| holding("p", note).class("note")));
     let parts = [
-        lacking.map(|lacking| holding("p", format!("Note: {lacking}.")).class("note")),
+        lacking,
+        omitted,
         Some(costs::functions(&programs.module)),
         costs::passes(&programs.module, FUNCTION.name()),
         options,

@@ -1,7 +1,8 @@
-//! Kinks and jumps of a motion that is given by expressions with `abs` and `sign`.
+//! Kinks, jumps and poles of a motion that is given by expressions.
 //!
 //! When the argument of an `abs` or a `sign` passes 0, the velocity or the position may jump: the
-//! acceleration is then an impulse, which derivatives do not see.
+//! acceleration is then an impulse, which derivatives do not see. When a divisor passes 0, the position may have no
+//! bound, and the samples on either side do not show it.
 
 use robot_symbolic::{Expr, Function, View, walk};
 
@@ -17,7 +18,8 @@ pub(crate) struct Kink {
     pub(crate) sides: [f64; 2],
 }
 
-/// Parts of the span between two samples that are looked into.
+/// Parts of the span between two samples that are looked into: what passes 0 twice within one of them, or touches 0 without passing
+/// it, is not seen.
 const PARTS: usize = 4;
 /// The distance from a kink, as a part of the whole time, at which its sides are compared.
 const NEAR: f64 = 1e-9;
@@ -46,6 +48,59 @@ fn switches<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
         _ => None,
     };
     walk::reachable(&[root]).into_iter().filter_map(inner).collect()
+}
+
+/// The first time, s, at which each coordinate has no bound, with the coordinate, from 0; `times` and `value` as for
+/// [`kinks`].
+pub(crate) fn poles<'g>(
+    q: &[Expr<'g>],
+    times: &[f64],
+    value: &dyn Fn(&[Expr<'g>], f64) -> Vec<f64>,
+) -> Vec<(usize, f64)> {
+    let of = |(coordinate, q): (usize, &Expr<'g>)| {
+        let crossings = crossings(&divisors(*q), times, value);
+        let pole = crossings.into_iter().find(|t| grows(*q, *t, times, value));
+        pole.map(|t| (coordinate, t))
+    };
+    q.iter().enumerate().filter_map(of).collect()
+}
+
+/// The factors of divisors, under roots too: where a square touches 0, its factor passes it.
+fn divisors<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
+    let mut left: Vec<Expr<'g>> = walk::reachable(&[root])
+        .into_iter()
+        .filter_map(|expr| match expr.view() {
+            View::Div(_, divisor) => Some(divisor),
+            _ => None,
+        })
+        .collect();
+    let mut factors = vec![];
+    while let Some(expr) = left.pop() {
+        match expr.view() {
+            View::Mul(one, other) => left.extend([one, other]),
+            View::Neg(inner) | View::Call(Function::Sqrt | Function::Abs, inner) => {
+                left.push(inner)
+            }
+            View::Number(_) | View::Pi => {}
+            _ if factors.contains(&expr) => {}
+            _ => factors.push(expr),
+        }
+    }
+    factors
+}
+
+/// Whether the size of an expression grows on the way to a time, by more than a bounded function would so near to it.
+fn grows<'g>(
+    q: Expr<'g>,
+    t: f64,
+    times: &[f64],
+    value: &dyn Fn(&[Expr<'g>], f64) -> Vec<f64>,
+) -> bool {
+    let (Some(first), Some(last)) = (times.first(), times.last()) else { return false };
+    let near = ((last - first).abs() * NEAR).max(t.abs() * NEAR);
+    let size = |t: f64| value(&[q], t).first().map_or(f64::NAN, |value| value.abs());
+    // The root of a distance, the slowest of what grows here, doubles over this.
+    [-near, near].into_iter().any(|side| size(t + side) > 1.5 * size(t + 4.0 * side))
 }
 
 /// The times at which one of the expressions passes 0 or is 0, in order.

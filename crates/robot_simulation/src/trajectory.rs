@@ -8,7 +8,7 @@ use robot_model::variable::{JointVariable, WRENCH_COMPONENTS};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
 use crate::error::Error;
-use crate::kinks::{Kink, kinks};
+use crate::kinks::{Kink, kinks, poles};
 use crate::table::{Table, check_times};
 use crate::{expressions, grid};
 
@@ -118,8 +118,10 @@ impl Trajectory {
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the texts, values that are not finite, and positions or velocities that
-    /// jump: the acceleration there is an impulse.
+    /// Everything that is wrong with the texts, values that are not finite, positions or velocities that
+    /// jump, where the acceleration is an impulse, and positions without bound between two samples. Between samples, what
+    /// `abs` and `sign` are applied to and the factors of divisors are looked at four times a step: one that passes 0
+    /// twice within a quarter of a step, or touches 0 and is not written as a square, is not noticed.
     pub fn from_expressions(
         robot: &Robot,
         parameters: &[(&str, f64)],
@@ -192,7 +194,7 @@ fn formulas(
     (formulas, wrong)
 }
 
-/// A message for each coordinate whose position or velocity jumps.
+/// A message for each coordinate whose position or velocity jumps, or whose position has no bound.
 fn kinked<'g>(
     graph: &'g Graph,
     [q, qd]: [&[Expr<'g>]; 2],
@@ -213,7 +215,16 @@ fn kinked<'g>(
             coordinate + 1
         )
     };
-    kinks(q, qd, times, &value).into_iter().map(message).collect()
+    let unbounded = |(coordinate, t): (usize, f64)| {
+        let t = number(t);
+        format!(
+            "`q{}`: the position has no bound at t = {t} s, where a divisor is 0; end the motion before it, or write one \
+             whose divisors do not become 0",
+            coordinate + 1
+        )
+    };
+    let poles = poles(q, times, &value).into_iter().map(unbounded);
+    kinks(q, qd, times, &value).into_iter().map(message).chain(poles).collect()
 }
 
 /// The values of expressions at a time.

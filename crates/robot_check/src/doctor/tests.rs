@@ -306,3 +306,157 @@ fn a_robot_without_mass_moves_nothing() {
                 joint = { type = \"revolute\", axis = \"z\" }\nmassless = true\n";
     assert_eq!(codes(text), [code::MOVES_NOTHING]);
 }
+
+/// Each size at which a rule begins to doubt: a value on either side of it, and what is found then.
+#[test]
+fn rules_begin_at_their_sizes() {
+    let rod = rod(2.0, 1.0, false);
+    let turned =
+        |angle: &str| rod.replace("[0.4, 0, 0]", &format!("[0.4, 0, 0], rpy = [0, {angle}, 0]"));
+    let limited = |kind: &str, limits: &str| {
+        rod.replacen("type = \"revolute\"", &format!("type = \"{kind}\", limits = [{limits}]"), 1)
+    };
+    let far = |x: &str| rod.replace("xyz = [0.4, 0, 0]", &format!("xyz = [0, {x}, 0]"));
+    let tensor = |moment: &str| {
+        arm(&format!(
+            "mass = 2\ncenter_of_mass = [0.2, 0, 0]\n\
+             inertia = {{ xx = {moment}, yy = {moment}, zz = {moment} }}"
+        ))
+    };
+    let mass = |mass: &str| rod.replace("mass = 2\n", &format!("mass = {mass}\n"));
+    let center = |x: &str| rod.replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
+    let axis = |axis: &str| rod.replacen("axis = \"y\"", &format!("axis = [{axis}]"), 1);
+    let gravity = |z: &str| {
+        rod.replacen("name = \"arm\"\n", &format!("name = \"arm\"\ngravity = [0, 0, {z}]\n"), 1)
+    };
+    for (passed, doubted, code) in [
+        (turned("6.2841"), turned("6.2842"), code::DEGREES),
+        (turned("-6.2841"), turned("-6.2842"), code::DEGREES),
+        (limited("revolute", "-25.133, 25.133"), limited("revolute", "-25.134, 1"), code::DEGREES),
+        (limited("prismatic", "-26, 26"), limited("revolute", "-1, 25.134"), code::DEGREES),
+        (far("20"), far("-20.01"), code::UNITS),
+        // A radius of gyration of 1.2 m, thrice the link; of 3 m; 22,590 kg/m³.
+        (tensor("1.91"), tensor("1.93"), code::TOO_WIDE),
+        (mass("15.3"), mass("15.6"), code::UNITS),
+        (center("1.952"), center("1.953"), code::CENTER_FAR),
+        (axis("1.1e-6, 1, 0"), axis("1e-6, 1, 0"), code::AXIS_NEAR),
+        (axis("0, -2, 2.1e-6"), axis("0, -2, -2e-6"), code::AXIS_NEAR),
+        (gravity("-30"), gravity("-30.01"), code::UNITS),
+    ] {
+        assert_eq!(codes(&passed), [""; 0], "{passed}");
+        assert_eq!(codes(&doubted), [code], "{doubted}");
+    }
+    // Beyond 3 m the units are in doubt instead of the link.
+    assert_eq!(codes(&tensor("12")), [code::TOO_WIDE]);
+    assert_eq!(codes(&tensor("12.01")), [code::UNITS]);
+    // Bodies whose units are in doubt are not judged further.
+    assert_eq!(codes(&center("20.01")), [code::UNITS]);
+    assert_eq!(codes(&center("-20")), [code::CENTER_FAR]);
+}
+
+#[test]
+fn every_unit_of_moments_is_known() {
+    for (scale, unit, factor) in [
+        (1e3, "g m^2", "1e-3"),
+        (1e4, "kg cm^2", "1e-4"),
+        (1e6, "kg mm^2", "1e-6"),
+        (1e7, "g cm^2", "1e-7"),
+        (1e9, "g mm^2", "1e-9"),
+    ] {
+        let found = check("arm.toml", &rod(2.0, scale, false), &Options::default()).found;
+        let expected = format!("multiply values in {unit} by {factor}");
+        assert!(found.to_string().contains(&expected), "{scale}: {found}");
+    }
+}
+
+/// A frame marks the size of its link as a child does, and what a prismatic joint travels is from one limit to the other.
+#[test]
+fn what_marks_the_size_of_a_link() {
+    let alone = rod(2.0, 1.0, false);
+    let alone = alone.split("[[link]]\nname = \"hand\"").next().unwrap();
+    let centered = |x: &str| alone.replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
+    let frame = "[[frame]]\nname = \"tool\"\nparent = \"rod\"\norigin = { xyz = [0, 3, 0] }\n";
+    assert_eq!(codes(&centered("5")), [code::CENTER_FAR]);
+    assert_eq!(codes(&format!("{}{frame}", centered("5"))), [""; 0]);
+    // Of [1, 4] 3 m: with 0.117 m of gyration, 9.35 m are near enough, 9.36 are not.
+    let sliding = |x: &str| {
+        centered(x).replacen("type = \"revolute\"", "type = \"prismatic\", limits = [1, 4]", 1)
+    };
+    assert_eq!(codes(&sliding("9.35")), [""; 0]);
+    assert_eq!(codes(&sliding("9.36")), [code::CENTER_FAR]);
+}
+
+/// Nine copies: eight are shown, and the number of the others.
+#[test]
+fn copies_are_named_up_to_eight() {
+    let robot = |count: usize| {
+        let link = |number: usize| {
+            format!(
+                "[[link]]\nname = \"l{number}\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\n\
+                 origin = {{ xyz = [0.2, 0, 0] }}\nmass = 2\ncenter_of_mass = [0.1, 0, 0]\n\
+                 inertia = {{ xx = 0.02, yy = 0.02, zz = 0.02 }}\n"
+            )
+        };
+        let links: String = (1..=count).map(link).collect();
+        let text = format!("format = 1\n[robot]\nname = \"arm\"\n{links}");
+        check("arm.toml", &text, &Options::default()).found.to_string()
+    };
+    let eight = "`l1`, `l2`, `l3`, `l4`, `l5`, `l6`, `l7`, `l8`";
+    assert!(robot(3).contains("the same inertia: `l1`, `l2`, `l3`\n"), "{}", robot(3));
+    assert!(robot(8).contains(&format!("{eight}\n")), "{}", robot(8));
+    assert!(robot(9).contains(&format!("{eight} and 1 more\n")), "{}", robot(9));
+    assert_eq!(robot(9).matches("and here").count(), 7);
+}
+
+/// A joint that moves 10⁻¹² of what another moves has nothing to move.
+#[test]
+fn next_to_nothing_is_nothing() {
+    let text = |armature: &str| {
+        format!(
+            "format = 1\n[robot]\nname = \"arm\"\n[[link]]\nname = \"a\"\n\
+             joint = {{ type = \"prismatic\", axis = \"z\" }}\nmass = 1\ncenter_of_mass = [0, 0, 0]\n\
+             inertia = {{ xx = 0, yy = 0, zz = 0 }}\n[[link]]\nname = \"b\"\n\
+             joint = {{ type = \"revolute\", axis = \"z\" }}\nmassless = true\n\
+             drive = {{ armature = {armature} }}\n"
+        )
+    };
+    assert_eq!(codes(&text("2e-12")), [""; 0]);
+    assert_eq!(codes(&text("5e-13")), [code::MOVES_NOTHING]);
+    let found = check("arm.toml", &text("5e-13"), &Options::default()).found.to_string();
+    assert!(found.contains("the joint `b` moves no mass"), "{found}");
+    assert!(found.contains("arm.toml:12:"), "{found}");
+}
+
+/// The words of findings about angles: which multiple, by how much, and what to write instead.
+#[test]
+fn angles_are_named_with_their_multiples() {
+    let turned = |angle: &str| {
+        let text = rod(2.0, 1.0, false)
+            .replace("xyz = [0.4, 0, 0]", &format!("xyz = [0.4, 0, 0], rpy = [{angle}, 0, 0]"));
+        check("arm.toml", &text, &Options::default()).found.to_string()
+    };
+    for (angle, parts) in [
+        ("1.5708", ["nearly π/2\n", "leaves a cosine of 3.67", "\"pi/2\"", "snap = 1e-5`"]),
+        ("-1.5708", ["nearly -π/2\n", "leaves a cosine of 3.67", "\"-pi/2\"", "snap = 1e-5`"]),
+        ("3.1416", ["nearly π\n", "leaves a sine of 7.34", "\"pi\"", "snap = 1e-5`"]),
+        ("-3.1416", ["nearly -π\n", "leaves a sine of 7.34", "\"-pi\"", "snap = 1e-5`"]),
+        (
+            "4.712",
+            ["nearly 3*π/2\n", "leaves a cosine of 0.00038898 ", "\"3*pi/2\"", "snap = 1e-3`"],
+        ),
+        ("-4.712", ["nearly -3*π/2\n", "leaves a cosine of ", "\"-3*pi/2\"", "1e-3`"]),
+        ("6.283", ["nearly 2*π\n", "leaves a sine of 0.0001853", "\"2*pi\"", "snap = 1e-3`"]),
+        (
+            "1e-7",
+            ["nearly 0\n", "leaves a sine of 1e-7 ", "write all its digits, 0, or", "snap = 1e-"],
+        ),
+    ] {
+        let found = turned(angle);
+        for part in parts {
+            assert!(found.contains(part), "{angle}: {part} is not in\n{found}");
+        }
+    }
+    let found = turned("90");
+    assert!(found.contains("90 degrees are 1.5707963267948966 rad"), "{found}");
+    assert!(found.contains("these are 14.3239 turns"), "{found}");
+}

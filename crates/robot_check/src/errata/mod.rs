@@ -17,6 +17,8 @@ mod symbols;
 mod term;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod told;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -29,8 +29,9 @@ pub fn term_order(
     for equation in printed {
         order.set_number(&equation.quantity, &equation.number);
         // With one term there is nothing to order but its factors, and that term may be another quantity's name.
-        if equation.terms.len() > 1 {
-            order.insert(&equation.quantity, equation.terms);
+        match equation.terms.len() {
+            0 | 1 => order.insert_name(&equation.quantity),
+            _ => order.insert(&equation.quantity, equation.terms),
         }
     }
     Ok(order)

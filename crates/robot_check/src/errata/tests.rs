@@ -2,12 +2,12 @@ use robot_model::description::read_toml;
 
 use super::*;
 
-fn robot(name: &str) -> Robot {
+pub(super) fn robot(name: &str) -> Robot {
     let path = format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     read_toml("robot.toml", &std::fs::read_to_string(path).unwrap()).unwrap().robot
 }
 
-fn compared(robot: &Robot, text: &str) -> Result<Comparison, Diagnostics> {
+pub(super) fn compared(robot: &Robot, text: &str) -> Result<Comparison, Diagnostics> {
     let source = Source { name: "printed".to_owned(), text: text.to_owned() };
     compare(robot, &source, &Options::default())
 }

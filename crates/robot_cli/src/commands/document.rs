@@ -4,16 +4,16 @@ use std::path::PathBuf;
 
 use clap::{ArgAction, Args, ValueEnum};
 use robot_build::MARKER;
-use robot_document::Form;
 use robot_document::document::{Block, Document};
 use robot_document::robot::{Extras, document};
+use robot_document::{EquationOptions, Form, equations};
 use robot_document::{latex, latex::Page, markdown, typst};
 
 use crate::Terminal;
 use crate::delivery::{Delivery, ForceArgument, file_of};
 use crate::displayed::centimeters;
 use crate::failure::Failure;
-use crate::forms::{EquationArguments, FormName, failed};
+use crate::forms::{EquationArguments, FormName};
 use crate::robot::RobotArgument;
 
 #[derive(Args)]
@@ -103,7 +103,7 @@ impl Arguments {
         options.order = self.equations.order(&self.robot, &robot)?;
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
-        let failed = |error| failed(&self.robot, &error);
+        let failed = |error| self.equations.failed(&self.robot, &error);
         let check = robot_check::check_value(&robot, options.friction);
         let usual = Page::with_columns(self.columns);
         let page = Page { width: self.width.unwrap_or(usual.width), ..usual };
@@ -117,6 +117,11 @@ impl Arguments {
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
         tell_length(&document, &forms, terminal)?;
+        if self.equations.inputs().is_some() {
+            let options = EquationOptions { form: Form::Expanded, ..options };
+            let again = equations(&robot, &options).map_err(failed)?;
+            self.equations.tell_unlike(again.unlike, terminal)?;
+        }
         let shown = match format {
             Format::Latex => commented("% ", "", latex::document(&document, page)),
             Format::Typst => commented("// ", "", typst::document(&document, page)),

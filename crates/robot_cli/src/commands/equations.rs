@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
-use crate::forms::{EquationArguments, FormName, NO_DIGITS, failed};
+use crate::forms::{EquationArguments, FormName, NO_DIGITS};
 use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
@@ -72,10 +72,11 @@ impl Arguments {
         options.order = self.equations.order(&self.robot, &robot)?;
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
-        let failed = |error| failed(&self.robot, &error);
+        let failed = |error| self.equations.failed(&self.robot, &error);
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
         self.equations.check_layout(&equations)?;
+        self.equations.tell_unlike(equations.unlike, terminal)?;
         if !matches!(self.format, Format::Json) {
             self.equations.tell_rounding(&equations, terminal)?;
         }

@@ -57,7 +57,7 @@ pub(crate) enum Command {
     Prove(prove::Arguments),
     /// Write a page about a robot: scheme, tables, equations, structure, operations, evidence
     Report(report::Arguments),
-    /// Draw the kinematic scheme of a robot as SVG
+    /// Draw the kinematic scheme of a robot as SVG or PDF
     Scheme(scheme::Arguments),
     /// Search for the form of the recursion with the fewest operations
     Search(search::Arguments),

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::{complaint, folder, output, robot};
+use crate::{Outcome, complaint, folder, output, robot, run};
 
 const PAGE: &str = "docs/trttr1-equations.md";
 
@@ -339,4 +339,38 @@ fn terms_and_factors_are_read() {
     let of = |text: &str| terms(text);
     assert!(in_order(&of("a + x + c"), &of("a + c + d")) && !in_order(&of("a + c"), &of("c + a")));
     assert!(!in_order(&of("a*b + c"), &of("b*a + c")));
+}
+
+/// The text of another robot is noticed.
+#[test]
+fn equations_unlike_those_of_the_text_are_counted() {
+    let text = root().join("docs/trttr1.printed");
+    let text = text.to_str().unwrap();
+    let told = |command: &str, robot_name: &str| {
+        let arguments = [command, &robot(robot_name), "--like", text, "--digits", "17"];
+        let Outcome { code, errors, .. } = run(&arguments);
+        assert_eq!(code, 0, "{errors}");
+        errors
+    };
+    for command in ["equations", "document"] {
+        let shown = told(command, "puma560");
+        assert!(shown.starts_with("warning: "), "{shown}");
+        assert!(shown.contains("docs/trttr1.printed have no term in common with"), "{shown}");
+        let words = shown.split_whitespace();
+        let numbers: Vec<usize> = words.filter_map(|word| word.parse().ok()).collect();
+        assert!(numbers[0] > 20 && numbers[0] < numbers[1] && numbers[1] <= 85, "{shown}");
+        assert_eq!(told(command, "trttr1"), "");
+    }
+}
+
+/// What helps with equations that are too long is an option that may stand there.
+#[test]
+fn the_remedy_for_a_long_style_is_another_form() {
+    let shown = complaint(1, &["equations", &robot("panda"), "--style", "paper"], "");
+    assert!(shown.contains("(without --style: --form grouped, recursive or compact)"), "{shown}");
+    let path = folder("long-like").join("one.printed");
+    std::fs::write(&path, "(1) Q7 = qdd7 + qdd6\n").unwrap();
+    let arguments = ["equations", &robot("panda"), "--like", path.to_str().unwrap()];
+    let shown = complaint(1, &arguments, "");
+    assert!(shown.contains("(without --like: --form grouped"), "{shown}");
 }

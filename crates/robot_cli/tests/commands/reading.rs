@@ -223,6 +223,42 @@ fn a_motion_with_a_kink_is_refused() {
 }
 
 #[test]
+fn a_pole_between_two_samples_is_refused() {
+    let file = robot("planar_2r");
+    let arguments = |expressions: &'static str| {
+        [
+            "torques".to_owned(),
+            file.clone(),
+            format!("--expressions={expressions}"),
+            "--time=1".to_owned(),
+        ]
+    };
+    let refused =
+        |expressions| complaint(1, &arguments(expressions).each_ref().map(String::as_str), "");
+    let shown = refused("q1=t;q2=1/(t-0.505)");
+    assert!(shown.contains("`q2`: the position has no bound at t = 0.505"), "{shown}");
+    // Of even order, under a root, deep in a product, of a parameter, and at a sample.
+    for expressions in [
+        "q1=1/(t-0.505)^2;q2=t",
+        "q1=1/sqrt((t-0.505)^2);q2=t",
+        "q1=t*sin(t)/(3*(2+t)*(t-0.505));q2=t",
+        "q1=tan(pi*t/1.01);q2=t",
+        "q1=1e-9*l1/(t-0.505*l1);q2=t",
+    ] {
+        assert!(refused(expressions).contains("`q1`: the position has no bound"), "{expressions}");
+    }
+    assert!(refused("q1=1/(t-0.5);q2=t").contains("no bound at t = 0.5 s"));
+    // A divisor that passes 0 where the numerator does, one that does not, and one beyond the time.
+    for expressions in [
+        "q1=sin(t-0.505)/(t-0.505);q2=t",
+        "q1=1/((t-0.505)^2+1e-9);q2=t",
+        "q1=1/(t-1.5);q2=1/(t+0.001)",
+    ] {
+        output(&arguments(expressions).each_ref().map(String::as_str), "");
+    }
+}
+
+#[test]
 fn torques_without_a_finite_value_are_an_error() {
     let file = robot("planar_2r");
     let arguments = ["torques", &file, "--expressions", "q1=1e300*t;q2=0", "--time", "1"];

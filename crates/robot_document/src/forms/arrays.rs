@@ -72,7 +72,7 @@ impl Equations {
     pub fn arranged(&self, room: Room) -> Equations {
         let groups = self.groups.iter().map(|group| group.arranged(room));
         let groups = groups.filter(|group| !group.equations.is_empty()).collect();
-        Equations { groups, symbols: self.symbols.clone(), rounded: self.rounded }
+        Equations { groups, symbols: self.symbols.clone(), ..*self }
     }
 }
 

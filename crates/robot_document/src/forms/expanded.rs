@@ -42,7 +42,11 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
         let terms = in_paper.unwrap_or_else(|| writer.collected(polynomial));
         let ordered = match writer.options.form {
-            Form::Expanded => writer.options.order.arranged(&name, &terms, writer.graph),
+            Form::Expanded => {
+                let (order, graph) = (&writer.options.order, writer.graph);
+                order.count(&mut writer.unlike, &name, &terms, graph);
+                order.arranged(&name, &terms, graph)
+            }
             _ => None,
         };
         let terms = ordered.filter(|terms| writer.is_value(terms, polynomial)).unwrap_or(terms);

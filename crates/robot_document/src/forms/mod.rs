@@ -43,7 +43,7 @@ use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_tex
 use crate::math::Math;
 pub use letters::{InvalidLetters, Letters};
 pub use options::{EquationOptions, Form};
-pub use published::TermOrder;
+pub use published::{TermOrder, Unlike};
 
 pub use arrays::{Array, Cell, Room, Written};
 pub use paper::Relation;
@@ -57,6 +57,8 @@ pub struct Equations {
     pub symbols: SymbolTable,
     /// Whether decimals were rounded to [`EquationOptions::digits`].
     pub rounded: bool,
+    /// The published equations, [`EquationOptions::order`], that are unlike these.
+    pub unlike: Unlike,
 }
 
 /// Equations that belong together.
@@ -218,6 +220,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         symbols: SymbolTable::new(robot, options.trigonometry)?,
         order: Order::new(robot),
         parallel: vec![],
+        unlike: Unlike::default(),
     };
     if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
@@ -241,7 +244,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
         group.numbers = options.order.numbers();
     }
-    Ok(Equations { groups, symbols: writer.symbols, rounded })
+    Ok(Equations { groups, symbols: writer.symbols, rounded, unlike: writer.unlike })
 }
 
 /// The state that the forms have in common.
@@ -253,6 +256,8 @@ struct Writer<'r, 'g> {
     order: Order<'r>,
     /// The groups of joints whose sums of angles are written.
     parallel: Vec<ParallelAngles<'g>>,
+    /// The published equations that are unlike the derived ones.
+    unlike: Unlike,
 }
 
 impl<'g> Writer<'_, 'g> {

@@ -1,6 +1,6 @@
 //! Terms in the order of a published text.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use robot_symbolic::formula::Step;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
@@ -14,6 +14,17 @@ use rustc_hash::FxHashMap;
 pub struct TermOrder {
     terms: BTreeMap<String, Vec<Formula>>,
     numbers: BTreeMap<String, String>,
+    /// Quantities of which the text has nothing to order.
+    named: BTreeSet<String>,
+}
+
+/// How many equations of a published text are unlike the derived ones.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Unlike {
+    /// Those without a single term in common with the derived ones.
+    pub foreign: usize,
+    /// All of the text's, each quantity once.
+    pub all: usize,
 }
 
 /// Atoms with their exponents, in the order of writing.
@@ -37,6 +48,11 @@ impl TermOrder {
         }
     }
 
+    /// Says that the text has a quantity with nothing to order.
+    pub fn insert_name(&mut self, quantity: &str) {
+        self.named.insert(quantity.to_owned());
+    }
+
     /// Whether it has no quantity.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -57,6 +73,28 @@ impl TermOrder {
         self.numbers.clone().into_iter().chain(columns).collect()
     }
 
+    /// Counts an equation of the robot, if the text has it.
+    pub(super) fn count<'g>(
+        &self,
+        unlike: &mut Unlike,
+        quantity: &str,
+        terms: &[ArrangedTerm<'g>],
+        graph: &'g Graph,
+    ) {
+        let Some(printed) = self.terms.get(quantity) else {
+            unlike.all += usize::from(self.named.contains(quantity));
+            return;
+        };
+        unlike.all += 1;
+        let printed = printed.iter().map(|term| product(term, graph));
+        // What has brackets is not compared.
+        if let (Some(printed), Some(own)) = (printed.collect::<Option<Vec<_>>>(), products(terms)) {
+            let printed: BTreeSet<_> = printed.iter().map(key).collect();
+            let is_shared = own.iter().any(|term| printed.contains(&key(term)));
+            unlike.foreign += usize::from(!is_shared);
+        }
+    }
+
     /// The terms of a quantity in the order of the text; `None` if the text does not have the quantity, or either has
     /// brackets.
     pub(super) fn arranged<'g>(
@@ -67,11 +105,7 @@ impl TermOrder {
     ) -> Option<Vec<ArrangedTerm<'g>>> {
         let printed = self.terms.get(quantity)?.iter().map(|term| product(term, graph));
         let printed: Vec<Product<'g>> = printed.collect::<Option<_>>()?;
-        let of_atoms = |term: &ArrangedTerm<'g>| {
-            let factors = term.factors.iter();
-            factors.map(|(factor, exponent)| Some((factor.as_atom()?, *exponent))).collect()
-        };
-        let own: Vec<Product<'g>> = terms.iter().map(of_atoms).collect::<Option<_>>()?;
+        let own = products(terms)?;
         let places = places(&own, &printed);
         let mut order: Vec<usize> = (0..own.len()).collect();
         // The sort is stable: terms without a place follow in their own order.
@@ -88,6 +122,15 @@ impl TermOrder {
         };
         order.into_iter().map(one).collect()
     }
+}
+
+/// The factors of terms, numbers left out; `None` if one has brackets.
+fn products<'g>(terms: &[ArrangedTerm<'g>]) -> Option<Vec<Product<'g>>> {
+    let of_atoms = |term: &ArrangedTerm<'g>| {
+        let factors = term.factors.iter();
+        factors.map(|(factor, exponent)| Some((factor.as_atom()?, *exponent))).collect()
+    };
+    terms.iter().map(of_atoms).collect()
 }
 
 /// The factors of a term without brackets, numbers left out.
@@ -241,6 +284,30 @@ mod tests {
         let found = ["F1", "F1.x", "M_l2", "M_l2.y", "Q1"].map(|name| numbers.get(name));
         let found = found.map(|number| number.map(String::as_str));
         assert_eq!(found, [Some("14"), Some("14"), None, Some("43"), None]);
+    }
+
+    #[test]
+    fn equations_without_a_counterpart_are_counted() {
+        let graph = Graph::new();
+        let terms = |sum: &str| {
+            let sum = Polynomial::of(graph.parse(sum).unwrap(), &PolynomialOptions::default());
+            sum.unwrap().arranged(Expr::id)
+        };
+        let printed = |terms: &[&str]| -> Vec<Formula> {
+            terms.iter().map(|term| Formula::parse(term).unwrap()).collect()
+        };
+        let mut order = TermOrder::default();
+        order.insert("Q1", printed(&["m*v", "a*b"]));
+        order.insert("Q2", printed(&["m*v", "-f"]));
+        order.insert_name("Q3");
+        let mut unlike = Unlike::default();
+        order.count(&mut unlike, "Q1", &terms("a*k - 3*b*k"), &graph);
+        assert_eq!(unlike, Unlike { foreign: 1, all: 1 });
+        // One term in common, of another coefficient; only named; and not in the text.
+        order.count(&mut unlike, "Q2", &terms("7*f + k"), &graph);
+        order.count(&mut unlike, "Q3", &terms("k"), &graph);
+        order.count(&mut unlike, "Q4", &terms("f"), &graph);
+        assert_eq!(unlike, Unlike { foreign: 1, all: 3 });
     }
 
     #[test]

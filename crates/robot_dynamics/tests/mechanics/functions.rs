@@ -112,6 +112,77 @@ fn mass_matrices_of_many_joints() {
     }
 }
 
+/// Forward dynamics of long chains takes so many operations a joint, for joints are eliminated one by one: with the mass matrix they
+/// would grow with the third power. Where a coordinate moves two joints that is not possible.
+#[test]
+fn forward_dynamics_of_many_joints_is_linear_in_them() {
+    let cost = |recipe: &Recipe| {
+        let robot = robots::robot(&mut Random::new(7), recipe);
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let outputs = outputs(&derivation, FunctionKind::ForwardDynamics(Effects::NONE));
+        let roots: Vec<_> = outputs.into_iter().flat_map(|output| output.values).collect();
+        operations(&roots, |_| false).flops()
+    };
+    let [some, many] = [16, 32].map(|joints| cost(&Recipe::serial(joints)));
+    println!("{some} {many}");
+    assert!(many < 5 * some / 2, "{some} {many}");
+    assert!(many < 32 * 700, "{many}");
+}
+
+/// The pivots of M = Lᵀ D L: their product is its determinant, the outermost is the last entry of the diagonal.
+#[test]
+fn pivots_multiply_to_the_determinant() {
+    let mut count = 0;
+    for (name, robot, seed) in crate::robots() {
+        let mut random = Random::new(seed);
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let [pivots, diagonal] =
+            derivation.pivots().outputs.try_into().map(|it: [Output<'_>; 2]| it).unwrap();
+        for _ in 0..STATES {
+            let state = state(&mut random, &solver, &robot);
+            let matrix = solver.mass_matrix(&state.q).unwrap();
+            let found = evaluate(&robot, &pivots.values, &state);
+            let (product, determinant) = (found.iter().product::<f64>(), matrix.determinant());
+            let size: f64 = matrix.diagonal().iter().product();
+            assert!(
+                (product - determinant).abs() <= 1e-9 * size,
+                "{name}: {product} {determinant}"
+            );
+            let found = evaluate(&robot, &diagonal.values, &state);
+            for (row, value) in found.iter().enumerate() {
+                let expected = matrix[(row, row)];
+                assert!((value - expected).abs() <= TOLERANCE * magnitude(found.iter()), "{name}");
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 60, "{count}");
+}
+
+/// The forms of the torques' derivatives and of the Coriolis matrix differ in their operations: none is another one.
+#[test]
+fn forms_of_derivatives_differ() {
+    let robot = robot_testing::robot("puma560");
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let recursion = derivation.recursion.as_ref().unwrap();
+    let cost = |roots: &[Expr<'_>]| operations(roots, |_| false).flops();
+    let forms = recursion.torque_derivatives();
+    let rows = forms.iter().map(|form| [form.positions.rows(), form.velocities.rows()]);
+    let mut costs: Vec<[usize; 2]> =
+        rows.map(|rows| rows.each_ref().map(|rows| cost(rows))).collect();
+    let mut coriolis: Vec<usize> =
+        recursion.coriolis_matrix().iter().map(|form| cost(&form.rows())).collect();
+    println!("{costs:?} {coriolis:?}");
+    costs.sort_unstable();
+    costs.dedup();
+    coriolis.dedup();
+    assert_eq!((costs.len(), coriolis.len()), (3, 2), "{costs:?} {coriolis:?}");
+}
+
 /// The lower triangle of a robot of two legs: what couples one with the other is left out.
 #[test]
 fn entries_between_branches_are_left_out() {

@@ -8,6 +8,7 @@ mod base_parameters;
 mod derivatives;
 mod energies;
 mod functions;
+mod parallel;
 mod recursions;
 
 use robot_model::robot::Robot;

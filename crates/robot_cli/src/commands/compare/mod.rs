@@ -22,9 +22,10 @@ use crate::screen::is_colored;
 
 PRINTED contains equations `(number) quantity = terms`; the quantities a_c1.x, F1.x, M_c1.x, F_l1.x, M_l1.x and
 Q1 are those that `equations` prints. In text, each equation starts on a new line and continues on indented
-lines; `#` begins a comment. In LaTeX, each is on a line or in a display (equation, align, \\[ \\] …), and
-everything else is prose; a vector may be a column. Write sines and cosines as \\sin q_2, s_2 or sq_2. Terms may
-be in any order and in parentheses. Friction is left out, and so are tip wrenches that no equation contains.
+lines; `#` begins a comment; a product is `*` and a minus is `-` (not `·` and `−`). In LaTeX, each is on a line or
+in a display (equation, align, \\[ \\] …), and everything else is prose; a vector may be a column. Write sines and
+cosines as \\sin q_2, s_2 or sq_2. Terms may be in any order and in parentheses. Friction is left out, and so are tip
+wrenches that no equation contains.
 
 Exit codes: 0 if nothing differs; 1 if terms differ; 2 if a file or the command line is wrong.")]
 pub(crate) struct Arguments {
