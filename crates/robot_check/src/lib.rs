@@ -10,6 +10,6 @@ pub mod difference;
 pub mod doctor;
 pub mod errata;
 #[cfg(test)]
-mod snapshot;
+mod tests;
 
 pub use check_value::check_value;

@@ -79,7 +79,7 @@ fn divisors<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
         match expr.view() {
             View::Mul(one, other) => left.extend([one, other]),
             View::Neg(inner) | View::Call(Function::Sqrt | Function::Abs, inner) => {
-                left.push(inner)
+                left.push(inner);
             }
             View::Number(_) | View::Pi => {}
             _ if factors.contains(&expr) => {}

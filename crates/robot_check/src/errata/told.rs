@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::latex::{symbol_key, to_infix};
 use super::tests::{compared, robot};
 use super::*;
-use crate::snapshot::assert_snapshot;
+use crate::tests::assert_snapshot;
 
 /// The second equation of the planar arm, which also is its joint's moment.
 const TERMS: [&str; 8] = [
