@@ -124,8 +124,8 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
         let lacks = lacking.iter().any(|lacking| lacking.functions.contains(kind));
         !lacks && kind.missing_in(&robot).is_none()
     };
-    let functions = FUNCTIONS.into_iter().filter(has).collect();
-    let (programs, omitted) = programs_within_limits(input, functions)?;
+    let functions: Vec<FunctionKind> = FUNCTIONS.into_iter().filter(has).collect();
+    let (programs, omitted) = programs_within_limits(input, &functions)?;
     let (live, lacks) = match input.live.then(|| live(input, &robot)) {
         None => (None, None),
         Some(Ok(live)) => (Some(live), None),
@@ -155,7 +155,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
 /// the end of inverse dynamics alone, and what the page says of that.
 fn programs_within_limits(
     input: &Input<'_>,
-    functions: Vec<FunctionKind>,
+    functions: &[FunctionKind],
 ) -> Result<(Programs, Option<String>), Errors> {
     let made = |functions: &[FunctionKind]| {
         let functions = Functions::Chosen(functions.to_vec());
@@ -166,14 +166,14 @@ fn programs_within_limits(
     };
     let without_pairs: Vec<FunctionKind> =
         functions.iter().copied().filter(|kind| !is_of_pairs(kind)).collect();
-    for chosen in [&functions, &without_pairs] {
+    for chosen in [functions, &without_pairs] {
         match made(chosen) {
             Err(errors) if is_too_large(&errors) => {}
             Err(errors) => return Err(errors),
-            Ok(programs) => return Ok((programs, omission(&functions, chosen))),
+            Ok(programs) => return Ok((programs, omission(functions, chosen))),
         }
     }
-    Ok((made(&[FUNCTION])?, omission(&functions, &[FUNCTION])))
+    Ok((made(&[FUNCTION])?, omission(functions, &[FUNCTION])))
 }
 
 fn is_too_large(errors: &Errors) -> bool {
