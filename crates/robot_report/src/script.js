@@ -9,6 +9,15 @@
     return words.split(" ").filter((word) => word);
   }
 
+  // The summary of the folded part that has what bears a token.
+  function showFolded(token) {
+    for (const folded of document.querySelectorAll("details > noscript")) {
+      if (folded.textContent.includes(` data-is="${token}"`)) {
+        folded.parentElement.querySelector("summary").classList.add("lit");
+      }
+    }
+  }
+
   function show(element) {
     for (const lit of document.querySelectorAll(".lit, .chosen")) lit.classList.remove("lit", "chosen");
     if (!element) return;
@@ -17,7 +26,9 @@
     for (const token of tokens(element)) {
       const name = CSS.escape(token);
       const bearers = `[data-is~=${name}]` + (isTerm ? "" : `, [data-of~=${name}]`);
-      for (const other of document.querySelectorAll(bearers)) other.classList.add("lit");
+      const found = document.querySelectorAll(bearers);
+      for (const other of found) other.classList.add("lit");
+      if (found.length === 0) showFolded(token);
     }
     element.classList.add("chosen");
   }
