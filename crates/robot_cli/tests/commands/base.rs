@@ -88,7 +88,7 @@ fn latex_is_an_environment_of_amsmath() {
     assert!(narrow.contains(r"    &\quad "), "{narrow}");
 }
 
-/// A mass M_3 of the file that is a base parameter is no equation M_3 = M_3, and text tells both apart.
+/// A mass M_3 of the file that is a base parameter is not printed as the equation M_3 = M_3, and text tells both apart.
 #[test]
 fn a_parameter_of_the_file_is_a_name_alone_where_it_looks_like_its_own() {
     let shown = |format: &str| output(&["base", &robot("trttr1"), "--format", format], "");

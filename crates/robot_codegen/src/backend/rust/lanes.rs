@@ -284,12 +284,10 @@ impl Methods<'_, '_> {
             Layout::States => parse_quote!(#runtime::set_state),
         };
         let outputs = slices.output_names().into_iter();
-        if self.scope.output_type(self.function).is_none() {
-            return outputs.map(|name| parse_quote!(#set(result, &mut #name, lane);)).collect();
-        }
-        let stores = outputs.zip(outputs::fields(self.function));
-        let store =
-            |(name, field)| -> Stmt { parse_quote!(#set(result.#field, &mut #name, lane);) };
+        let stores = outputs.zip(outputs::of_result(self.scope, self.function));
+        let store = |(name, value): (&Ident, Expr)| -> Stmt {
+            parse_quote!(#set(#value, &mut #name, lane);)
+        };
         stores.map(store).collect()
     }
 }

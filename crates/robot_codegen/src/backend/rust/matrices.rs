@@ -5,7 +5,7 @@
 //! and entries are stored one by one, without those that are always 0.
 
 use proc_macro2::Ident;
-use syn::{Expr, Pat, Stmt, parse_quote};
+use syn::{Pat, Stmt, parse_quote};
 
 use super::batch::{Layout, Slices};
 use super::function::Methods;
@@ -39,11 +39,10 @@ impl Methods<'_, '_> {
         let core = &self.function.core;
         let mut results = core.results().iter();
         let mut namer = slices.variables.namer.clone();
-        let has_type = self.scope.output_type(self.function).is_some();
         let mut statements = vec![];
-        let fields = outputs::fields(self.function);
-        let outputs = self.function.outputs.iter().zip(slices.output_names()).zip(&fields);
-        for ((output, name), field) in outputs {
+        let values = outputs::of_result(self.scope, self.function);
+        let outputs = self.function.outputs.iter().zip(slices.output_names()).zip(values);
+        for ((output, name), value) in outputs {
             let results = results.by_ref().take(output.len());
             let stored = results.map(|value| match core.operation(*value) {
                 Operation::Constant(constant) if constant.get().to_bits() == 0 => None,
@@ -56,8 +55,6 @@ impl Methods<'_, '_> {
                 shaped_pattern(&output.shape, &mut entries)
             };
             let (from, to) = (pattern(|pair| &pair.0), pattern(|pair| &pair.1));
-            let value: Expr =
-                if has_type { parse_quote!(result.#field) } else { parse_quote!(result) };
             statements.push(parse_quote!(let #from = #value;));
             statements.push(parse_quote!(let #to = &mut #name;));
             statements.extend(stored.iter().flatten().map(|(from, to)| -> Stmt {

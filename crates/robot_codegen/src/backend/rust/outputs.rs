@@ -39,6 +39,14 @@ pub(super) fn fields(function: &Function) -> Vec<Ident> {
     output_names(function).iter().map(|name| ident(name)).collect()
 }
 
+/// What the variable `result` has of each output: itself, or a field.
+pub(super) fn of_result(scope: &Scope<'_>, function: &Function) -> Vec<Expr> {
+    match scope.output_type(function) {
+        None => vec![parse_quote!(result)],
+        Some(_) => fields(function).iter().map(|field| parse_quote!(result.#field)).collect(),
+    }
+}
+
 /// The type that a function returns.
 pub(super) fn returned(scope: &Scope<'_>, function: &Function, number: &Number) -> Type {
     match (scope.output_type(function), function.outputs.as_slice()) {
