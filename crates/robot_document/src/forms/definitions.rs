@@ -7,14 +7,11 @@ use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::compact::{moving, short_terms, tidy};
+use super::letters::candidates;
 use super::naming::{Named, Worthy, worth_naming};
 use super::{Equation, Group, Writer, shapes};
 use crate::error::Error;
 use crate::math::{Math, Script};
-
-/// Letters for combinations of parameters, and for expressions of the state.
-const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
-const STATE_LETTERS: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
 
 /// The title of joint torques before definitions that use them.
 const TORQUES: &str = "Joint torques in these expressions";
@@ -160,8 +157,8 @@ impl<'g, 'h> Definitions<'g, 'h> {
     pub(super) fn define(&mut self, writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         let mut groups = vec![];
         for (letters, of_state, title) in [
-            (PARAMETER_LETTERS, false, "Combinations of parameters"),
-            (STATE_LETTERS, true, "Expressions of the state"),
+            (candidates::OF_PARAMETERS, false, "Combinations of parameters"),
+            (candidates::OF_STATE, true, "Expressions of the state"),
         ] {
             let letter = writer.symbols.free_letter(&letters);
             let mut section =

@@ -4,6 +4,7 @@ use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
 use super::coefficients::{Coefficient, Section, Shown, Sum, by_name, limit, motions, shown};
+use super::letters::candidates;
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
 use super::{Group, Writer, aliases};
@@ -12,11 +13,6 @@ use crate::error::Error;
 /// The most coordinates: the coefficients grow with their third power, and each with the chain.
 const MAX_COORDINATES: usize = 12;
 
-/// Letters of the mass matrix, of the coefficients of velocities, of Christoffel symbols, of gravity
-/// and of the wrenches' contributions.
-const MASS: [&str; 6] = ["M", "H", "A", "D", "B", "W"];
-const VELOCITY: [&str; 5] = ["b", "h", "v", "n", "B"];
-const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let coordinates = writer.robot.degrees_of_freedom();
     if coordinates > MAX_COORDINATES {
@@ -76,7 +72,7 @@ fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
 
 /// The entries of the mass matrix on and above its diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
 fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]) -> Section<'g> {
-    let letter = writer.letter(writer.options.letters.mass.as_deref(), &MASS);
+    let letter = writer.letter(writer.options.letters.mass.as_deref(), &candidates::MASS_MATRIX);
     let rates = motions(writer, JointVariable::Acceleration);
     let columns: Vec<_> = rates.iter().map(|rate| walk::derivatives(forces, *rate)).collect();
     let mut coefficients = vec![];
@@ -106,8 +102,8 @@ fn velocities<'g>(
 ) -> Section<'g> {
     let christoffel = writer.options.christoffel;
     let (letters, title) = match christoffel {
-        true => (&CHRISTOFFEL, "Christoffel symbols"),
-        false => (&VELOCITY, "Coriolis and centrifugal coefficients"),
+        true => (&candidates::CHRISTOFFEL, "Christoffel symbols"),
+        false => (&candidates::VELOCITY, "Coriolis and centrifugal coefficients"),
     };
     let letter = writer.letter(writer.options.letters.velocity.as_deref(), letters);
     let graph = writer.graph;

@@ -10,12 +10,9 @@ use robot_symbolic::{Expr, walk};
 
 use super::Writer;
 use super::coefficients::{Coefficient, Section, Sum};
+use super::letters::candidates;
 use crate::layout::is_rate;
 use crate::math::Math;
-
-/// Letters of the contributions of gravity and of the wrenches.
-const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
-const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
 
 /// The joint torques at rest, without wrenches.
 pub(super) fn gravity<'g>(
@@ -25,7 +22,7 @@ pub(super) fn gravity<'g>(
 ) -> Section<'g> {
     let wrenches = wrench_names(writer);
     let values = at_rest(writer, forces, &|name| wrenches.iter().any(|known| known == name));
-    let letter = writer.letter(writer.options.letters.gravity.as_deref(), &GRAVITY);
+    let letter = writer.letter(writer.options.letters.gravity.as_deref(), &candidates::GRAVITY);
     single(writer, "Gravity", &letter, values, sums)
 }
 
@@ -43,7 +40,13 @@ pub(super) fn wrenches<'g>(
             *value += slope * component;
         }
     }
-    single(writer, "Wrenches of the tips", writer.symbols.free_letter(&WRENCH), values, sums)
+    single(
+        writer,
+        "Wrenches of the tips",
+        writer.symbols.free_letter(&candidates::WRENCH),
+        values,
+        sums,
+    )
 }
 
 /// A coefficient for each joint torque.

@@ -7,13 +7,10 @@ use robot_symbolic::{Expr, Polynomial, Rational, walk};
 use rustc_hash::FxHashMap;
 
 use super::coefficients::{LIMITS, MAX_LENGTH, MAX_TERMS, Section, Shown, Sum, motions};
+use super::letters::candidates;
 use super::{Array, Cell, Equation, Group, Writer, Written, aliases, letters, shapes};
 use crate::error::Error;
 use crate::math::{Fence, Math};
-
-/// Letters of the column of the velocity terms, and of their matrix.
-const COLUMN: [&str; 5] = ["h", "n", "v", "u", "V"];
-const MATRIX: [&str; 5] = ["C", "K", "N", "Z", "V"];
 
 /// A section as one term of the joint torques.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -203,7 +200,8 @@ fn christoffel<'g>(
     section: &Section<'g>,
     known: &Known<'g>,
 ) -> Result<(Array, Written), Error> {
-    let letter = writer.letter(writer.options.letters.velocity.as_deref(), &MATRIX);
+    let letter =
+        writer.letter(writer.options.letters.velocity.as_deref(), &candidates::VELOCITY_MATRIX);
     let rates = motions(writer, JointVariable::Velocity);
     let half = writer.graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
     let mut rows = vec![];
@@ -233,7 +231,8 @@ fn column<'g>(
     known: &Known<'g>,
 ) -> Result<(Array, Written), Error> {
     let given = writer.options.letters.velocity.as_deref();
-    let letter = writer.letter(given.filter(|_| term == Term::Velocities), &COLUMN);
+    let letter =
+        writer.letter(given.filter(|_| term == Term::Velocities), &candidates::VELOCITY_COLUMN);
     let mut rows = vec![];
     for row in 0..known.sums.len() {
         rows.push(vec![indexed(writer, known, &letter, &[row + 1], &known.row(section, row))?]);

@@ -8,6 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::compact::{definitions, tidy};
 use super::definitions::Root;
+use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
 use super::{Cell, Equation, Group, Writer, generalized_force, shapes};
@@ -57,7 +58,7 @@ fn link_values<'h>(
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
     let mechanism = writer.derivation().mechanism;
-    let letter = writer.symbols.free_letter(&["m", "M", "A", "B"]);
+    let letter = writer.symbols.free_letter(&candidates::LINK_MASS);
     let mut link_values: Vec<(String, Math, Expr<'_>)> = vec![];
     for (link, number) in mechanism.links.iter().zip(1..) {
         let shape = shapes::indexed(letter.chars().next().unwrap_or('m'), &[number]);

@@ -10,6 +10,7 @@ use robot_symbolic::{Expr, Number, Polynomial};
 use super::coefficients::{
     Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, limit, shown,
 };
+use super::letters::candidates;
 use super::loads::{frictions, wrenches};
 use super::{Equation, Group, Writer, aliases, generalized_force, shapes};
 use crate::base_parameters::{self as base, Formulas, Written};
@@ -18,9 +19,6 @@ use crate::math::Math;
 
 /// The most printed symbols of all coefficients that are written into the joint torques.
 const MAX_LENGTH: usize = 4000;
-
-/// Letters of the coefficients of base parameters.
-const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let derivation = writer.derivation();
@@ -230,7 +228,7 @@ fn coefficients<'g>(
     parameters: &[Option<Expr<'g>>],
     sums: &mut [Sum<'g>],
 ) -> Section<'g> {
-    let letter = writer.symbols.free_letter(&REGRESSOR);
+    let letter = writer.symbols.free_letter(&candidates::REGRESSOR);
     let mut coefficients = vec![];
     for ((row, values), sum) in (1..).zip(columns.chunks(parameters.len().max(1))).zip(sums) {
         let used =
