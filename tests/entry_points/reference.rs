@@ -15,7 +15,7 @@ pub(crate) fn edited() -> String {
     changed("M5 = { value = 3.2,", "M5 = { value = 4.7,")
 }
 
-/// The file with a misspelt key.
+/// The file with a misspelled key.
 pub(crate) fn broken() -> String {
     changed("mass = \"M5\"", "mss = \"M5\"")
 }

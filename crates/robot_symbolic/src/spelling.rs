@@ -1,4 +1,4 @@
-//! Which known word a misspelt one most likely means.
+//! Which known word a misspelled one most likely means.
 
 /// Longer words are not typing mistakes.
 const MAX_LENGTH: usize = 64;

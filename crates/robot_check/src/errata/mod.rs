@@ -13,12 +13,12 @@ mod latex;
 mod mistake;
 mod order;
 mod printed;
+#[cfg(test)]
+mod spoiled;
 mod symbols;
 mod term;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod told;
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -24,7 +24,7 @@ const TERMS: [&str; 7] = [
 ];
 
 /// The differences of the equation with its first term that is `from` replaced.
-fn spoilt(from: &str, to: &str) -> Vec<Difference> {
+fn spoiled(from: &str, to: &str) -> Vec<Difference> {
     let text = TERMS.map(|term| if term == from { to } else { term }).join("\n  ");
     assert!(TERMS.contains(&from));
     compared(&robot("planar_2r"), &format!("(2) Q2 = {text}\n")).unwrap().differences
@@ -32,7 +32,7 @@ fn spoilt(from: &str, to: &str) -> Vec<Difference> {
 
 #[test]
 fn right_equations_have_no_differences() {
-    assert_eq!(spoilt(TERMS[0], TERMS[0]), []);
+    assert_eq!(spoiled(TERMS[0], TERMS[0]), []);
     // Like terms apart, in any order, an angle sum in place of its expansion.
     let text = "Q2 = m2*r2^2*(qdd1 + qdd2)/2 + I2*qdd2 + m2*g*r2*cos(q1 + q2) + m2*l1*r2*cos(q2)*qdd1\n  \
         + m2*r2^2*qdd2/2 + m2*r2^2*qdd1/2 + I2*qdd1 + m2*l1*r2*sin(q2)*qd1^2";
@@ -75,13 +75,13 @@ fn every_kind_of_mistake_is_reported() {
         (3, "+ m2*q1*r2*cos(q2)*qdd1", "factor: q1 for l1"),
     ];
     for (place, wrong, mistake) in cases {
-        let found = spoilt(TERMS[place], wrong);
+        let found = spoiled(TERMS[place], wrong);
         assert_eq!(found.len(), 1, "{wrong}: {found:?}");
         let mistakes: Vec<String> = found[0].mistakes.iter().map(Mistake::to_string).collect();
         assert_eq!(mistakes, [mistake], "{wrong}");
         assert_eq!((found[0].number.as_str(), found[0].line), ("2", 1));
     }
-    let extra = spoilt(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
+    let extra = spoiled(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
     assert_eq!((extra.len(), extra[0].mistakes[0].kind), (1, MistakeKind::ExtraTerm));
     assert_eq!(extra[0].nearest.as_deref(), Some("qdd1*l1*r2*m2*cos(q2)"));
 }
@@ -89,17 +89,17 @@ fn every_kind_of_mistake_is_reported() {
 #[test]
 fn like_terms_may_be_printed_apart() {
     // One of two like terms is right: the other alone is told.
-    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
+    let found = spoiled(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
     let [extra] = &found[..] else { panic!("{found:?}") };
     assert_eq!(extra.mistakes[0].kind, MistakeKind::ExtraTerm);
     assert_eq!((extra.printed.as_deref(), &extra.derived), (Some("2*qdd1*r2^2*m2"), &None));
     // Nothing of this kind is derived, and the sum is nothing.
-    assert_eq!(spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
-    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - 2*m1*r1^2*qdd2");
+    assert_eq!(spoiled(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
+    let found = spoiled(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - 2*m1*r1^2*qdd2");
     assert_eq!(found.len(), 2, "{found:?}");
 }
 
-/// Every term of an equation spoilt in every way: what differs is told, with a slip.
+/// Every term of an equation spoiled in every way: what differs is told, with a slip.
 #[test]
 fn no_difference_is_without_a_mistake() {
     let ways =
@@ -107,7 +107,8 @@ fn no_difference_is_without_a_mistake() {
     for term in TERMS {
         for way in ways {
             let bare = term.trim_start_matches("+ ");
-            let found = spoilt(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
+            let found =
+                spoiled(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
             assert!(!found.is_empty(), "{term}, {way}");
             for one in found {
                 assert!(!one.mistakes.is_empty(), "{term}, {way}: {one:?}");
@@ -160,7 +161,7 @@ fn the_distance_of_terms_counts_factors_and_one_for_the_coefficient() {
 #[test]
 fn terms_that_are_no_torque_are_told() {
     let evidence = |wrong: &str| -> Vec<String> {
-        spoilt(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
+        spoiled(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
     };
     let dot = "has units kg m^2 s^-1, but a torque has kg m^2 s^-2: a time derivative is missing";
     assert_eq!(evidence("+ m2*l1*r2*cos(q2)*qd1"), [dot]);
@@ -332,7 +333,7 @@ fn equations_without_end_are_refused() {
 #[test]
 fn numbers_have_signed_exponents() {
     for one in ["1e-3*1e+3", "2.5e-1*4", "1E-2*1e2"] {
-        assert_eq!(spoilt(TERMS[4], &format!("+ {one}*m2*r2^2*qdd1")), [], "{one}");
+        assert_eq!(spoiled(TERMS[4], &format!("+ {one}*m2*r2^2*qdd1")), [], "{one}");
     }
 }
 

@@ -37,7 +37,7 @@ fn tips_name_the_option_of_a_value_and_no_others() {
 }
 
 #[test]
-fn misspelt_files_are_suggested() {
+fn misspelled_files_are_suggested() {
     let file = robot("planar_2r");
     let found = complaint(1, &["show", &file.replace("planar", "planr")], "");
     assert!(

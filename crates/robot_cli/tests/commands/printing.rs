@@ -385,8 +385,8 @@ fn base_parameters_that_are_standard_ones_are_named_once() {
 }
 
 #[test]
-fn misspelt_files_of_states_are_suggested() {
-    let folder = folder("misspelt_states");
+fn misspelled_files_of_states_are_suggested() {
+    let folder = folder("misspelled_states");
     std::fs::write(folder.join("states.csv"), "q1,q2\n0,0\n").unwrap();
     let file = folder.join("stats.csv");
     let arguments =

@@ -49,7 +49,7 @@ fn budget(
     let named = table.get("function").and_then(|entry| function(reader, entry.value, bundles));
     let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
     let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
-    // A misspelt key is reported by itself.
+    // A misspelled key is reported by itself.
     if table.len() == usize::from(table.has("function")) {
         reader.report(
             Diagnostic::error(code::MISSING_KEY, "the budget sets no limit")

@@ -90,13 +90,12 @@ impl Table {
         }
         let (rows, links) = (self.count, self.taken);
         let message = format!(
-            "the DH table has {rows} rows, but the number of links without a frame of their own \
-             is {links}"
+            "the DH table has {rows} rows, but the number of links that take a row is {links}"
         );
         reader.report(
             Diagnostic::error(code::WRONG_COUNT, message)
                 .at(&self.place, "this table")
-                .help("give one row for each `[[link]]` without `origin` and `dh`"),
+                .help("give one row for each `[[link]]` that has neither `origin` nor `dh`"),
         );
     }
 }

@@ -3,7 +3,7 @@
 use toml::de::DeValue;
 
 use super::draft::{DraftFrame, Parent};
-use super::limits::MAX_LINKS;
+use super::input_limits::MAX_LINKS;
 use super::link::named_parent;
 use super::locations::FrameLocation;
 use super::names::Kind;

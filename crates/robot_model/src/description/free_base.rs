@@ -27,7 +27,7 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     let message = format!("the base{mass} is fixed, and {} branches move on it", branches.len());
     reader.report(
         Diagnostic::warning(code::FREE_BASE, message)
-            .at(&place, "has no effect")
+            .at(&place, "this body has no effect")
             .because(
                 "the base is fixed in this model; if it is free, like the trunk of a legged \
                  robot, the torques and accelerations are those of the robot with its trunk held \

@@ -22,9 +22,9 @@ mod file;
 mod frames;
 mod free_base;
 pub(crate) mod inertia;
+mod input_limits;
 mod joint;
 mod latex;
-mod limits;
 mod link;
 mod locations;
 mod mimic;
@@ -45,7 +45,7 @@ mod value;
 mod wanted;
 
 pub use budget::{Budget, Limit};
-pub use limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
+pub use input_limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
 pub use locations::{
     AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,
     ParameterLocation,

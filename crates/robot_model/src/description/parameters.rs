@@ -3,7 +3,7 @@
 use robot_symbolic::Rational;
 use toml::de::DeValue;
 
-use super::limits::MAX_PARAMETERS;
+use super::input_limits::MAX_PARAMETERS;
 use super::locations::ParameterLocation;
 use super::names::Kind;
 use super::reader::{Known, Reader};

@@ -11,7 +11,7 @@ use super::options::Options;
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
 
-/// After so many errors nobody looks for misspelt words any more.
+/// After so many errors nobody looks for misspelled words any more.
 const ENOUGH: usize = 40;
 
 /// A parameter as expressions see it.
@@ -76,7 +76,7 @@ impl<'a> Reader<'a> {
         &self.parameters
     }
 
-    /// The candidate that a misspelt word most likely means; none after so many errors that this
+    /// The candidate that a misspelled word most likely means; none after so many errors that this
     /// one will hardly be read.
     pub(super) fn nearest<'n>(
         &self,

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::draft::{Draft, DraftFrame, DraftLink, Parent};
-use super::limits::MAX_JOINTS;
+use super::input_limits::MAX_JOINTS;
 use super::names::Registry;
 use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};

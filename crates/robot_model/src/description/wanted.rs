@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use toml::de::DeValue;
 
-use super::limits::MAX_BUNDLES;
+use super::input_limits::MAX_BUNDLES;
 use super::names::{Kind, Registry, is_identifier, reserved};
 use super::reader::{Named, Reader};
 use super::shape::CODE;

@@ -1,4 +1,4 @@
-//! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
+//! Files that mean harm, and files that chance has spoiled: each ends in a message, soon.
 
 use robot_model::description::{MAX_BYTES, decode, read_toml};
 use robot_model::diagnostic::code;
@@ -102,7 +102,7 @@ fn huge_counts_end_in_a_message() {
 }
 
 #[test]
-fn a_great_many_misspelt_names_end_in_a_message() {
+fn a_great_many_misspelled_names_end_in_a_message() {
     let parameters: String = (0..4096).map(|i| format!("parameter_{i} = 1\n")).collect();
     let unknown: Vec<_> = (0..40_000).map(|i| format!("paramter_{i}")).collect();
     let text = format!("[parameters]\n{parameters}{LINK}mass = \"{}\"\n", unknown.join("+"));
@@ -196,7 +196,7 @@ const PIECES: &[&str] = &[
 ];
 
 #[test]
-fn spoilt_files_never_panic() {
+fn spoiled_files_never_panic() {
     let groups = vec![files("../../robots", "toml"), files("tests/broken", "toml")];
     let spoiler = Spoiler { groups, pieces: PIECES };
     let rounds = rounds(2000);

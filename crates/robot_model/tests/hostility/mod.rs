@@ -1,4 +1,4 @@
-//! What the tests of hostile files share, whatever the format: spoilt files, and how soon a message
+//! What the tests of hostile files share, whatever the format: spoiled files, and how soon a message
 //! comes.
 
 use std::fs;
@@ -29,7 +29,7 @@ pub(crate) fn files(folder: &str, extension: &str) -> Vec<Vec<u8>> {
     paths.iter().map(|path| fs::read(path).unwrap()).collect()
 }
 
-/// Files to be spoilt.
+/// Files to be spoiled.
 pub(crate) struct Spoiler {
     /// Sound and broken ones, say; each group is taken as often as the others.
     pub(crate) groups: Vec<Vec<Vec<u8>>>,
@@ -77,7 +77,7 @@ impl Spoiler {
         text
     }
 
-    /// Reads spoilt files; whatever is reported must be renderable and in place. How many gave a
+    /// Reads spoiled files; whatever is reported must be renderable and in place. How many gave a
     /// robot, which `also` looks at, and how many a message.
     pub(crate) fn run(
         &self,

@@ -1,4 +1,4 @@
-//! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
+//! Files that mean harm, and files that chance has spoiled: each ends in a message, soon.
 
 use robot_model::description::{MAX_BYTES, Options, import, read_urdf};
 use robot_model::diagnostic::code;
@@ -151,7 +151,7 @@ const PIECES: &[&str] = &[
 ];
 
 #[test]
-fn spoilt_files_end_in_a_robot_or_a_message() {
+fn spoiled_files_end_in_a_robot_or_a_message() {
     let joint = "<axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"1\"/><dynamics damping=\"1\"/>";
     let sound = one_link(BODY, joint).into_bytes();
     let groups = vec![vec![sound], hostility::files("tests/broken", "urdf")];

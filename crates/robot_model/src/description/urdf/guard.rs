@@ -1,6 +1,6 @@
 //! Rejections before the text is parsed: the parser takes time or memory in the square of these.
 
-use super::super::limits::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES};
+use super::super::input_limits::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES};
 use crate::diagnostic::{Diagnostic, Span, code};
 
 /// Looks over the tags of a text for nesting, attributes and namespaces beyond the limits. What is

@@ -19,7 +19,7 @@ pub(super) struct UrdfLink<'a> {
     pub(super) tag: Span,
     pub(super) inertial: Option<Inertial>,
     /// Whether something in the element is wrong, so that what is missing may be there.
-    pub(super) is_spoilt: bool,
+    pub(super) is_spoiled: bool,
 }
 
 /// An `<inertial>`, all values known.
@@ -48,8 +48,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'_>, node: Node<'a, '_>) -> Option<Ur
     let inertial = element.child(reader, "inertial");
     let inertial = inertial.and_then(|inertial| body(reader, &inertial, name.as_ref()));
     let found = reader.found.get(before..).unwrap_or_default();
-    let is_spoilt = found.iter().any(|found| found.severity == Severity::Error);
-    Some(UrdfLink { name: name?, tag: element.tag(), inertial, is_spoilt })
+    let is_spoiled = found.iter().any(|found| found.severity == Severity::Error);
+    Some(UrdfLink { name: name?, tag: element.tag(), inertial, is_spoiled })
 }
 
 fn body(

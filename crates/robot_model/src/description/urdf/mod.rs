@@ -20,7 +20,7 @@ use robot_symbolic::{Formula, Rational};
 use roxmltree::Node;
 
 use super::draft::Draft;
-use super::limits::MAX_LINKS;
+use super::input_limits::MAX_LINKS;
 use super::options::Options;
 use super::placement::zero;
 use super::reader::{Named, Reader};

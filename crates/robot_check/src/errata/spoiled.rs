@@ -1,4 +1,4 @@
-//! What is told of spoilt equations, and how LaTeX is read, beside committed texts: `told.txt`, `read.txt`.
+//! Compares the messages about spoiled equations, and LaTeX as it is read, with committed texts: `spoiled.txt`, `read.txt`.
 
 use std::fmt::Write as _;
 
@@ -28,7 +28,7 @@ const BESIDE: &str = "(3) F2.y = m2*r2*qdd1 + m2*r2*qdd2 - m2*l1*cos(q2)*qdd1 + 
     M_c2.z = I2*qdd1 + I2*qdd2\n(5) M_l2.z = Q2\n";
 
 /// The term without a factor, with others in its place, with its square, and so on.
-fn spoilt(term: &str) -> Vec<String> {
+fn spoiled(term: &str) -> Vec<String> {
     let (sign, bare) = match term.strip_prefix('-') {
         Some(bare) => ("-", bare),
         None => ("", term),
@@ -78,11 +78,11 @@ fn told(text: &str) -> String {
 }
 
 #[test]
-fn what_is_told_of_spoilt_terms() {
+fn messages_about_spoiled_terms() {
     let mut shown = String::new();
     for (place, term) in TERMS.iter().enumerate().filter(|(place, _)| [0, 2, 3, 5].contains(place))
     {
-        for (number, wrong) in spoilt(term).into_iter().enumerate() {
+        for (number, wrong) in spoiled(term).into_iter().enumerate() {
             let mut own: Vec<&str> = TERMS.to_vec();
             own[place] = &wrong;
             own.retain(|term| !term.is_empty());
@@ -97,7 +97,7 @@ fn what_is_told_of_spoilt_terms() {
             }
         }
     }
-    assert_snapshot("errata/told.txt", &shown);
+    assert_snapshot("errata/spoiled.txt", &shown);
 }
 
 /// All of one comparison: what is counted, and the differences of all equations.
