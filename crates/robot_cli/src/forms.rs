@@ -257,13 +257,14 @@ impl EquationArguments {
     /// What is wrong with the equations of a robot file.
     pub(crate) fn failed(&self, robot: &RobotArgument, error: &Error) -> Failure {
         let style = if self.like.is_some() { "--like" } else { "--style" };
-        match (hint(error), self.has_style()) {
-            (hint, true) if hint.contains("--form") => {
-                let hint = hint.replace('(', &format!("(without {style}: "));
-                Failure::input(format!("{}: {error}{hint}", shown(robot.path())))
+        // A style fixes the form, so another form can only be had without it.
+        let condition = match options_that_help(error) {
+            Some(options) if self.has_style() && options.contains("--form") => {
+                format!("without {style}: ")
             }
-            _ => failed(robot, error),
-        }
+            _ => String::new(),
+        };
+        failure(robot, error, &condition)
     }
 
     /// Refuses friction that the robot has not.
@@ -334,18 +335,25 @@ pub(crate) fn no_effect(option: &str) -> String {
 
 /// What is wrong with the equations of a robot file.
 pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
-    Failure::input(format!("{}: {error}{}", shown(robot.path()), hint(error)))
+    failure(robot, error, "")
 }
 
-/// The option that helps: the library does not know those of the command.
-const fn hint(error: &Error) -> &'static str {
+/// The failure with the options that help, under a condition.
+fn failure(robot: &RobotArgument, error: &Error, condition: &str) -> Failure {
+    let options = options_that_help(error);
+    let remedy = options.map(|options| format!(" ({condition}{options})")).unwrap_or_default();
+    Failure::input(format!("{}: {error}{remedy}", shown(robot.path())))
+}
+
+/// The options that help against an error; the library does not know the command's options.
+const fn options_that_help(error: &Error) -> Option<&'static str> {
     match error {
-        Error::TooLong { .. } => " (--form grouped, recursive or compact)",
-        Error::TooMany { .. } => " (--form recursive or compact)",
-        Error::TooManyExpressions { .. } => " (--form recursive or compact; --snap)",
-        Error::LikeSine { .. } => " (--trig named)",
-        Error::Narrow { .. } => " (--form, --width)",
-        _ => "",
+        Error::TooLong { .. } => Some("--form grouped, recursive or compact"),
+        Error::TooMany { .. } => Some("--form recursive or compact"),
+        Error::TooManyExpressions { .. } => Some("--form recursive or compact; --snap"),
+        Error::LikeSine { .. } => Some("--trig named"),
+        Error::Narrow { .. } => Some("--form, --width"),
+        _ => None,
     }
 }
 

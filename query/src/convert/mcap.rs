@@ -48,7 +48,8 @@ pub(super) fn convert(
         let reason = match error {
             mcap::McapError::UnsupportedCompression(name) => {
                 format!(
-                    "its chunks are compressed by {name}; decompress them with `mcap decompress`"
+                    "its chunks are compressed by {name}, which is neither zstd nor lz4; decompress them with \
+                     `mcap decompress`"
                 )
             }
             error => format!("it cannot be read ({error}); `mcap recover` may repair it"),

@@ -60,10 +60,15 @@ fn message(row: usize, time: f64) -> Vec<u8> {
     bytes
 }
 
-/// A recording with messages at times.
+/// Writes a recording with messages at these times, in chunks without compression.
 fn recording(path: &Path, times: &[f64]) {
+    compressed(path, times, None);
+}
+
+/// Writes a recording with messages at these times, in chunks that are compressed.
+fn compressed(path: &Path, times: &[f64], compression: Option<mcap::Compression>) {
     let file = std::io::BufWriter::new(fs::File::create(path).unwrap());
-    let options = mcap::WriteOptions::new().compression(None).profile("ros2");
+    let options = mcap::WriteOptions::new().compression(compression).profile("ros2");
     let mut writer = options.create(file).unwrap();
     let schema = writer.add_schema("sensor_msgs/msg/JointState", "ros2msg", b"").unwrap();
     let channel = writer.add_channel(schema, "/joint_states", "cdr", &BTreeMap::new()).unwrap();
@@ -111,6 +116,27 @@ fn a_recording_of_ros_is_a_log() {
         // The message has the second joint first.
         assert_eq!([tau[2 * row], tau[2 * row + 1]], [-(row as f64), row as f64]);
     }
+}
+
+#[test]
+fn compressed_recordings_give_the_same_log() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let times: Vec<f64> = (0..500).map(|row| STEP * row as f64).collect();
+    let kinds = [None, Some(mcap::Compression::Zstd), Some(mcap::Compression::Lz4)];
+    let (sizes, logs): (Vec<u64>, Vec<RecordBatch>) = kinds
+        .into_iter()
+        .enumerate()
+        .map(|(place, compression)| {
+            let file = |suffix: &str| folder.path().join(format!("{place}.{suffix}"));
+            compressed(&file("mcap"), &times, compression);
+            converted(&file("mcap"), &usual(), &file("parquet")).unwrap();
+            let size = fs::metadata(file("mcap")).unwrap().len();
+            (size, rows(1, &[file("parquet")], "SELECT * FROM log").unwrap())
+        })
+        .unzip();
+    assert!(sizes[1] < sizes[0] && sizes[2] < sizes[0], "{sizes:?}");
+    assert_eq!(logs[1], logs[0]);
+    assert_eq!(logs[2], logs[0]);
 }
 
 #[test]
