@@ -17,6 +17,7 @@ const SINGLE_TOLERANCE: f64 = 1e-4;
 
 const UR5: &str = include_str!("../../robots/ur5.toml");
 const TRTTR1: &str = include_str!("../../robots/trttr1.toml");
+const PANDA: &str = include_str!("../../robots/panda.toml");
 
 /// Every form of inverse dynamics, and a batch of the mass matrix, whose velocities are unused.
 fn options(trigonometry: Trigonometry, fused: bool) -> Options {
@@ -215,4 +216,60 @@ fn every_form_agrees_with_or_without_fused_instructions() {
             assert_eq!(hold(&package.run_with(&["run"], flags)), fuses, "{flags}");
         }
     }
+}
+
+/// A function with more entries than one loop stores: columns have the bits of the slices.
+#[test]
+fn entries_of_large_matrices_are_stored_by_several_loops() {
+    let functions = Functions::Chosen(vec![FunctionKind::Regressor]);
+    let options = Options { functions, batch: Some(8), ..Options::default() };
+    let generated = generate(&source(PANDA), &options).unwrap().code;
+    let lanes = generated.split("fn regressor_lanes_with").nth(1).unwrap();
+    let body = lanes.split("fn ").next().unwrap();
+    assert_eq!(body.matches("for lane in 0..8").count(), 2, "{body}");
+    let package = Package::new(
+        "several_loops",
+        &format!("[dependencies]\n{}", dependency("robot_runtime", ", features = [\"std\"]")),
+    );
+    package.write("src/cases.rs", &generated);
+    let [q, qd, qdd] = states(7);
+    let main = format!(
+        "mod cases;
+        type Regressor<const N: usize> = [[f64; N]; 7];
+        fn columns(states: &[[f64; 7]]) -> [Vec<f64>; 7] {{
+            core::array::from_fn(|d| states.iter().map(|state| state[d]).collect())
+        }}
+        fn check<const N: usize>(
+            batch: impl Fn(&mut [Regressor<N>]) -> usize,
+            by_columns: impl Fn([[&mut [f64]; N]; 7]) -> usize,
+        ) {{
+            let mut states = vec![[[0.0; N]; 7]; {STATES}];
+            assert_eq!(batch(&mut states), {STATES});
+            let mut found: [[Vec<f64>; N]; 7] =
+                core::array::from_fn(|_| core::array::from_fn(|_| vec![0.0; {STATES}]));
+            let slices = found.each_mut().map(|row| row.each_mut().map(|column| &mut column[..]));
+            assert_eq!(by_columns(slices), {STATES});
+            for (state, regressor) in states.iter().enumerate() {{
+                for (row, columns) in regressor.iter().zip(&found) {{
+                    for (entry, column) in row.iter().zip(columns) {{
+                        assert_eq!(entry.to_bits(), column[state].to_bits());
+                    }}
+                }}
+            }}
+            println!(\"{{}} entries\", 7 * N);
+        }}
+        fn main() {{
+            let m = cases::panda::Model::NOMINAL;
+            let (q, qd, qdd) = ({q:?}, {qd:?}, {qdd:?});
+            let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));
+            fn slices(columns: &[Vec<f64>; 7]) -> [&[f64]; 7] {{ columns.each_ref().map(|column| &column[..]) }}
+            check(
+                |states| m.regressor_batch(&q, &qd, &qdd, states),
+                |regressor| m.regressor_columns(slices(&cq), slices(&cqd), slices(&cqdd), regressor),
+            );
+        }}"
+    );
+    package.write("src/main.rs", &main);
+    let printed = package.run_with(&["run"], "");
+    assert!(printed.contains("entries"), "{printed}");
 }

@@ -178,14 +178,13 @@ impl Methods<'_, '_> {
         });
         let mut statements: Vec<Stmt> = zeros.collect();
         statements.extend(self.copied(slices, layout));
-        if self.function.angles.results().is_empty() {
-            statements.push(self.loop_without_angles(slices, layout));
-            return statements;
-        }
-        match self.scope.options.trigonometry {
-            Trigonometry::Polynomial => statements.push(self.one_loop(slices, layout)),
-            Trigonometry::Standard => statements.extend(self.two_loops(slices, layout)),
-        }
+        let stores = self.stores(slices, layout);
+        let is_angular = !self.function.angles.results().is_empty();
+        statements.extend(match self.scope.options.trigonometry {
+            _ if !is_angular => self.loops_without_angles(slices, layout, &stores),
+            Trigonometry::Polynomial => self.one_loop_each(slices, layout, &stores),
+            Trigonometry::Standard => self.two_loops(slices, layout, &stores),
+        });
         statements
     }
 
@@ -199,9 +198,14 @@ impl Methods<'_, '_> {
         names.iter().map(state).collect()
     }
 
-    fn loop_without_angles(&mut self, slices: &Slices, layout: Layout) -> Stmt {
+    fn loops_without_angles(
+        &mut self,
+        slices: &Slices,
+        layout: Layout,
+        stores: &[Vec<Stmt>],
+    ) -> Vec<Stmt> {
         let used: Vec<&Ident> = slices.used().collect();
-        let (states, stores) = (self.states(&used, layout), self.stores(slices, layout));
+        let states = self.states(&used, layout);
         let (lanes, method) = (&slices.lanes, self.arithmetic_method());
         // A method that is not a kernel's takes all inputs.
         let all = slices.inputs.iter().filter(|(_, _, used)| *used || !self.dispatched);
@@ -211,50 +215,67 @@ impl Methods<'_, '_> {
             let length = Literal::usize_unsuffixed(*length);
             parse_quote!(let #name = &[0.0; #length];)
         });
-        parse_quote! {
-            for lane in 0..#lanes {
-                #(#states)*
-                #(#unused)*
-                let result = self.#method(#(#arguments),*);
-                #(#stores)*
+        let (arguments, unused): (Vec<&Ident>, Vec<Stmt>) = (arguments.collect(), unused.collect());
+        let loops = stores.iter().map(|stores| -> Stmt {
+            parse_quote! {
+                for lane in 0..#lanes {
+                    #(#states)*
+                    #(#unused)*
+                    let result = self.#method(#(#arguments),*);
+                    #(#stores)*
+                }
             }
-        }
+        });
+        loops.collect()
     }
 
-    /// The whole function in one loop.
-    fn one_loop(&mut self, slices: &mut Slices, layout: Layout) -> Stmt {
+    /// The whole function in one loop for each group of stores; what a group does not store is not computed.
+    fn one_loop_each(
+        &mut self,
+        slices: &mut Slices,
+        layout: Layout,
+        stores: &[Vec<Stmt>],
+    ) -> Vec<Stmt> {
         let (takes, angles) = self.angles_argument(&mut slices.variables);
         let used: Vec<&Ident> = slices.used().collect();
-        let (states, stores) = (self.states(&used, layout), self.stores(slices, layout));
+        let states = self.states(&used, layout);
         let (method, circular) = (self.arithmetic_method(), self.number.circular_each());
         let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
         let inputs = slices.variables.chosen(&used_inputs(self.function, &self.function.core));
         let lanes = &slices.lanes;
-        parse_quote! {
-            for lane in 0..#lanes {
-                #(#states)*
-                #(#takes)*
-                let (#s, #c) = #circular(#angles);
-                let result = self.#method(&#s, &#c, #(#inputs),*);
-                #(#stores)*
+        let loops = stores.iter().map(|stores| -> Stmt {
+            parse_quote! {
+                for lane in 0..#lanes {
+                    #(#states)*
+                    #(#takes)*
+                    let (#s, #c) = #circular(#angles);
+                    let result = self.#method(&#s, &#c, #(#inputs),*);
+                    #(#stores)*
+                }
             }
-        }
+        });
+        loops.collect()
     }
 
     /// Sines and cosines of the standard library in a loop of their own, for they are calls, and a
     /// loop with calls is not vectorised.
-    fn two_loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
+    fn two_loops(
+        &mut self,
+        slices: &mut Slices,
+        layout: Layout,
+        stores: &[Vec<Stmt>],
+    ) -> Vec<Stmt> {
         let function = self.function;
         let (takes, angles) = self.angles_argument(&mut slices.variables);
         let angle_inputs = slices.variables.chosen(&used_inputs(function, &function.angles));
         let angle_states = self.states(&angle_inputs, layout);
         let inputs = slices.variables.chosen(&used_inputs(function, &function.core));
-        let (states, stores) = (self.states(&inputs, layout), self.stores(slices, layout));
+        let states = self.states(&inputs, layout);
         let count = Literal::usize_unsuffixed(function.angles.results().len());
         let (lanes, sin_cos) = (&slices.lanes, self.number.circular_array());
         let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
         let method = self.arithmetic_method();
-        vec![
+        let mut statements: Vec<Stmt> = vec![
             parse_quote!(let mut circular = [([0.0; #count], [0.0; #count]); #lanes];),
             parse_quote! {
                 for (lane, circular) in circular.iter_mut().enumerate() {
@@ -263,18 +284,21 @@ impl Methods<'_, '_> {
                     *circular = #sin_cos(#angles);
                 }
             },
+        ];
+        statements.extend(stores.iter().map(|stores| -> Stmt {
             parse_quote! {
                 for (lane, (#s, #c)) in circular.iter().enumerate() {
                     #(#states)*
                     let result = self.#method(#s, #c, #(#inputs),*);
                     #(#stores)*
                 }
-            },
-        ]
+            }
+        }));
+        statements
     }
 
-    /// `State::set_lane(result, &mut tau, lane);`
-    fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
+    /// `State::set_lane(result, &mut tau, lane);`, for each loop its own.
+    fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Vec<Stmt>> {
         if layout == Layout::Lanes && self.has_matrices() {
             return self.entries(slices);
         }
@@ -288,6 +312,6 @@ impl Methods<'_, '_> {
         let store = |(name, value): (&Ident, Expr)| -> Stmt {
             parse_quote!(#set(#value, &mut #name, lane);)
         };
-        stores.map(store).collect()
+        vec![stores.map(store).collect()]
     }
 }
