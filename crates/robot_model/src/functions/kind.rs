@@ -83,6 +83,7 @@ functions! {
     InverseDynamics(effects: Effects) = Declaration {
         effects,
         motions: true,
+        result: effects.choose(["tau (n)", "tau (n)", "tau (n) with friction", "tau (n) with friction"]),
         ..Declaration::new(
             effects.choose([
                 "inverse_dynamics",
@@ -94,19 +95,25 @@ functions! {
         )
     };
     /// F_l and M_l of every joint.
-    LinkWrenches = Declaration::new("link_wrenches", MOTION);
+    LinkWrenches = Declaration::new("link_wrenches", MOTION)
+        .with_result("force and moment in each joint (links × 3)");
     /// M from q.
-    MassMatrix = Declaration::of_composites("mass_matrix", POSITION);
+    MassMatrix = Declaration::of_composites("mass_matrix", POSITION)
+        .with_result("M (n × n)");
     /// The entries of M's lower triangle that are not 0 by structure, from q.
-    MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION);
+    MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION)
+        .with_result("the entries of M's lower triangle that are not always 0, row by row");
     /// C q̇ + g from q, q̇.
-    Bias = Declaration::of_motions("bias", STATE);
+    Bias = Declaration::of_motions("bias", STATE)
+        .with_result("bias torques C q̇ + g (n)");
     /// g from q.
-    Gravity = Declaration::of_composites("gravity", POSITION);
+    Gravity = Declaration::of_composites("gravity", POSITION)
+        .with_result("g (n)");
     /// q̈ from q, q̇, τ, with the requested effects.
     ForwardDynamics(effects: Effects) = Declaration {
         effects,
         solves: true,
+        result: effects.choose(["qdd (n)", "qdd (n)", "qdd (n) with friction", "qdd (n) with friction"]),
         ..Declaration::of_both(
             effects.choose([
                 "forward_dynamics",
@@ -118,35 +125,46 @@ functions! {
         )
     };
     /// The poses of the links' frames from q.
-    ForwardKinematics = Declaration::new("forward_kinematics", POSITION);
+    ForwardKinematics = Declaration::new("forward_kinematics", POSITION)
+        .with_result("poses of the links' frames: rotation (links × 9) and origin (links × 3)");
     /// The poses of the named frames from q.
-    FramePoses = Declaration::of_motions("frame_poses", POSITION);
+    FramePoses = Declaration::of_motions("frame_poses", POSITION)
+        .with_result("the same for the named frames");
     /// The Jacobian from q: a function for each named frame, or for the last link of each branch where
     /// the robot has no named frame.
-    Jacobian = Declaration::of_motions("jacobian", POSITION);
+    Jacobian = Declaration::of_motions("jacobian", POSITION)
+        .with_result("J (6 × n) of each frame");
     /// The Jacobian of one frame from q.
     JacobianOf(_frame: FrameRef) = FunctionKind::Jacobian.declaration();
     /// J̇ q̇ from q, q̇: a function for each frame, as of [`FunctionKind::Jacobian`].
-    JacobianDotQd = Declaration::of_motions("jacobian_dot_qd", STATE);
+    JacobianDotQd = Declaration::of_motions("jacobian_dot_qd", STATE)
+        .with_result("J̇ q̇ (6) of each frame");
     /// J̇ q̇ of one frame from q, q̇.
     JacobianDotQdOf(_frame: FrameRef) = FunctionKind::JacobianDotQd.declaration();
     /// Kinetic and potential energy from q, q̇.
-    Energies = Declaration::of_both("energies", STATE);
+    Energies = Declaration::of_both("energies", STATE)
+        .with_result("kinetic and potential energy");
     /// C from q, q̇, by Christoffel symbols.
-    CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE);
+    CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE)
+        .with_result("C (n × n)");
     /// ∂Q/∂q and ∂Q/∂q̇ from q, q̇, q̈.
-    InverseDynamicsDerivatives = Declaration::of_both("inverse_dynamics_derivatives", MOTION);
+    InverseDynamicsDerivatives = Declaration::of_both("inverse_dynamics_derivatives", MOTION)
+        .with_result("∂τ/∂q, ∂τ/∂q̇ (n × n)");
     /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
     ForwardDynamicsDerivatives = Declaration {
         solves: true,
+        result: "∂q̈/∂q, ∂q̈/∂q̇, ∂q̈/∂τ (n × n)",
         ..Declaration::of_both("forward_dynamics_derivatives", DRIVEN)
     };
     /// Y of Q = Y π from q, q̇, q̈, with the parameters of links and drives π.
-    Regressor = Declaration::new("regressor", MOTION);
+    Regressor = Declaration::new("regressor", MOTION)
+        .with_result("Y (n × parameters of links and drives)");
     /// Y of Q = Y β from q, q̇, q̈, with the base parameters β, the fewest that do.
-    RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) };
+    RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) }
+        .with_result("Y (n × base parameters)");
     /// β from the robot's parameters alone.
-    BaseParameters = Declaration { base: true, ..Declaration::new("base_parameters", &[]) };
+    BaseParameters = Declaration { base: true, ..Declaration::new("base_parameters", &[]) }
+        .with_result("the base parameters");
 }
 
 const POSITION: &[JointVariable] = &[JointVariable::Position];
@@ -197,6 +215,13 @@ impl FunctionKind {
     #[must_use]
     pub const fn inputs(self) -> &'static [JointVariable] {
         self.declaration().inputs
+    }
+
+    /// What the function computes, with its shape, where n is the number of coordinates: `M (n × n)`. The tables of functions in the
+    /// book and the README are made of it.
+    #[must_use]
+    pub const fn result(self) -> &'static str {
+        self.declaration().result
     }
 
     /// The effects that the function takes into account.
@@ -312,6 +337,8 @@ impl FunctionKind {
 struct Declaration {
     name: &'static str,
     inputs: &'static [JointVariable],
+    /// What it computes, with its shape.
+    result: &'static str,
     effects: Effects,
     /// Whether it is made of the recursion over motions and forces.
     motions: bool,
@@ -328,12 +355,17 @@ impl Declaration {
         Declaration {
             name,
             inputs,
+            result: "",
             effects: Effects::NONE,
             motions: false,
             composites: false,
             solves: false,
             base: false,
         }
+    }
+
+    const fn with_result(self, result: &'static str) -> Declaration {
+        Declaration { result, ..self }
     }
 
     const fn of_motions(name: &'static str, inputs: &'static [JointVariable]) -> Declaration {
