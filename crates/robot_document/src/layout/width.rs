@@ -1,8 +1,8 @@
 //! The printed width of formulas in points, set in Computer Modern at 10 points.
 //!
-//! Advance widths, including italic corrections, are those of the font metrics cmmi10 and cmr10. For smaller sizes, they
-//! are scaled by the largest ratio among the letters of cmmi7 and cmr7. Spaces are those in chapter 18 of The TeXbook.
-//! Estimates are rather too wide than too narrow, so that a line that seems to fit does fit.
+//! Advance widths, including italic corrections, are those of the font metrics cmmi10 and cmr10. For smaller sizes,
+//! they are scaled by the largest ratio among the letters of cmmi7 and cmr7. Spaces are those in chapter 18 of The
+//! TeXbook. Estimates are rather too wide than too narrow, so that a line that seems to fit does fit.
 
 use super::math::{Fence, Math, Script};
 
