@@ -95,7 +95,7 @@ pub enum Error {
         name: String,
         /// The width of the part.
         needed: Centimeters,
-        /// The width available.
+        /// The available width.
         available: Centimeters,
     },
     /// Parts of an expression are nested too deeply.

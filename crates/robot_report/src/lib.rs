@@ -88,7 +88,7 @@ pub fn report(input: &Input<'_>) -> Result<String, Errors> {
 /// The page about the robot of a file that is being edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reloading {
-    /// The page, which reloads itself when the stamp beside it changes or disappears.
+    /// The page, which reloads itself when the picture with [`Reloading::stamp`] beside it is replaced or removed.
     pub page: String,
     /// An SVG picture that identifies the page. It must be written after the page and beside it, under the page's name
     /// followed by `.svg`.

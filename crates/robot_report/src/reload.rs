@@ -7,7 +7,6 @@ use robot_build::MARKER;
 ///
 /// It consists of two numbers, the width and height of a picture, because the script of a page opened from a file can
 /// only read the size of a picture beside it.
-/// shows its script nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stamp {
     width: u16,

@@ -62,7 +62,6 @@ pub trait DryFriction {
     /// # Errors
     ///
     /// If the state has no joint torques.
-    /// If the state has none.
     fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause>;
 }
 
@@ -77,7 +76,7 @@ pub trait TorqueLaw {
         &[]
     }
 
-    /// Further times in the span of the samples (s) that no step of the integrator may contain.
+    /// Further times in the span of the samples (s) at which a step of the integrator must end.
     fn features(&self, samples: &[f64]) -> Features {
         let _ = samples;
         Features::default()

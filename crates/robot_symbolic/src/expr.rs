@@ -113,13 +113,13 @@ impl<'g> Expr<'g> {
         self.wrap(self.graph.call(Function::Cos, self.id))
     }
 
-    /// Square root.
+    /// The square root.
     #[must_use]
     pub fn sqrt(self) -> Expr<'g> {
         self.apply(Function::Sqrt)
     }
 
-    /// Absolute value.
+    /// The absolute value.
     #[must_use]
     pub fn abs(self) -> Expr<'g> {
         self.apply(Function::Abs)
@@ -131,7 +131,7 @@ impl<'g> Expr<'g> {
         self.apply(Function::Sign)
     }
 
-    /// Hyperbolic tangent.
+    /// The hyperbolic tangent.
     #[must_use]
     pub fn tanh(self) -> Expr<'g> {
         self.apply(Function::Tanh)

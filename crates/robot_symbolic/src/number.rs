@@ -51,7 +51,7 @@ impl Number {
         }
     }
 
-    /// Whether the value is exactly 1.
+    /// Whether the value is 1 (exactly, or the floating-point number 1).
     #[must_use]
     pub fn is_one(&self) -> bool {
         match self {
@@ -69,7 +69,8 @@ impl Number {
         }
     }
 
-    /// `1 / self`. The reciprocal of 0 is a floating-point NaN, which every user of the number can detect and refuse.
+    /// `1 / self`. The reciprocal of an exact 0 is a floating-point NaN, which every user of the number can detect and
+    /// refuse.
     #[must_use]
     pub fn recip(&self) -> Number {
         match self {

@@ -122,8 +122,8 @@ impl Graph {
     }
 }
 
-/// Splits `c π`, with `c` the given multiple, into `quarters · π/2 + fraction · π` with `quarters` modulo 4 and `0 ≤
-/// fraction < 1/2`. Returns `None` if the multiple does not fit machine words.
+/// Splits `c π`, with `c` the given multiple, into `quarters · π/2 + fraction · π`, with `quarters` modulo 4 and
+/// `0 ≤ fraction < 1/2`. Returns `None` if the multiple does not fit machine words.
 pub(crate) fn quarter_turns(multiple: &Rational) -> Option<(u8, Rational)> {
     let (numerator, denominator) = multiple.to_small()?;
     let twice = numerator.checked_mul(2)?;

@@ -26,7 +26,7 @@ pub(super) struct Definitions<'g, 'h> {
     roots: Vec<Expr<'g>>,
     worthy: Vec<Worthy<'g>>,
     moving: FxHashSet<Id>,
-    /// Parts that may not need a name.
+    /// Parts that possibly need no name.
     pending: Vec<Expr<'g>>,
     /// The quantities that are parts of others.
     own: Vec<Own<'g>>,

@@ -79,13 +79,13 @@ impl Default for Math {
 }
 
 impl Math {
-    /// `base_lower`
+    /// Adds a lower index: `base_lower`.
     #[must_use]
     pub fn with_lower(self, lower: Math) -> Math {
         Math::Script(Box::new(Script { base: self, lower: Some(lower), upper: None }))
     }
 
-    /// `base^upper`
+    /// Adds an upper index: `base^upper`.
     #[must_use]
     pub fn with_upper(self, upper: Math) -> Math {
         Math::Script(Box::new(Script { base: self, lower: None, upper: Some(upper) }))

@@ -40,8 +40,8 @@ enum Op {
     Tan,
 }
 
-/// The checked text of an expression: numbers, names, `pi`, `+ - * / ^`, parentheses, and the functions `sin cos tan
-/// sqrt abs sign tanh`.
+/// The checked text of an expression: numbers, names, `pi`, the operators `+ - * / ^`, parentheses, and the functions
+/// `sin cos tan sqrt abs sign tanh`.
 ///
 /// A formula belongs to no [`Graph`], so it can be kept, copied and sent; [`Formula::lower`] makes an expression from
 /// it. Exponents are integers of at most [`MAX_EXPONENT`]; `-x^2` is `-(x^2)`, and `x^2^3` is `x^(2^3)`. Numbers are

@@ -57,8 +57,7 @@ impl<'g> Expander<'g> {
         for root in roots {
             *uses.entry(root.id()).or_default() += 1;
         }
-        // From results to operands. A product in a denominator may not be needed itself, because its factors are used
-        // instead.
+        // From results to operands. A product in a denominator need not be expanded itself, because its factors are.
         for expr in order.iter().rev() {
             if uses.contains_key(&expr.id()) {
                 for operand in needs(*expr) {
