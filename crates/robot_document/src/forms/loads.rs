@@ -1,5 +1,5 @@
-//! Contributions to the joint torques that are not products with velocities or accelerations: gravity, the
-//! wrenches of the tips, friction.
+//! Contributions to the joint torques that are not products with velocities or accelerations: gravity, the wrenches of
+//! the tips, and friction.
 
 use robot_dynamics::mechanism::MechanismFriction;
 use robot_dynamics::newton_euler::{LinkWrench, friction};
@@ -14,7 +14,7 @@ use super::letters::candidates;
 use crate::layout::is_rate;
 use crate::math::Math;
 
-/// The joint torques at rest, without wrenches.
+/// The gravity terms: the joint torques at rest and without wrenches.
 pub(super) fn gravity<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -26,7 +26,7 @@ pub(super) fn gravity<'g>(
     single(writer, "Gravity", &letter, values, sums)
 }
 
-/// The contributions of the wrenches of the tips, Jᵀ times the wrench.
+/// The contributions of the wrenches of the tips: Jᵀ times the wrench.
 pub(super) fn wrenches<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -49,7 +49,7 @@ pub(super) fn wrenches<'g>(
     )
 }
 
-/// A coefficient for each joint torque.
+/// One coefficient for each joint torque.
 fn single<'g>(
     writer: &Writer<'_, 'g>,
     title: &'static str,
@@ -68,13 +68,12 @@ fn single<'g>(
     Section { title, by_symbols: false, coefficients }
 }
 
-/// The friction parameters as the file has them.
+/// All friction parameters, as in the robot file.
 pub(super) fn whole<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
     friction.clone()
 }
 
-/// The friction of the joints by the parameters that `part` selects, and the joint forces that dry
-/// friction asks for.
+/// The friction of the joints with the parameters that `part` selects, and the joint forces that dry friction needs.
 pub(super) fn frictions<'g>(
     writer: &Writer<'_, 'g>,
     title: &'static str,
@@ -100,8 +99,8 @@ pub(super) fn frictions<'g>(
     vec![joints, contributions]
 }
 
-/// The contributions of friction to the joint torques, by symbols for the joint forces that dry friction
-/// needs, and these.
+/// The joint forces that dry friction needs, and the contributions of friction to the joint torques in symbols for
+/// these forces.
 pub(super) fn friction_contributions<'g>(
     writer: &Writer<'_, 'g>,
     part: fn(&MechanismFriction<'g>) -> MechanismFriction<'g>,
@@ -124,7 +123,7 @@ pub(super) fn friction_contributions<'g>(
     (joints, values)
 }
 
-/// Symbols for the components of a joint force; components that are 0 stay so.
+/// Names the components of a joint force; components that are 0 stay 0.
 fn joint_force<'g>(
     writer: &Writer<'_, 'g>,
     index: usize,
@@ -139,7 +138,7 @@ fn joint_force<'g>(
         if value.is_zero() {
             return value;
         }
-        // Without the dot of a quantity, so that text reads back.
+        // The dot in the name of a quantity is replaced, so that the text can be parsed.
         let name = symbol.to_string().replace('.', "_");
         let shape = Math::quantity(symbol);
         let named = writer.graph.symbol(&name);
@@ -155,7 +154,7 @@ fn wrench_names(writer: &Writer<'_, '_>) -> Vec<String> {
     writer.robot.tips().flat_map(names).collect()
 }
 
-/// Values with all velocities and accelerations 0, and further symbols of choice.
+/// The values with all velocities, all accelerations and the symbols that `zero` selects set to 0.
 fn at_rest<'g>(
     writer: &Writer<'_, 'g>,
     values: &[Expr<'g>],
