@@ -224,8 +224,8 @@ fn modules_with_a_folder_lie_in_it() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The paths of files that a source includes, as they are written: `include_str!("a")`, `include!("a")`, `#[path =
-/// "a"]`.
+/// The paths of files that a source includes, as they are written: `include_str!("a")`, `include!("a")`,
+/// `#[path = "a"]`.
 fn included(text: &str) -> Vec<&str> {
     let openings = ["include_str!(\"", "include_bytes!(\"", "include!(\"", "#[path = \""];
     let found = openings.iter().flat_map(|opening| text.split(opening).skip(1));

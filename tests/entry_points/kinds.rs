@@ -86,7 +86,7 @@ impl Case {
     fn new(name: &str, text: &str) -> Case {
         let robot = robot_testing::read(name, text);
         let all = FunctionKind::of_robot(&robot);
-        // Base parameters have no inputs that vary between states; they have a separate test.
+        // The function for the base parameters has no inputs; it has a separate test.
         let called = |kind: &FunctionKind| *kind != FunctionKind::BaseParameters;
         let called: Vec<FunctionKind> = all.into_iter().filter(called).collect();
         let functions = Functions::Chosen(called.clone());

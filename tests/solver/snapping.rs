@@ -11,7 +11,7 @@ use robot_testing::{largest_difference, magnitude};
 const TOLERANCE: f64 = 1e-12;
 const STATES: usize = 20;
 
-/// A robot file with four rotations, in which the angles are placeholders.
+/// A robot file with four revolute joints, in which some angles are placeholders.
 const ARM: &str = r#"format = 1
 [robot]
 name = "truncated"

@@ -117,8 +117,8 @@ impl<'g> Matrix<'g> {
         Matrix(self.0.map(|row| row.map(&mut function)))
     }
 
-    /// The rotation by an angle with the given sine and cosine about a unit axis (Rodrigues' formula): R = 1 + s \[k\]×
-    /// + (1 − c) \[k\]×².
+    /// The rotation by an angle with the given sine and cosine about a unit axis (Rodrigues' formula):
+    /// R = 1 + s \[k\]× + (1 − c) \[k\]×².
     #[must_use]
     pub fn rotation(axis: Vector<'g>, sine: Expr<'g>, cosine: Expr<'g>) -> Matrix<'g> {
         let graph = sine.graph();

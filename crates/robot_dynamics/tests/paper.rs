@@ -76,8 +76,8 @@ fn grades() -> Vec<Grade> {
 #[derive(Default)]
 struct Text {
     quantities: BTreeMap<String, f64>,
-    /// Values by equation number, for quantities that the paper prints twice, such as `(53) Q1` in addition to `(52)
-    /// Q1`.
+    /// Values by equation number, for quantities that the paper prints twice, such as `(53) Q1` in addition to
+    /// `(52) Q1`.
     numbered: BTreeMap<String, f64>,
     failed: BTreeSet<String>,
 }

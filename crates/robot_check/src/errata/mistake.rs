@@ -16,7 +16,7 @@ pub enum MistakeKind {
     ExtraTerm,
     /// The sign is wrong.
     Sign,
-    /// The coefficient of the term is wrong, apart from its sign alone.
+    /// The coefficient of the term is wrong, not only its sign.
     Coefficient,
     /// A coordinate has too few or too many dots.
     Dot,
@@ -130,8 +130,8 @@ fn odd<'g>(term: &Term<'g>, other: &Term<'g>) -> Vec<Odd<'g>> {
     beyond.collect()
 }
 
-/// Removes the factors that both terms have to different powers and records them as mistakes, unless two other factors
-/// are related.
+/// Removes the factors that both terms have to different powers and records them as mistakes, unless some of the
+/// remaining factors are easily confused.
 fn powers<'g>(
     printed: &Term<'g>,
     derived: &Term<'g>,

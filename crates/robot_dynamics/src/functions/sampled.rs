@@ -107,7 +107,7 @@ impl SampledMassMatrix {
             least[link.coordinate] += ratio * (link.own + link.reflected);
             most[link.coordinate] += ratio * link.reflected;
         }
-        // The assumed travel of prismatic joints, added to the distances between links.
+        // The assumed travel of each prismatic joint: the sum of the distances between consecutive origins.
         let travel: f64 = self.links.iter().map(|link| link.offset).sum();
         for outer in &self.links {
             let mut arm = outer.arm;

@@ -3,8 +3,8 @@
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_symbolic::{Graph, print};
 
-/// The groups of a robot with the given joints, written as `q1`, `-q2 after q1`. A joint is given by `kind axis parent
-/// more`.
+/// The groups of a robot with the given joints, written as `q1`, `-q2 after q1`. A joint is given as
+/// `kind axis parent more`.
 fn groups(joints: &[(&str, &str, &str, &str)]) -> Vec<Vec<String>> {
     let mut text = "format = 1\n[robot]\nname = \"arm\"\n".to_owned();
     for (place, (kind, axis, parent, more)) in joints.iter().enumerate() {

@@ -11,9 +11,9 @@ use crate::economical::spatial::rotation::ConstantRotation;
 use crate::mechanism::{BaseMotion, Mechanism};
 use crate::vector::{Matrix, Vector};
 
-/// Limits that keep differences of large numbers from losing digits. A residual may exceed the robot's own mass, first
-/// moment or second moment at most by this factor, and a working frame may be at most this many times the robot's reach
-/// away.
+/// The factor that limits residuals and shifts, because differences of large numbers would lose digits. A residual may
+/// be at most this many times the robot's own mass, first moment or second moment, and the origin of a working frame
+/// may be at most this many times the robot's reach away.
 const GROWTH_CAP: f64 = 3.0;
 
 /// A mechanism in working frames.
