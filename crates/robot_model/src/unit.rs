@@ -28,14 +28,14 @@ pub struct Dimension {
 impl Dimension {
     /// A pure number or an angle.
     pub const NONE: Dimension = Dimension::new(0, 0, 0);
-    /// m/s².
+    /// An acceleration, m/s².
     pub const ACCELERATION: Dimension = Dimension::new(0, 1, -2);
-    /// N.
+    /// A force, N.
     pub const FORCE: Dimension = Dimension::new(1, 1, -2);
-    /// N m.
+    /// A moment, N m.
     pub const MOMENT: Dimension = Dimension::new(1, 2, -2);
 
-    /// kg^`mass` m^`length` s^`time`.
+    /// The dimension kg^`mass` m^`length` s^`time`.
     #[must_use]
     pub const fn new(mass: i8, length: i8, time: i8) -> Dimension {
         Dimension { mass, length, time }

@@ -48,7 +48,7 @@ pub struct Torque {
     pub state: State,
 }
 
-/// The largest changes, and the range of states in which they were searched.
+/// The largest changes, and the range of states from which they were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torques {
     /// The range of states.

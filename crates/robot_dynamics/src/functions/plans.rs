@@ -10,7 +10,7 @@ use crate::economical::search::{self, Found, Objective, Scope};
 use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::MechanismOptions;
 
-/// Searches the plan with which these functions together need the fewest multiplications and additions; common
+/// Searches for the plan with which these functions together need the fewest multiplications and additions; common
 /// expressions are counted once.
 ///
 /// `None` if the economical recursion does not apply because a joint axis depends on parameters.

@@ -94,14 +94,14 @@ fn coriolis_matrix<'g>(
     Some(slopes.iter().map(|slope| *slope / 2).collect())
 }
 
-/// C q̇ + g.
+/// The bias torques C q̇ + g, from the Coriolis matrix and the gravity terms.
 fn bias<'g>(derivation: &Derivation<'_, 'g>, functions: &[Function<'g>]) -> Option<Vec<Expr<'g>>> {
     let matrix = values(functions, FunctionKind::CoriolisMatrix, 0)?;
     let gravity = values(functions, FunctionKind::Gravity, 0)?;
     Some(sum(&product(matrix, &derivation.coordinate_symbols(JointVariable::Velocity)), gravity))
 }
 
-/// M q̈ + C q̇ + g.
+/// The joint torques M q̈ + C q̇ + g, from the mass matrix and the bias torques.
 fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -111,7 +111,7 @@ fn inverse_dynamics<'g>(
     Some(sum(&product(matrix, &derivation.coordinate_symbols(JointVariable::Acceleration)), bias))
 }
 
-/// The solution of M q̈ = τ − C q̇ − g.
+/// The accelerations q̈, the solution of M q̈ = τ − C q̇ − g.
 fn forward_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -132,7 +132,7 @@ fn forward_dynamics<'g>(
     Some(matrix.solve(excess, derivation.pivots_known()))
 }
 
-/// ½ q̇ᵀ M q̇.
+/// The kinetic energy ½ q̇ᵀ M q̇.
 fn kinetic_energy<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -143,7 +143,7 @@ fn kinetic_energy<'g>(
     Some(twice.into_iter().map(|twice| twice / 2).collect())
 }
 
-/// A matrix, stored row by row, times a vector.
+/// The product of a matrix, stored row by row, and a vector.
 fn product<'g>(matrix: &[Expr<'g>], vector: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let row = |row: &[Expr<'g>]| row.iter().zip(vector).map(|(a, b)| *a * *b).reduce(|a, b| a + b);
     matrix.chunks(vector.len().max(1)).filter_map(row).collect()

@@ -22,12 +22,12 @@ pub(super) fn compute(
     Formula::parse(&text).ok()
 }
 
-/// a · b.
+/// The product a · b; `None` if its text is too long.
 pub(super) fn product(a: &Formula, b: &Formula) -> Option<Formula> {
     compute(&[a, b], "(#0)*(#1)", |v| v[0] * v[1])
 }
 
-/// a + b.
+/// The sum a + b; `None` if its text is too long.
 pub(super) fn sum(a: &Formula, b: &Formula) -> Option<Formula> {
     compute(&[a, b], "(#0) + (#1)", |v| v[0] + v[1])
 }

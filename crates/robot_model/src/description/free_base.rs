@@ -11,7 +11,7 @@ use crate::diagnostic::significant;
 use crate::diagnostic::{Diagnostic, code};
 use crate::robot::Robot;
 
-/// Warns of such a base; returns whether the robot has one.
+/// Warns about such a base; returns whether the robot has one.
 pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) -> bool {
     let on_base = robot.links.iter().filter(|link| link.parent.is_none());
     // Branches that one coordinate drives are parts of one mechanism, not separate legs.

@@ -269,7 +269,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Bu
     Some(Built { robot, locations, code, budgets })
 }
 
-/// Warns of parameters that are not used.
+/// Warns about parameters that are not used.
 fn unused(reader: &mut Reader<'_>) {
     let unused: Vec<(String, Span)> = reader
         .parameters()
@@ -286,7 +286,7 @@ fn unused(reader: &mut Reader<'_>) {
     }
 }
 
-/// Warns of masses that have no effect because they are fixed to the base.
+/// Warns about masses that have no effect because they are fixed to the base.
 fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
     for dropped in &locations.dropped {
         reader.report(dropped.diagnostic());

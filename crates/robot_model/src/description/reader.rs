@@ -10,7 +10,8 @@ use super::options::Options;
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
 
-/// With more errors than this, no corrections of misspelled words are suggested.
+/// The number of errors after which no corrections of misspelled words are suggested. At most this many unknown names
+/// are reported for one formula.
 const ENOUGH: usize = 40;
 
 /// A parameter that expressions may contain.
@@ -165,7 +166,7 @@ impl<'a> Reader<'a> {
         ))
     }
 
-    /// Reports a formula whose value is not finite.
+    /// Reports a formula whose value is not finite; returns whether it is finite.
     pub(super) fn finite(&mut self, formula: &Formula, span: &Span) -> bool {
         let known = self.known(formula);
         let undefined = self.undefined(formula).or_else(|| unbounded(formula));

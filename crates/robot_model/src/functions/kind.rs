@@ -79,7 +79,7 @@ macro_rules! listed {
 }
 
 functions! {
-    /// Q from q, q̇, q̈, with the selected effects.
+    /// The joint torques Q from q, q̇, q̈, with the selected effects.
     InverseDynamics(effects: Effects) = Declaration {
         effects,
         motions: true,
@@ -93,17 +93,17 @@ functions! {
             MOTION,
         )
     };
-    /// F_l and M_l of every joint.
+    /// The forces F_l and moments M_l that the joints transmit, from q, q̇, q̈.
     LinkWrenches = Declaration::new("link_wrenches", MOTION);
-    /// M from q.
+    /// The mass matrix M from q.
     MassMatrix = Declaration::of_composites("mass_matrix", POSITION);
-    /// The entries of M's lower triangle that are not 0 by structure, from q.
+    /// The entries in the lower triangle of M that can be nonzero for the robot's structure, from q.
     MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION);
-    /// C q̇ + g from q, q̇.
+    /// The bias torques C q̇ + g from q, q̇.
     Bias = Declaration::of_motions("bias", STATE);
-    /// g from q.
+    /// The gravity terms g from q.
     Gravity = Declaration::of_composites("gravity", POSITION);
-    /// q̈ from q, q̇, τ, with the selected effects.
+    /// The joint accelerations q̈ from q, q̇, τ, with the selected effects.
     ForwardDynamics(effects: Effects) = Declaration {
         effects,
         solves: true,
@@ -130,22 +130,22 @@ functions! {
     JacobianDotQd = Declaration::of_motions("jacobian_dot_qd", STATE);
     /// J̇ q̇ of one frame from q, q̇.
     JacobianDotQdOf(_frame: FrameRef) = FunctionKind::JacobianDotQd.declaration();
-    /// Kinetic and potential energy from q, q̇.
+    /// The kinetic and potential energy from q, q̇.
     Energies = Declaration::of_both("energies", STATE);
-    /// C from q, q̇, by Christoffel symbols.
+    /// The Coriolis matrix C from q, q̇, by Christoffel symbols.
     CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE);
-    /// ∂Q/∂q and ∂Q/∂q̇ from q, q̇, q̈.
+    /// The derivatives ∂Q/∂q and ∂Q/∂q̇ from q, q̇, q̈.
     InverseDynamicsDerivatives = Declaration::of_both("inverse_dynamics_derivatives", MOTION);
-    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
+    /// The derivatives ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
     ForwardDynamicsDerivatives = Declaration {
         solves: true,
         ..Declaration::of_both("forward_dynamics_derivatives", DRIVEN)
     };
-    /// Y of Q = Y π from q, q̇, q̈; π are the standard parameters, those of the links and drives.
+    /// The regressor Y in Q = Y π from q, q̇, q̈; π are the standard parameters, those of the links and drives.
     Regressor = Declaration::new("regressor", MOTION);
-    /// Y of Q = Y β from q, q̇, q̈; β are the base parameters, the smallest possible set.
+    /// The regressor Y in Q = Y β from q, q̇, q̈; β are the base parameters, the smallest possible set.
     RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) };
-    /// β from the robot's parameters.
+    /// The values of the base parameters β from the robot's parameters.
     BaseParameters = Declaration { base: true, ..Declaration::new("base_parameters", &[]) };
 }
 

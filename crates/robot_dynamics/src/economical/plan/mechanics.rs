@@ -15,7 +15,7 @@
 //! - nominal values of parameters: a search only uses symbols;
 //! - the names of parameters and their order in the file: symbols are numbered in the order of their first use in the
 //!   mechanism, so that merging two parameters gives another mechanism, but renaming one does not;
-//! - friction, named frames and tips: they are added to the torques that are searched.
+//! - friction, named frames and tips: they are added to the torques whose operations the search counts.
 //!
 //! A number that is used instead of a parameter is significant to its last digit, even if it is a mass of 2 or 3. Most
 //! digits do not change the form, but 0 and 1, equal numbers and numbers that cancel do, and the torques were compared

@@ -111,7 +111,7 @@ pub struct Scope {
     pub free: bool,
 }
 
-/// Searches the cheapest plan for inverse dynamics.
+/// Searches for the cheapest plan for inverse dynamics.
 ///
 /// Expressions that only depend on the robot's parameters are not counted. `None` if the economical recursion does not
 /// apply because a joint axis depends on parameters.
@@ -149,7 +149,7 @@ fn search_with<T>(
     Some(then(&mut search, found))
 }
 
-/// Searches the plan with the fewest multiplications and additions for the given functions.
+/// Searches for the plan with the fewest multiplications and additions for the given functions.
 ///
 /// The candidates' values are compared with those of the plan that keeps the file's frames. `None` if the economical
 /// recursion does not apply because a joint axis depends on parameters.
@@ -201,9 +201,9 @@ impl Steps {
 struct Search<'m, 'g> {
     mechanism: &'m Mechanism<'g>,
     base: &'m Base<'g>,
-    /// The links whose options are searched.
+    /// The links whose options are varied.
     searched: Vec<usize>,
-    /// Whether the unit of length is searched.
+    /// Whether the unit of length is varied.
     with_unit: bool,
     objective: ObjectiveOf<'m, 'g>,
     /// The robot's parameters; all other symbols are inputs.
