@@ -65,8 +65,8 @@ pub(super) struct Limbs<'r> {
 }
 
 impl Limbs<'_> {
-    /// Searches limb by limb until the cost does not decrease any more, then searches for the best unit of length of the
-    /// whole robot.
+    /// Searches limb by limb until the cost does not decrease any more, then searches for the best unit of length of
+    /// the whole robot.
     pub(super) fn search(self, whole: &mut Search<'_, '_>, scope: Scope) -> Found {
         let (mut cost, mut plan) = whole.cheapest_start();
         let mut settled: BTreeMap<Vec<usize>, Vec<LinkPlan>> = BTreeMap::new();
