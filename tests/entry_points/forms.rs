@@ -1,4 +1,4 @@
-//! The further forms of functions, compiled: generic ones at every scalar, batches, multiply-adds.
+//! Additional forms of functions as compiled code: generic functions with every scalar, batches, and multiply-adds.
 
 use std::fmt::Write as _;
 
@@ -9,9 +9,9 @@ use robot_numeric::random::Random;
 
 use crate::package::{Package, dependency};
 
-/// More than two blocks of eight, and a rest.
+/// More than two blocks of eight states, with a remainder.
 const STATES: usize = 19;
-/// Of the largest torque: what roundings in another order may do.
+/// The maximum error caused by a different order of operations, relative to the largest torque.
 const TOLERANCE: f64 = 1e-12;
 const SINGLE_TOLERANCE: f64 = 1e-4;
 
@@ -19,7 +19,8 @@ const UR5: &str = include_str!("../../robots/ur5.toml");
 const TRTTR1: &str = include_str!("../../robots/trttr1.toml");
 const PANDA: &str = include_str!("../../robots/panda.toml");
 
-/// Every form of inverse dynamics, and a batch of the mass matrix, whose velocities are unused.
+/// The options for every form of inverse dynamics, and for a batch of the mass matrix, which does not use the
+/// velocities.
 fn options(trigonometry: Trigonometry, fused: bool) -> Options {
     let functions = vec![FunctionKind::InverseDynamics(Effects::NONE), FunctionKind::MassMatrix];
     Options {
@@ -45,7 +46,7 @@ fn states(dof: usize) -> [Vec<Vec<f64>>; 3] {
     })
 }
 
-/// The torques by the interpreter.
+/// The torques by the interpreter, in all states.
 fn expected(robot: &str, dof: usize) -> Vec<Vec<f64>> {
     let programs = programs(&source(robot), &options(Trigonometry::Standard, false)).unwrap();
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
@@ -57,7 +58,8 @@ fn expected(robot: &str, dof: usize) -> Vec<Vec<f64>> {
     (0..STATES).map(torques).collect()
 }
 
-/// The same states in columns, some of them short, and in a block: they have the bits of the batch.
+/// Code that computes the same states stored in columns, some of which are short, and in a block. The results are
+/// bitwise equal to those of the batch.
 fn columns_text(dof: usize) -> String {
     format!(
         "let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));\n\
@@ -86,7 +88,8 @@ fn columns_text(dof: usize) -> String {
     )
 }
 
-/// The mass matrices of the same states: by a batch near those of single calls, in columns with the bits of the batch.
+/// Code that computes the mass matrices in the same states: a batch agrees with single calls to within rounding errors,
+/// and columns are bitwise equal to the batch.
 fn masses_text(dof: usize) -> String {
     format!(
         "let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
@@ -107,7 +110,7 @@ fn masses_text(dof: usize) -> String {
     )
 }
 
-/// A program that prints the torques at all states by each form, a state a line.
+/// A program that prints the torques in all states by each form, one line for each state.
 fn main_text() -> String {
     let mut text = "#![deny(warnings)]\nmod cases;\nuse robot_runtime::{F32x8, F64x4, Scalar};\n\
         fn show<const N: usize>(form: &str, tau: &[[f64; N]]) {\n    \
@@ -159,7 +162,7 @@ fn main_text() -> String {
     text
 }
 
-/// The code of both robots with both sources of sines.
+/// The code of both robots, with both implementations of sines.
 fn cases_text(fused: bool) -> String {
     let mut text = String::new();
     for (case, trigonometry) in
@@ -171,13 +174,13 @@ fn cases_text(fused: bool) -> String {
     text
 }
 
-/// Holds what the program prints against the interpreter; gives whether it fused.
+/// Compares the printed values with those of the interpreter; returns whether the program used fused operations.
 fn hold(printed: &str) -> bool {
     let mut lines = printed.lines();
     for (robot, dof) in [(UR5, 6), (TRTTR1, 5)] {
         let expected = expected(robot, dof);
         let size = expected.iter().flatten().fold(0.0_f64, |size, tau| size.max(tau.abs()));
-        // Two sources of sines, seven forms each.
+        // Two implementations of sines with seven forms each.
         for _ in 0..2 * 7 {
             for expected in &expected {
                 let (form, values) = lines.next().unwrap().split_once(' ').unwrap();
@@ -193,7 +196,7 @@ fn hold(printed: &str) -> bool {
     lines.next() == Some("fused true")
 }
 
-/// Flags for the compiler that this machine can run, and whether multiply-adds are one instruction.
+/// Compiler flags that this machine supports, each with whether multiply-add is a single instruction.
 fn builds() -> Vec<(&'static str, bool)> {
     let mut builds = vec![("", cfg!(target_arch = "aarch64"))];
     #[cfg(target_arch = "x86_64")]

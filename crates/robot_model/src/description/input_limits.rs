@@ -1,19 +1,18 @@
-//! The limits of input, each of which has a message of its own.
+//! The limits on input; exceeding one of them is an error with its own message.
 
-/// A robot file with more bytes than this is refused.
+/// The maximum size of a robot file, bytes.
 pub const MAX_BYTES: usize = 1 << 20;
-/// A robot with more moving joints than this is refused.
+/// The maximum number of moving joints.
 pub const MAX_JOINTS: usize = 64;
-/// A robot file with more links than this, including fixed ones, is refused, as is one with more frames and tips.
+/// The maximum number of links in a robot file, including fixed ones; also the maximum number of frames and tips.
 pub const MAX_LINKS: usize = 512;
-/// A robot with more parameters than this is refused.
+/// The maximum number of parameters.
 pub const MAX_PARAMETERS: usize = 4096;
-/// A robot file with more bundles than this is refused: each bundle is a function as long as all of its functions
-/// together.
+/// The maximum number of bundles: each bundle is a function as long as all of its functions together.
 pub const MAX_BUNDLES: usize = 16;
-/// Elements of XML nested deeper than this are refused.
+/// The maximum depth of nested XML elements.
 pub(super) const MAX_DEPTH: usize = 64;
-/// An element of XML with more attributes than this is refused.
+/// The maximum number of attributes of an XML element.
 pub(super) const MAX_ATTRIBUTES: usize = 64;
-/// XML with more namespaces than this is refused.
+/// The maximum number of namespaces in an XML file.
 pub(super) const MAX_NAMESPACES: usize = 64;

@@ -1,4 +1,4 @@
-//! Files that mean harm, and files that chance has spoiled: each ends in a message, soon.
+//! Malicious and randomly corrupted files: each must cause a message within a short time.
 
 use robot_model::description::{MAX_BYTES, Options, import, read_urdf};
 use robot_model::diagnostic::code;
@@ -7,7 +7,7 @@ use crate::errors;
 use crate::hostility::{self, Spoiler};
 use crate::text::{BODY, one_link};
 
-/// The codes of the errors of a file, which must be found soon.
+/// The codes of the errors of a file, which must be found within a short time.
 fn soon(text: &str) -> Vec<&'static str> {
     hostility::soon(|| errors(text))
 }
@@ -105,7 +105,7 @@ fn hostile_names_stay_text() {
     }
 }
 
-/// Pieces that have a meaning somewhere.
+/// Fragments that have a meaning in some context.
 const PIECES: &[&str] = &[
     "<",
     ">",
