@@ -124,7 +124,7 @@ pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
     items
 }
 
-/// The constructor of a model whose parameters differ between lanes: the models of all lanes, side by side.
+/// Makes the constructor of a model whose parameters differ between lanes: each field has a value for each lane.
 fn over_lanes(scope: &Scope<'_>) -> Item {
     let (fields, ty) = (&scope.fields, scalar_type(scope.options.scalar));
     let runtime = scope.number.runtime();
@@ -194,7 +194,8 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
     syntax::impl_model(items)
 }
 
-/// A field as it is stored: `as` binds tighter than what a value may hold.
+/// Converts the value of a field to the type in which it is stored. The node of the cast gets brackets where its
+/// operand needs them, because `as` has a high precedence.
 fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
     match scope.options.scalar {
         Scalar::F64 => value,
@@ -225,7 +226,8 @@ fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &
     parse_quote!(let Parameters { #(#fields,)* #rest } = *#from;)
 }
 
-/// Arithmetic is `const`, reciprocals included; the other functions of the runtime are not.
+/// Whether a program can be a `const` function: arithmetic and reciprocals are `const`, the other functions of the
+/// runtime are not.
 pub(super) fn is_const(program: &Program) -> bool {
     let called = |operation: &Operation| match operation {
         Operation::Call(function, _) => *function != Function::RecipPositive,

@@ -1,8 +1,9 @@
 //! Matrices among the results of a loop over states.
 //!
-//! LLVM makes vectors of such a loop if it sees that no result is an input of another state, and if it follows every entry by
-//! itself, up to some 250 of them: otherwise a state takes five to ten times as long. So inputs are copied before the loop,
-//! and entries are stored one by one, without those that are always 0.
+//! LLVM vectorizes such a loop only if it can prove that no result is an input of another state, and if it tracks
+//! every entry separately, which it does for up to about 250 of them. Otherwise a state takes five to ten times as
+//! long. Therefore inputs are copied before the loop, and entries are stored one by one, except those that are always
+//! 0.
 
 use proc_macro2::Ident;
 use syn::{Pat, Stmt, parse_quote};
@@ -14,12 +15,12 @@ use super::syntax;
 use crate::program::Operation;
 
 impl Methods<'_, '_> {
-    /// Whether a result is a matrix and the loop is one for vectors of the processor at hand.
+    /// Whether a result is a matrix and the loop is compiled for several processors.
     pub(super) fn has_matrices(&self) -> bool {
         self.dispatched && self.function.outputs.iter().any(|output| output.shape.len() > 1)
     }
 
-    /// Copies the inputs that a loop over lanes needs, so that they are not where its results are.
+    /// Copies the inputs that a loop over lanes needs, so that they cannot overlap its results.
     pub(super) fn copied(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
         if layout == Layout::States || !self.has_matrices() {
             return vec![];
@@ -33,7 +34,7 @@ impl Methods<'_, '_> {
         copies.collect()
     }
 
-    /// Stores the entries of each output in lane `lane`, all but those that are always 0.
+    /// Stores the entries of each output in lane `lane`, except those that are always 0.
     pub(super) fn entries(&self, slices: &Slices) -> Vec<Stmt> {
         let runtime = self.number.runtime();
         let core = &self.function.core;
@@ -65,7 +66,7 @@ impl Methods<'_, '_> {
     }
 }
 
-/// `[[a, b], [c, d]]` of the next entries.
+/// Makes a pattern such as `[[a, b], [c, d]]` from the next entries.
 fn shaped_pattern(shape: &[usize], entries: &mut dyn Iterator<Item = Pat>) -> Pat {
     match shape.split_first() {
         None => entries.next().unwrap_or_else(|| parse_quote!(_)),
