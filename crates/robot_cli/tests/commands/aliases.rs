@@ -1,8 +1,8 @@
-//! What is equal to something printed before has no equation of its own.
+//! A quantity that equals one printed before has no equation of its own.
 
 use crate::{complaint, output, robot};
 
-/// The equations that a form prints, by lines of text that are joined.
+/// The equations that a form prints, as pairs of the left and the right side.
 fn equations(name: &str, form: &str) -> Vec<(String, String)> {
     let shown = output(&["equations", &robot(name), "--form", form, "--format", "json"], "");
     let lines = shown.lines().filter_map(|line| line.trim().split_once(": "));
@@ -39,7 +39,7 @@ fn equal_coefficients_have_one_equation() {
     assert!(apart.contains("\"b_2_3_4\""), "{apart}");
 }
 
-/// Tensors of links are given by numbers, not by names of numbers.
+/// Inertia tensors of links are given by numbers, not by names of numbers.
 #[test]
 fn parameters_of_links_are_not_renamed() {
     let found = equations("ur5", "recursive");
