@@ -1,4 +1,4 @@
-//! Whether and how a command takes friction into account.
+//! The options with which a command takes friction into account.
 
 use clap::Args;
 use robot_build::{Effects, FunctionKind};

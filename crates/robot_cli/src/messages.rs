@@ -5,9 +5,9 @@ use std::io::Write;
 
 use robot_model::diagnostic::is_invisible;
 
-/// Standard error. Control characters and those that show nothing or reorder text are written as escapes, but for ends
-/// of lines, tabs, and on a terminal this program's own commands; text that cannot be written is dropped, because a
-/// message that nobody reads must not stop the work.
+/// Standard error. Control characters, invisible characters and characters that reorder text are escaped, except ends
+/// of lines, tabs and, on a terminal, this program's own terminal commands. Text that cannot be written is dropped,
+/// because a message that nobody reads must not stop the work.
 pub(crate) struct Messages<'a> {
     pub(crate) stream: &'a mut dyn Write,
     /// Whether colors and lines of progress are shown.

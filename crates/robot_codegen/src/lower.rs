@@ -91,9 +91,9 @@ fn check_names<'a>(
 enum Class {
     Constant,
     Parameter,
-    /// An entry of an input, but no sine or cosine of one.
+    /// Depends on entries of inputs, but not on a sine or cosine of one.
     Input,
-    /// A sine or cosine of inputs.
+    /// Depends on a sine or cosine of inputs.
     Circular,
 }
 

@@ -118,7 +118,7 @@ pub(crate) fn place(
 #[cfg(target_arch = "aarch64")]
 fn renew_instructions(pages: &Mmap) -> std::io::Result<()> {
     use wasmtime_internal_jit_icache_coherence::{clear_cache, pipeline_flush_mt};
-    // SAFETY: the pages are mapped, and nothing runs in them yet; the pipelines are flushed after it.
+    // SAFETY: the pages are mapped, and no code runs in them yet; the pipelines are flushed afterwards.
     unsafe { clear_cache(pages.as_ptr().cast(), pages.len()) }.map_err(std::io::Error::other)?;
     pipeline_flush_mt().map_err(std::io::Error::other)
 }

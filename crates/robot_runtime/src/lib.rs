@@ -45,7 +45,7 @@
 //! | [`Scalar::sin_cos`] | polynomials | one angle, or one in every lane |
 //! | `std_sin_cos_array` (feature `std`) | standard library | angles of any size |
 //!
-//! The three with polynomials give the same bits. [`Trig`] makes the source a type parameter.
+//! The three functions with polynomials give the same bits. [`Trig`] makes the source a type parameter.
 //!
 //! | type | range | largest absolute error in this range | with [`FUSED`] | in last places |
 //! |---|---|---|---|---|

@@ -10,7 +10,7 @@ fn equations(name: &str, form: &str) -> Vec<(String, String)> {
     lines.map(|(left, right)| (bare(left), bare(right))).collect()
 }
 
-/// The equations of defined symbols that are another defined symbol.
+/// The equations whose right side is only another defined symbol.
 fn renamed(equations: &[(String, String)]) -> Vec<&(String, String)> {
     let is_defined = |name: &str| equations.iter().any(|(left, _)| left == name);
     let all = equations.iter().filter(|(left, _)| !left.starts_with('Q'));

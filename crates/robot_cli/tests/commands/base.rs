@@ -1,4 +1,4 @@
-//! `base`: the formulas of the base parameters read back and have the values that they print.
+//! `base`: the formulas of base parameters can be read back and have the printed values.
 
 use robot_symbolic::Formula;
 use serde_json::Value;

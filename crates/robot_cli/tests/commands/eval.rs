@@ -67,7 +67,7 @@ fn torques_are_those_of_the_numeric_solver() {
     for (function, friction) in [("inverse_dynamics", false), ("inverse_dynamics_friction", true)] {
         let found = eval(function, &json!([still]), &[]);
         assert_close(&found[0], &expected(&[], &[0.0; 6], friction));
-        // A wrench chooses the function that takes it, for all states.
+        // A wrench determines that the function with a wrench is used, for all states.
         let found = eval(function, &json!([still, loaded]), &[]);
         assert_close(&found[0], &expected(&[], &[0.0; 6], friction));
         assert_close(&found[1], &expected(&[], &WRENCH, friction));

@@ -174,7 +174,7 @@ impl Killed {
         found.filter(|(path, _)| !is_temporary(path)).collect()
     }
 
-    /// Kills the command at a moment of its run; whether it had not ended.
+    /// Kills the command at a random time; returns whether it was still running.
     fn kill(&self, version: usize, random: &mut Random) -> bool {
         let limit = u64::try_from(self.time.as_micros()).unwrap() * 5 / 4;
         let mut child = self.spawn(version);

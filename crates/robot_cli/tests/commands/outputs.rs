@@ -119,7 +119,7 @@ fn files_of_others_are_replaced_with_force_alone_and_own_ones_without() {
     for (line, name) in WRITERS {
         let path = inputs.path(name);
         let write = |more: &[&str]| inputs.run(line, &[&[path.as_str()], more].concat());
-        // Measurements of the robot's motion are not the tables of this program.
+        // Tables with measurements of the robot's motion were not written by this program.
         let mine = if name.ends_with("csv") { TRAJECTORY } else { "my notes\n" };
         fs::write(&path, mine).unwrap();
         let outcome = write(&[]);

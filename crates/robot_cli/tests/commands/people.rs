@@ -226,7 +226,7 @@ fn known_words_are_completed() {
     assert!(!output(&["check", "--help"], "").contains("R0611"));
 }
 
-/// A leg of three joints, whose limits have attributes of its vendor.
+/// A leg of three joints, whose limits have additional attributes of a vendor.
 fn leg() -> String {
     let mut text = "<robot name=\"leg\">\n<link name=\"base\"/>\n".to_owned();
     for (index, parent) in ["base", "l0", "l1"].iter().enumerate() {

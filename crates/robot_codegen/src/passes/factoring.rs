@@ -178,7 +178,7 @@ mod tests {
         let [xy, xz, yw] = [b.mul(x, y), b.mul(x, z), b.mul(y, w)];
         let (sum, rest) = (b.add(xy, xz), b.mul(xz, w));
         let sum = b.sub(sum, yw);
-        // x y + x z − y w with x z needed again: y (x − w) + x z.
+        // x y + x z − y w, if x z is needed again, becomes y (x − w) + x z.
         let factored = Counts::of(&run(&b.finish(vec![sum, rest])));
         assert_eq!((factored.mul, factored.add), (3, 2));
     }
@@ -217,7 +217,7 @@ mod tests {
         assert_eq!((counts.mul, counts.add), (2, 1));
     }
 
-    /// p x + p: the constructor has p, and p (x + 1) is as many operations.
+    /// p x + p: p is known before the call, and p (x + 1) has the same number of operations.
     #[test]
     fn a_parameter_is_not_taken_out_of_what_costs_as_much() {
         let mut b = Builder::new();
@@ -257,7 +257,7 @@ mod tests {
             .sum()
     }
 
-    /// The saving that a factoring predicts is confirmed by counting operations before and after.
+    /// The predicted saving of a factoring is the difference of the operations before and after it.
     #[test]
     fn savings_come_as_foretold() {
         let mut counted = 0;

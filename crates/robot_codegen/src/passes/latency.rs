@@ -8,18 +8,18 @@ use robot_symbolic::Function;
 
 use crate::program::Operation;
 
-/// From the operands of a sum to its value.
+/// Cycles from the operands of a sum to its value.
 pub(super) const SUM: u32 = 3;
-/// From the factors of a product to its value.
+/// Cycles from the factors of a product to its value.
 pub(super) const PRODUCT: u32 = 3;
-/// From the operands of a multiply-add to its value.
+/// Cycles from the operands of a multiply-add to its value.
 pub(super) const FUSED: u32 = 4;
-/// From the operands of a quotient to its value.
+/// Cycles from the operands of a quotient to its value.
 pub(super) const QUOTIENT: u32 = 13;
-/// From the argument of a function to its value.
+/// Cycles from the argument of a function to its value.
 pub(super) const CALL: u32 = 20;
 
-/// From the argument of a function to its value; a reciprocal is a quotient.
+/// Cycles from the argument of a function to its value; a reciprocal counts as a quotient.
 pub(super) fn of_call(function: Function) -> u32 {
     if function == Function::RecipPositive { QUOTIENT } else { CALL }
 }

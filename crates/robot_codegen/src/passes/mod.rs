@@ -279,7 +279,7 @@ mod tests {
         report.iter().map(|counts| counts.pass).collect()
     }
 
-    /// A round after one that saved something; it ends if the first two save nothing more.
+    /// A round that follows a saving round ends after its first two passes if these save nothing more.
     #[test]
     fn rounds_end_when_nothing_is_saved() {
         let program = |saves: bool| {
@@ -309,7 +309,7 @@ mod tests {
             [&start[..], &round[..1], &round[..1]].concat()
         );
         assert_eq!(of(true, Options { rounds: 0, ..all }), start);
-        // (x z + y z)/z beside x + y: resubstitution alone saves.
+        // (x z + y z)/z, if x + y is computed too: only resubstitution saves operations.
         let mut b = Builder::new();
         let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
         let (sum, xz, yz) = (b.add(x, y), b.mul(x, z), b.mul(y, z));

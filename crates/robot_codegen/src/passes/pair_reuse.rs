@@ -327,7 +327,7 @@ mod tests {
         let square = left(|b, [u, v, ..]| vec![joined(b, &[u, u, v, v], Builder::mul)]);
         let fourth = left(|b, [u, ..]| vec![joined(b, &[u, u, u, u], Builder::mul)]);
         let cube = left(|b, [u, ..]| vec![joined(b, &[u, u, u], Builder::mul)]);
-        // u⁴ v² beside u v: ((u v) u)²
+        // u⁴ v², if u v is computed too: ((u v) u)²
         let fifth = left(|b, [u, v, ..]| {
             vec![joined(b, &[u, u, v, u, v, u], Builder::mul), joined(b, &[u, v], Builder::mul)]
         });

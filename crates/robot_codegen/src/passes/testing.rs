@@ -6,7 +6,7 @@ use super::dead_code;
 use crate::counts::Counts;
 use crate::program::{Builder, Operation, Program, Source, Value};
 
-/// Between 1/4 and 7/4, or the negative of such a number.
+/// A random number between 1/4 and 7/4, or the negative of such a number.
 fn real(random: &mut Random) -> f64 {
     let size = random.uniform(0.25, 1.75);
     if random.index(2) == 0 { size } else { -size }

@@ -28,7 +28,7 @@ impl Builder {
         self.operations[value.index()]
     }
 
-    /// The program with the given results.
+    /// Returns the program with these results.
     #[must_use]
     pub fn finish(self, results: Vec<Value>) -> Program {
         Program::new(self.operations, results)
@@ -59,17 +59,17 @@ impl Builder {
         }
     }
 
-    /// A constant.
+    /// Adds a constant.
     pub fn constant(&mut self, value: f64) -> Value {
         self.push(Operation::Constant(Constant::new(value)))
     }
 
-    /// A load.
+    /// Adds a load.
     pub fn load(&mut self, source: Source) -> Value {
         self.push(Operation::Load(source))
     }
 
-    /// a + b
+    /// Adds a + b.
     pub fn add(&mut self, a: Value, b: Value) -> Value {
         match (self.positive(a), self.positive(b)) {
             (Signed(x, true), Signed(y, true)) => {
@@ -88,7 +88,7 @@ impl Builder {
         }
     }
 
-    /// a − b
+    /// Adds a − b.
     pub fn sub(&mut self, a: Value, b: Value) -> Value {
         match (self.positive(a), self.positive(b)) {
             (_, Signed(y, true)) => return self.add(a, y),
@@ -110,7 +110,7 @@ impl Builder {
         }
     }
 
-    /// a b
+    /// Adds a b.
     pub fn mul(&mut self, a: Value, b: Value) -> Value {
         let (Signed(x, minus_a), Signed(y, minus_b)) = (self.positive(a), self.positive(b));
         if minus_a || minus_b {
@@ -127,7 +127,7 @@ impl Builder {
         }
     }
 
-    /// a / b
+    /// Adds a / b.
     pub fn div(&mut self, a: Value, b: Value) -> Value {
         let (Signed(x, minus_a), Signed(y, minus_b)) = (self.positive(a), self.positive(b));
         if minus_a || minus_b {
@@ -142,7 +142,7 @@ impl Builder {
         }
     }
 
-    /// −a
+    /// Adds −a.
     pub fn neg(&mut self, a: Value) -> Value {
         match self.operation(a) {
             Operation::Neg(x) => x,
@@ -151,7 +151,7 @@ impl Builder {
         }
     }
 
-    /// A function of a value.
+    /// Adds a function of a value.
     pub fn call(&mut self, function: Function, a: Value) -> Value {
         let Signed(x, minus) = self.positive(a);
         match function {

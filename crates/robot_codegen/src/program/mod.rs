@@ -51,7 +51,7 @@ pub enum Source {
     Parameter(u32),
     /// A field of the model, which the constructor computed, by its index.
     Field(u32),
-    /// An entry of an input of the function, counted through all its inputs.
+    /// An entry of an input of the function, by an index that runs over all its inputs.
     Input(u32),
     /// The sine of an angle of the function.
     Sin(u32),
@@ -76,7 +76,7 @@ pub enum Operation {
     Div(Value, Value),
     /// −a
     Neg(Value),
-    /// a b + c, with one rounding if the target has the instruction and two elsewhere.
+    /// a b + c, with one rounding if the target has the instruction, otherwise with two.
     MulAdd(Value, Value, Value),
     /// A function of one argument.
     Call(Function, Value),
@@ -112,7 +112,7 @@ impl Operation {
         }
     }
 
-    /// Whether the operation is an operand only: a constant or a load.
+    /// Whether the operation is a constant or a load, which are only operands.
     #[must_use]
     pub fn is_leaf(self) -> bool {
         matches!(self, Operation::Constant(_) | Operation::Load(_))

@@ -51,7 +51,7 @@ pub struct Statements {
 }
 
 impl Statements {
-    /// Names the values of a program and groups its statements.
+    /// Decides which values of a program have names, and groups its statements.
     #[must_use]
     pub fn new(program: &Program, limits: &Limits) -> Statements {
         let named = name_values(program, limits.expression.max(1));

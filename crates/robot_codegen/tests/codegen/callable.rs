@@ -90,7 +90,7 @@ fn wrong_columns_and_states_are_told() {
     assert!(matches!(found[..], [Error::InputLength { expected: 2, found: 3, .. }]));
 }
 
-/// `cargo test -p robot_codegen --test codegen speed -- --nocapture` prints how long a log of states takes.
+/// `cargo test -p robot_codegen --test codegen speed -- --nocapture` prints the time for a log of states.
 #[test]
 fn speed_of_a_log_of_states() {
     let mut random = Random::new(3);

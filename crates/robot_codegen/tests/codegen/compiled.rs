@@ -98,7 +98,7 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
     let graph = Graph::new();
     let spec = support::random::module(&graph, &mut random, 30_000);
     let module = Module::compile(&spec, &Options::default()).unwrap();
-    // A name for each operation: the most statements that the program can have.
+    // Each operation has a name, which gives the most statements that the program can have.
     let limits = Limits { expression: 1, ..LANGUAGE.limits };
     assert!(Statements::new(&module.functions[0].core, &limits).count() > 20_000);
     let states = states(&mut random);

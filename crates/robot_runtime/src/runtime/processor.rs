@@ -24,10 +24,10 @@ pub trait Arithmetic: sealed::Sealed {
     /// `a · b + c`, in one instruction with one rounding if the processor has it.
     fn mul_add<T: Real>(a: T, b: T, c: T) -> T;
 
-    /// [`sin_cos_array`](super::sin_cos_array) with such multiply-adds.
+    /// Does the same as [`sin_cos_array`](super::sin_cos_array), with such multiply-adds.
     fn sin_cos_array<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
 
-    /// [`sin_cos_each`](super::sin_cos_each) with such multiply-adds.
+    /// Does the same as [`sin_cos_each`](super::sin_cos_each), with such multiply-adds.
     fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
 
     /// Whether [`LanesOn`](super::LanesOn) are in vector registers, so that computing the limbs of a robot in lanes is
@@ -102,8 +102,8 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Compiled>()
 }
 
-/// [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64 it is never
-/// inlined if multiply-adds are compiled in.
+/// Does the same as [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64
+/// it is never inlined if multiply-adds are compiled in.
 #[inline(always)]
 pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
     if cfg!(all(target_arch = "x86_64", target_feature = "fma")) {
@@ -112,8 +112,8 @@ pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
     dispatch(kernel)
 }
 
-/// [`dispatch`] for a loop over states, also with AVX-512; never inlined, because the body of such a loop is
-/// vectorized only in a function of its own.
+/// Does the same as [`dispatch`] for a loop over states, also with AVX-512. The kernel is never inlined, because the
+/// body of such a loop is vectorized only in a function of its own.
 #[inline(always)]
 pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]

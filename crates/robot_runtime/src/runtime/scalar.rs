@@ -51,7 +51,7 @@ pub trait Scalar:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// Sign with sgn 0 = 0: −1, 0 or 1, and NaN for NaN. The law of dry friction at rest.
+    /// The sign with sgn 0 = 0: −1, 0 or 1, and NaN for NaN. This is the sign in the law of dry friction.
     #[must_use]
     fn signum0(self) -> Self;
 

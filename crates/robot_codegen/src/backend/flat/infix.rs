@@ -4,7 +4,7 @@ use robot_symbolic::Function as Call;
 
 use super::{Expression, Operator};
 
-/// How a language spells the parts of expressions.
+/// The spelling of the parts of expressions in a language.
 pub trait Spelling {
     /// A constant, given by its absolute value.
     fn constant(&self, size: f64) -> String;

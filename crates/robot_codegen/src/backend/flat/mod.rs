@@ -166,7 +166,7 @@ pub struct Part {
     pub leaving: Vec<String>,
     /// Its statements.
     pub statements: Vec<Statement>,
-    /// Whether it reads fields of the model.
+    /// Whether the body or part reads fields of the model.
     pub reads_fields: bool,
 }
 
@@ -235,7 +235,7 @@ impl Body {
         values.chain(&self.results).for_each(|value| value.each(visit));
     }
 
-    /// Whether it reads fields of the model.
+    /// Whether the body or part reads fields of the model.
     #[must_use]
     pub fn reads_fields(&self) -> bool {
         let mut found = false;

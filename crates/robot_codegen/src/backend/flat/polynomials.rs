@@ -5,7 +5,7 @@ use robot_runtime::trig::{double, single};
 
 use crate::backend::common::Scalar;
 
-/// How a language spells the assignments.
+/// The spelling of the assignments in a language.
 pub trait Arithmetic {
     /// A number of either sign.
     fn number(&self, value: f64) -> String;

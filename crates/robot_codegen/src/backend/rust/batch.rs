@@ -46,7 +46,7 @@ impl Slices {
         self.inputs.iter().map(|(name, ..)| name).chain(self.outputs.iter().map(|(name, _)| name))
     }
 
-    /// The parameters `q: &[[f64; 6]]` and `tau: &mut [[f64; 6]]`.
+    /// Makes parameters such as `q: &[[f64; 6]]` and `tau: &mut [[f64; 6]]`.
     fn slices(&self, scalar: &Type) -> Vec<TokenStream> {
         let inputs = self.inputs.iter().map(|(name, length, _)| {
             let state = syntax::array_type(scalar, *length);
@@ -59,7 +59,7 @@ impl Slices {
         inputs.chain(outputs).collect()
     }
 
-    /// The parameters `q: [&[f64]; 6]` and `mut tau: [&mut [f64]; 6]`.
+    /// Makes parameters such as `q: [&[f64]; 6]` and `mut tau: [&mut [f64]; 6]`.
     fn columns(&self, scalar: &Type) -> Vec<TokenStream> {
         let (read, written): (Type, Type) =
             (parse_quote!(&[#scalar]), parse_quote!(&mut [#scalar]));
@@ -75,7 +75,7 @@ impl Slices {
     }
 }
 
-/// How the states of a block lie in memory.
+/// The layout of the states of a block in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
     /// State by state: `[[f64; 6]; 8]`.
@@ -307,7 +307,7 @@ impl Methods<'_, '_> {
     }
 }
 
-/// `q.len().min(tau.len())`
+/// Makes the smallest of several lengths: `q.len().min(tau.len())`.
 fn least(lengths: impl Iterator<Item = Expr>) -> Option<Expr> {
     lengths.reduce(|a, b| parse_quote!(#a.min(#b)))
 }
@@ -318,7 +318,7 @@ fn suffixed(names: &[&Ident], suffix: &str, slices: &Slices) -> Vec<Ident> {
     names.iter().map(|name| derived(&mut namer, name, suffix)).collect()
 }
 
-/// `((q, qd), tau)`, for `q.iter().zip(qd).zip(tau)`.
+/// Makes the pattern `((q, qd), tau)` for `q.iter().zip(qd).zip(tau)`.
 fn zip_pattern(used: &[&Ident], outputs: &[&Ident]) -> syn::Pat {
     let names = used.iter().chain(outputs).map(|name| syntax::binding(name));
     names.reduce(|pattern, next| parse_quote!((#pattern, #next))).unwrap_or(parse_quote!(_))

@@ -15,7 +15,7 @@ use crate::backend::common::{self, ConstantValue, Scalar};
 use crate::counts::Counts;
 use crate::program::{Operation, Program, Source};
 
-/// The caller's constants.
+/// Makes the caller's constants.
 pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     let items = scope.options.constants.iter().zip(&scope.constants);
     let items = items.map(|(item, name)| {
@@ -54,7 +54,7 @@ pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     items.collect()
 }
 
-/// `pub struct Parameters` if the module has any.
+/// Makes `pub struct Parameters`, if the module has parameters.
 pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     if !scope.has_parameters() {
         return vec![];
@@ -90,7 +90,7 @@ pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     items
 }
 
-/// `pub struct Model` and its constructor.
+/// Makes `pub struct Model` and its constructor.
 pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
     let title = common::markdown_line(&scope.module.name);
     if !scope.has_parameters() {
@@ -208,7 +208,7 @@ fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
     }
 }
 
-/// `let Parameters { g, l1, .. } = *parameters;` with the parameters that the program loads.
+/// Makes `let Parameters { g, l1, .. } = *parameters;` with the parameters that the program loads.
 fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &[Ident]) -> Stmt {
     let loaded: Vec<usize> = program
         .sources()
@@ -245,7 +245,7 @@ fn constructor_doc(scope: &Scope<'_>) -> Vec<String> {
     ]
 }
 
-/// `Model::NOMINAL` if the constructor is `const` and all nominal values are known.
+/// Makes `Model::NOMINAL`, if the constructor is `const` and all nominal values are known.
 fn nominal_model(scope: &Scope<'_>, is_const: bool) -> Option<ImplItem> {
     let mut specs = scope.module.parameters.iter();
     let known = specs.all(|spec| spec.nominal.is_some());

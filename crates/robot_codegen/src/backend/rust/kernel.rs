@@ -84,12 +84,12 @@ impl Methods<'_, '_> {
         (statements, parse_quote!(#runtime::#dispatch(Kernel(self, #(#names),*))))
     }
 
-    /// `::<A>` in a kernel whose multiply-adds depend on the processor.
+    /// The type argument `::<A>` in a kernel whose multiply-adds depend on the processor.
     pub(super) fn arithmetic_argument(&self) -> Option<TokenStream> {
         self.number.has_arithmetic().then(|| quote!(::<A>))
     }
 
-    /// `<A: Arithmetic>` of a method that such a kernel calls.
+    /// The parameter `<A: Arithmetic>` of a method that such a kernel calls.
     pub(super) fn arithmetic_parameter(&self) -> Option<TokenStream> {
         let runtime = self.number.runtime();
         self.number.has_arithmetic().then(|| quote!(<A: #runtime::Arithmetic>))

@@ -87,7 +87,7 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// `[f64; 8]`
+    /// The type of one number in each lane: `[f64; 8]`.
     fn lane_array(&self, slices: &Slices) -> Type {
         let (scalar, lanes) = (self.number.ty(), &slices.lanes);
         parse_quote!([#scalar; #lanes])
@@ -189,7 +189,7 @@ impl Methods<'_, '_> {
         statements
     }
 
-    /// `let q = &lane(q, lane);` for the names.
+    /// Makes `let q = &lane(q, lane);` for each name.
     fn states(&self, names: &[&Ident], layout: Layout) -> Vec<Stmt> {
         let runtime = self.number.runtime();
         let state = |name: &&Ident| match layout {
@@ -273,7 +273,7 @@ impl Methods<'_, '_> {
         ]
     }
 
-    /// `State::set_lane(result, &mut tau, lane);`
+    /// Makes the statements that store the results: `State::set_lane(result, &mut tau, lane);`.
     fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
         if layout == Layout::Lanes && self.has_matrices() {
             return self.entries(slices);

@@ -27,7 +27,7 @@ impl Argument<'_> {
         quote!(#name: #ty)
     }
 
-    /// `let [x, y, z] = center_of_mass;`
+    /// Makes `let [x, y, z] = center_of_mass;` for an array.
     fn take(&self) -> Option<Stmt> {
         let (name, entries) = (&self.name, &self.entries);
         (entries.len() > 1).then(|| parse_quote!(let [#(#entries),*] = #name;))

@@ -58,7 +58,7 @@ impl Variables {
         inputs.filter(|(_, chosen)| **chosen).map(|(input, _)| input).collect()
     }
 
-    /// `let [q1, _, q3] = *q;` for each input whose entries the program loads.
+    /// Makes `let [q1, _, q3] = *q;` for each input whose entries the program loads.
     pub(super) fn take_entries(&self, function: &Function, program: &Program) -> Vec<Stmt> {
         let sources = program.sources();
         let mut entries = self.entries.iter().zip(0..);
@@ -76,7 +76,7 @@ impl Variables {
         statements
     }
 
-    /// `let [q1, q2, q3, _] = *anywhere(q);` for the entries of a lane, for the chosen inputs.
+    /// Makes `let [q1, q2, q3, _] = *anywhere(q);` for the entries of a lane, for each chosen input.
     pub(super) fn take_lane(
         &self,
         function: &Function,
@@ -99,7 +99,7 @@ impl Variables {
         statements
     }
 
-    /// `let [sq1, _] = *s;` and the same for the cosines.
+    /// Makes `let [sq1, _] = *s;` and the same for the cosines.
     pub(super) fn take_angles(&self, program: &Program) -> [Stmt; 2] {
         let sources = program.sources();
         let sines = self.sine.iter().zip(0..);
@@ -109,7 +109,7 @@ impl Variables {
         [take(&self.sines, sines.collect()), take(&self.cosines, cosines.collect())]
     }
 
-    /// `(sq1, cq1)` for each angle.
+    /// Makes the pattern `(sq1, cq1)` for each angle.
     pub(super) fn sines_and_cosines(&self, program: &Program) -> Vec<Pat> {
         let sources = program.sources();
         let pairs = self.sine.iter().zip(&self.cosine).zip(0..);

@@ -9,7 +9,7 @@ use crate::program::{Operation, Program, Stage, Value};
 /// visit all of them, so n queries can visit n² values. Robots with 64 joints stay far below this limit.
 const MAX_VISITS: u64 = 30_000_000;
 
-/// The values that a value is computed from: at most three, stored inline because there are many of these lists.
+/// The values from which a value is computed: at most three, stored inline because there are many of these lists.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Operands {
     values: [Value; 3],
@@ -73,7 +73,7 @@ impl Cones {
         self.early[value.index()]
     }
 
-    /// The values that a value is computed from.
+    /// The values from which a value is computed.
     pub(super) fn operands(&self, value: Value) -> &[Value] {
         &self.operands[value.index()]
     }
@@ -251,7 +251,7 @@ mod tests {
         assert!(gained > 100, "{gained}");
     }
 
-    /// A value that nothing needs gains nothing, and a value depends on itself and its operands.
+    /// The gain of a value that nothing needs is 0, and a value depends on itself and its operands.
     #[test]
     fn dependence_is_along_operands() {
         let mut b = Builder::new();

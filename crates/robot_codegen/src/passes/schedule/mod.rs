@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Each operation once, after its operands, and nothing else.
+    /// Each operation occurs once, after its operands, and there are no others.
     #[test]
     fn no_operation_is_lost_or_made() {
         for seed in 0..100 {

@@ -17,9 +17,9 @@ use super::Reordering;
 use crate::passes::latency::shared_latency;
 use crate::program::{Operation, Program, Value};
 
-/// Products, quotients and calls started in a cycle.
+/// The number of products, quotients and calls that start in a cycle.
 const PRODUCTS: usize = 2;
-/// Sums and changes of sign started in a cycle.
+/// The number of sums and changes of sign that start in a cycle.
 const SUMS: usize = 2;
 /// The number of live values from which on operations that end lives go first: 32 registers, minus a few for
 /// operands from memory.
@@ -29,7 +29,7 @@ fn is_sum(operation: Operation) -> bool {
     matches!(operation, Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_))
 }
 
-/// Cycles from the start of each operation to the last result that waits for it.
+/// The cycles from the start of each operation to the last result that waits for it.
 fn heights(program: &Program) -> Vec<u32> {
     let mut heights = vec![0; program.operations().len()];
     for (value, operation) in program.values().rev() {
@@ -53,7 +53,7 @@ pub(super) fn run(program: &Program) -> Program {
 /// The state of the scheduler.
 struct List<'p> {
     program: &'p Program,
-    /// Cycles from the start of each operation to the last result that waits for it.
+    /// The cycles from the start of each operation to the last result that waits for it.
     height: Vec<u32>,
     /// The operations that use each value, each once.
     users: Vec<Vec<Value>>,
