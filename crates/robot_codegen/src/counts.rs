@@ -1,4 +1,4 @@
-//! Counting operations.
+//! Operation counts of programs and functions.
 
 use robot_symbolic::Function as Call;
 

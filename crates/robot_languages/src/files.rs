@@ -1,4 +1,4 @@
-//! Files and programs.
+//! Helpers that write files and run programs.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -29,7 +29,7 @@ pub struct Tried {
     pub tolerance: f64,
     /// The angles that are changed.
     pub snapped: Vec<Snap>,
-    /// Multiplications, additions and divisions of inverse dynamics with this tolerance, without sines and cosines.
+    /// The multiplications, additions and divisions of inverse dynamics with this tolerance, without sines and cosines.
     pub operations: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Running programs without compiling them.
+//! The interpreter, which runs programs without compiling them.
 //!
 //! The interpreter does the operations of the generated code in `f64`, one by one and in the same order.
 //! It computes values without a compiler, and generated code can be compared with it to the last bit, except

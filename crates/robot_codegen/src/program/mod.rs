@@ -126,7 +126,7 @@ pub enum Stage {
     Constant,
     /// When the parameters are known.
     Parameters,
-    /// At the call.
+    /// At a call.
     Call,
 }
 

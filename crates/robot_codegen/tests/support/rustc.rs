@@ -1,4 +1,4 @@
-//! Compiling and running generated text with the `rustc` that Cargo uses.
+//! Compiles and runs generated text with the `rustc` that Cargo uses.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

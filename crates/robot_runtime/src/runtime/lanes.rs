@@ -31,19 +31,19 @@ pub type F32x8 = Lanes<f32, 8>;
 pub type F32x16 = Lanes<f32, 16>;
 
 impl<T: Scalar, const N: usize> Lanes<T, N> {
-    /// The same number in every lane.
+    /// Puts the same number into every lane.
     #[inline(always)]
     pub const fn splat(value: T) -> Self {
         Self([value; N])
     }
 
-    /// Lane i holds element i.
+    /// Puts element i into lane i.
     #[inline(always)]
     pub const fn from_array(values: [T; N]) -> Self {
         Self(values)
     }
 
-    /// The array whose element i is lane i.
+    /// Returns the array whose element i is lane i.
     #[inline(always)]
     pub const fn to_array(self) -> [T; N] {
         self.0

@@ -19,13 +19,13 @@ use super::scalar::Scalar;
 pub struct LanesOn<A, T, const N: usize, const ONCE: bool>([T; N], PhantomData<fn() -> A>);
 
 impl<A: Arithmetic, T: Real, const N: usize, const ONCE: bool> LanesOn<A, T, N, ONCE> {
-    /// Lane i holds element i.
+    /// Puts element i into lane i.
     #[inline(always)]
     pub const fn from_array(values: [T; N]) -> Self {
         Self(values, PhantomData)
     }
 
-    /// The array whose element i is lane i.
+    /// Returns the array whose element i is lane i.
     #[inline(always)]
     pub const fn to_array(self) -> [T; N] {
         self.0

@@ -151,7 +151,7 @@ pub(super) fn taken(inputs: &[Port]) -> Vec<String> {
         let size = port.size();
         [format!("double x{index}[{size}];"), format!("take_(x{index}, arg[{index}], {size});")]
     });
-    // Declarations first.
+    // Declarations come first.
     let (mut lines, calls): (Vec<_>, Vec<_>) = lines.partition(|line| line.starts_with("double"));
     lines.extend(calls);
     lines
