@@ -1,5 +1,5 @@
-//! `compare`: what `docs/trttr1.md` and `docs/comparing.md` show is what the command prints, and what
-//! `equations` prints is right in every notation.
+//! `compare`: `docs/trttr1.md` and `docs/comparing.md` show the output of the command, and the equations that
+//! `equations` prints are right in every notation.
 
 use serde_json::Value;
 
@@ -14,7 +14,7 @@ fn text(file: &str) -> String {
     std::fs::read_to_string(project(file)).unwrap()
 }
 
-/// What the command prints of the paper's equations, with one part of them replaced.
+/// The output of the command for the equations of the paper, with one part of them replaced.
 fn paper(from: &str, to: &str, format: &str) -> String {
     let printed = text("docs/trttr1.printed");
     assert!(printed.contains(from));

@@ -1,4 +1,4 @@
-//! Names of functions: what can be asked for, everywhere by the same names.
+//! Names of functions, which are the same in all commands.
 
 use robot_build::FunctionKind;
 use serde_json::Value;
@@ -15,7 +15,7 @@ fn arm(test: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// The same without any frame.
+/// An arm without any frame.
 fn bare(test: &str) -> String {
     let text = std::fs::read_to_string(robot("planar_3r")).unwrap();
     let path = folder(test).join("bare.toml");
@@ -41,7 +41,7 @@ fn frames_are_named_as_in_the_file_or_as_in_the_function() {
         assert_eq!(of("Cam"), of("cam"));
         assert_eq!(of("cam-1"), of("cam_1_4"));
         assert_eq!(of("cam.1"), of("cam_1_5"));
-        // Two frames have this name as an identifier.
+        // Two frames have the same name as an identifier.
         let name = format!("{kind}_cam_1");
         let arguments = ["eval", &file, "--function", &name, "--states", "-"];
         let shown = complaint(2, &arguments, STATE);
@@ -81,7 +81,7 @@ fn one_frame_or_link_is_asked_for_alone_everywhere() {
     };
     let generated = functions(&["generate", &file, "--function", "jacobian_Cam,jacobian_2"]);
     assert_eq!(generated, ["jacobian_cam", "jacobian_2"]);
-    // All frames are asked for, and one of them: once.
+    // If all frames and one of them are chosen, each function occurs once.
     let generated = functions(&["generate", &file, "--function", "jacobian_Cam,jacobian"]);
     assert_eq!(generated.len(), 5);
     let bundle = "both=jacobian_cam-1,jacobian_dot_qd_1";

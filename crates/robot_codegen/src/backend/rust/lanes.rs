@@ -1,7 +1,7 @@
 //! A block of states: one loop whose body is the whole function.
 //!
-//! LLVM's loop vectoriser turns it into vectors of states, whatever the order of the statements, where its
-//! vectoriser of straight-line code would find vectors or not by chance.
+//! LLVM's loop vectorizer turns it into vectors of states, for any order of the statements. Its vectorizer for
+//! straight-line code would find vectors only by chance.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -17,7 +17,7 @@ use crate::backend::common::{Scalar, used_inputs};
 use crate::trigonometry::Trigonometry;
 
 impl Methods<'_, '_> {
-    /// What computes a block.
+    /// Prints the methods that compute a block.
     pub(super) fn of_block(
         &mut self,
         slices: &mut Slices,
@@ -54,7 +54,7 @@ impl Methods<'_, '_> {
         vec![chooses, syntax::with_body(signature, loops, value)]
     }
 
-    /// The method of one block in memory.
+    /// Prints the method for one block in memory.
     pub(super) fn block(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
         let lanes = self.lane_array(slices);
         let parameters = slices.inputs.iter().map(|(name, length, _)| {
@@ -87,13 +87,13 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// `[f64; 8]`
+    /// The type of one number in each lane: `[f64; 8]`.
     fn lane_array(&self, slices: &Slices) -> Type {
         let (scalar, lanes) = (self.number.ty(), &slices.lanes);
         parse_quote!([#scalar; #lanes])
     }
 
-    /// The outputs of all states.
+    /// The type of the outputs for all states of a block.
     fn block_type(&self, slices: &Slices, layout: Layout) -> Type {
         let (scalar, array, lanes) = (self.number.ty(), self.lane_array(slices), &slices.lanes);
         let shapes = slices.outputs.iter().map(|(_, shape)| shape);
@@ -110,7 +110,7 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// `q: [&[f64; 8]; 6]`, and the types with a lifetime.
+    /// Returns parameters such as `q: [&[f64; 8]; 6]`, and their types with a lifetime.
     fn block_parameters(
         &self,
         slices: &Slices,
@@ -131,13 +131,13 @@ impl Methods<'_, '_> {
         parameters.unzip()
     }
 
-    /// Whether states are put side by side before a block is computed: LLVM makes no vectors of a loop over sixteen
-    /// states in memory, and such code takes four times as long.
+    /// Whether the states of a block are converted to lanes before it is computed. LLVM does not vectorize a loop over
+    /// sixteen states in memory, and such code takes four times as long.
     fn is_turned(&self, slices: &Slices) -> bool {
         self.scope.options.scalar == Scalar::F32 && slices.count >= 16 && self.dispatched
     }
 
-    /// The states side by side, computed as lanes, and back.
+    /// Prints the conversion of the states to lanes, the computation, and the conversion of the results back to states.
     fn turned(&self, slices: &Slices, names: &BatchNames) -> Vec<Stmt> {
         let (runtime, scalar, lanes) = (self.number.runtime(), self.number.ty(), &slices.lanes);
         let used: Vec<&Ident> = slices.used().collect();
@@ -163,7 +163,7 @@ impl Methods<'_, '_> {
         statements
     }
 
-    /// The loop over the states of a block.
+    /// Prints the loop over the states of a block.
     fn loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
         let lanes = slices.lanes.clone();
         let array = |zero: Expr, length: &Literal| -> Expr { parse_quote!([#zero; #length]) };
@@ -188,7 +188,7 @@ impl Methods<'_, '_> {
         statements
     }
 
-    /// `let q = &lane(q, lane);` for the names.
+    /// Makes `let q = &lane(q, lane);` for each name.
     fn states(&self, names: &[&Ident], layout: Layout) -> Vec<Stmt> {
         let runtime = self.number.runtime();
         let state = |name: &&Ident| match layout {
@@ -207,7 +207,7 @@ impl Methods<'_, '_> {
         let used: Vec<&Ident> = slices.used().collect();
         let states = self.states(&used, layout);
         let (lanes, method) = (&slices.lanes, self.arithmetic_method());
-        // A method that is not a kernel's takes all inputs.
+        // A method that is not called from a kernel takes all inputs.
         let all = slices.inputs.iter().filter(|(_, _, used)| *used || !self.dispatched);
         let arguments = all.map(|(name, ..)| name);
         let unused = slices.inputs.iter().filter(|(_, _, used)| !used && !self.dispatched);
@@ -229,7 +229,7 @@ impl Methods<'_, '_> {
         loops.collect()
     }
 
-    /// The whole function in one loop for each group of stores; what a group does not store is not computed.
+    /// Prints the whole function in one loop for each group of stores; a loop does not compute what it does not store.
     fn one_loop_each(
         &mut self,
         slices: &mut Slices,
@@ -257,8 +257,8 @@ impl Methods<'_, '_> {
         loops.collect()
     }
 
-    /// Sines and cosines of the standard library in a loop of their own, for they are calls, and a
-    /// loop with calls is not vectorised.
+    /// Prints two loops. Sines and cosines of the standard library have a loop of their own, because they are calls,
+    /// and a loop with calls is not vectorized.
     fn two_loops(
         &mut self,
         slices: &mut Slices,
@@ -297,7 +297,7 @@ impl Methods<'_, '_> {
         statements
     }
 
-    /// `State::set_lane(result, &mut tau, lane);`, for each loop its own.
+    /// Makes the statements that store the results, `State::set_lane(result, &mut tau, lane);`, in a group for each loop.
     fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Vec<Stmt>> {
         if layout == Layout::Lanes && self.has_matrices() {
             return self.entries(slices);

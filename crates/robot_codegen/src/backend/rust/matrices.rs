@@ -1,8 +1,9 @@
 //! Matrices among the results of a loop over states.
 //!
-//! LLVM vectorizes such a loop only if it sees that no result is an input of another state, and if it follows every entry
-//! by itself, which it does for up to 250 of them: otherwise a state takes five to ten times as long. So inputs are copied
-//! before the loop, entries are stored one by one, without those that are always 0, and more entries get several loops.
+//! LLVM vectorizes such a loop only if it can prove that no result is an input of another state, and if it tracks
+//! every entry separately, which it does for up to about 250 of them. Otherwise a state takes five to ten times as
+//! long. Therefore inputs are copied before the loop, entries are stored one by one, except those that are always 0, and
+//! several loops store more entries than one can.
 
 use proc_macro2::Ident;
 use syn::{Pat, Stmt, parse_quote};
@@ -21,12 +22,12 @@ const MAX_ENTRIES: usize = 240;
 const MAX_LOOPS: usize = 4;
 
 impl Methods<'_, '_> {
-    /// Whether a result is a matrix and the loop is one for vectors of the processor at hand.
+    /// Whether a result is a matrix and the loop is compiled for several processors.
     pub(super) fn has_matrices(&self) -> bool {
         self.dispatched && self.function.outputs.iter().any(|output| output.shape.len() > 1)
     }
 
-    /// Copies the inputs that a loop over lanes needs, so that they are not where its results are.
+    /// Copies the inputs that a loop over lanes needs, so that they cannot overlap its results.
     pub(super) fn copied(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
         if layout == Layout::States || !self.has_matrices() {
             return vec![];
@@ -40,8 +41,8 @@ impl Methods<'_, '_> {
         copies.collect()
     }
 
-    /// The statements that store the entries of all outputs in lane `lane`, except those that are always 0; for each loop its
-    /// own.
+    /// Makes the statements that store the entries of all outputs in lane `lane`, except those that are always 0, in a
+    /// group for each loop.
     pub(super) fn entries(&self, slices: &Slices) -> Vec<Vec<Stmt>> {
         let core = &self.function.core;
         let is_stored = core.results().iter().map(|value| match core.operation(*value) {
@@ -95,7 +96,7 @@ impl Methods<'_, '_> {
     }
 }
 
-/// `[[a, b], [c, d]]` of the next entries.
+/// Makes a pattern such as `[[a, b], [c, d]]` from the next entries.
 fn shaped_pattern(shape: &[usize], entries: &mut dyn Iterator<Item = Pat>) -> Pat {
     match shape.split_first() {
         None => entries.next().unwrap_or_else(|| parse_quote!(_)),
