@@ -1,5 +1,7 @@
 // Writes the C code that CasADi generates from Pinocchio's algorithms: they run on casadi::SX, and common
-// subexpressions are shared (casadi::cse). casadi_source FOLDER ROBOT.txt...
+// subexpressions are shared (casadi::cse).
+//
+//   casadi_source FOLDER ROBOT.txt...
 //
 // The wheels do not contain pinocchio.casadi for Python; this program does the same without Python. Rotations
 // within 1e-4 of exact ones are made exact, which yields the fastest code with CasADi.

@@ -1,6 +1,6 @@
 // Times inverse dynamics in Rust, in C by two compilers, and in CasADi's C, in turn in one process.
 //
-// languages JOINTS ROUNDS NAME=LIBRARY:SYMBOL...
+//   languages JOINTS ROUNDS NAME=LIBRARY:SYMBOL...
 //
 // The others are compared with the first one; those named casadi have CasADi's interface. Prints the least time of
 // a call over all rounds, its ratio to that of the first, and whether the results have the same bits as those of
