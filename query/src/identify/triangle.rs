@@ -104,7 +104,7 @@ impl WithSimd for Fold<'_> {
             }
             let row = &mut triangle.values[place * size + place..(place + 1) * size];
             let (diagonal, row) = row.split_first_mut().unwrap_or((&mut reflected[0], &mut []));
-            // The sign is opposite to that of the diagonal entry, so that nothing cancels (Golub and Van Loan, section 5.1).
+            // The opposite sign of the diagonal entry, so that nothing cancels (Golub and Van Loan, section 5.1).
             let length = (*diagonal * *diagonal + square).sqrt().copysign(-*diagonal);
             let scale = 1.0 / (*diagonal - length);
             let factor = (length - *diagonal) / length;
