@@ -19,7 +19,7 @@ pub(super) struct UrdfLink<'a> {
     pub(super) tag: Span,
     pub(super) inertial: Option<Inertial>,
     /// Whether the element contains errors, so that content which seems to be missing may be present.
-    pub(super) is_spoiled: bool,
+    pub(super) has_errors: bool,
 }
 
 /// An `<inertial>` in which all values are known.
@@ -48,8 +48,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'_>, node: Node<'a, '_>) -> Option<Ur
     let inertial = element.child(reader, "inertial");
     let inertial = inertial.and_then(|inertial| body(reader, &inertial, name.as_ref()));
     let found = reader.found.get(before..).unwrap_or_default();
-    let is_spoiled = found.iter().any(|found| found.severity == Severity::Error);
-    Some(UrdfLink { name: name?, tag: element.tag(), inertial, is_spoiled })
+    let has_errors = found.iter().any(|found| found.severity == Severity::Error);
+    Some(UrdfLink { name: name?, tag: element.tag(), inertial, has_errors })
 }
 
 fn body(

@@ -67,7 +67,7 @@ pub(super) fn add(
             continue;
         };
         let missing = link.joint.kind.is_some() && !moved.get(*index).copied().unwrap_or(true);
-        if missing && !source.is_spoiled {
+        if missing && !source.has_errors {
             reader.report(massless(source, options));
         }
     }
