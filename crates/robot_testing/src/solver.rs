@@ -44,12 +44,8 @@ pub fn inputs(
 /// of the links.
 pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
     let State { q, qd, qdd, tau, wrenches } = state;
-    let torques = |wrenches: &[robot_numeric::Wrench], friction| {
-        let loads = Loads { wrenches: wrenches.to_vec(), friction };
-        solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
-    };
-    let accelerations =
-        |wrenches| solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec();
+    let Effects { friction, wrench } = kind.effects();
+    let exerted = if wrench { &wrenches[..] } else { &[] };
     let jacobian = |frame: FrameRef| {
         let found = match frame {
             FrameRef::Named(index) => solver.frame_jacobian(q, index),
@@ -68,10 +64,10 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
     // In the solver, gyroscopic rotors are additional links after those of the robot.
     let links = robot.links.len();
     match kind {
-        FunctionKind::InverseDynamics(Effects::NONE) => torques(&[], false),
-        FunctionKind::InverseDynamics(Effects::WRENCH) => torques(wrenches, false),
-        FunctionKind::InverseDynamics(Effects::FRICTION) => torques(&[], true),
-        FunctionKind::InverseDynamics(Effects::BOTH) => torques(wrenches, true),
+        FunctionKind::InverseDynamics(_) => {
+            let loads = Loads { wrenches: exerted.to_vec(), friction };
+            solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
+        }
         FunctionKind::LinkWrenches => {
             contacts(&solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links])
         }
@@ -79,13 +75,11 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::MassMatrixLower => lower(robot, &solver.mass_matrix(q).unwrap()),
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
-        FunctionKind::ForwardDynamics(Effects::NONE) => accelerations(&[]),
-        FunctionKind::ForwardDynamics(Effects::WRENCH) => accelerations(wrenches),
-        FunctionKind::ForwardDynamics(Effects::FRICTION) => {
-            with_friction(robot, solver, state, &[])
+        FunctionKind::ForwardDynamics(_) if friction => {
+            with_friction(robot, solver, state, exerted)
         }
-        FunctionKind::ForwardDynamics(Effects::BOTH) => {
-            with_friction(robot, solver, state, wrenches)
+        FunctionKind::ForwardDynamics(_) => {
+            solver.forward_dynamics(q, qd, tau, exerted).unwrap().as_slice().to_vec()
         }
         FunctionKind::ForwardKinematics => {
             poses(&solver.forward_kinematics(q).unwrap().links[..links])
