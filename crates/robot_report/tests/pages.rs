@@ -82,6 +82,23 @@ fn robots_of_any_size_have_a_page_without_the_long_forms() {
     }
 }
 
+/// The most joints that a robot file may have.
+#[test]
+fn sixty_four_joints_have_a_page_that_says_what_it_leaves_out() {
+    let page = page("chain.toml", &chain(64));
+    let document = parsed(&page);
+    let ids: BTreeSet<&str> = words(&document, "id").collect();
+    for part in ["scheme-link-64", "structure", "motion", "costs"] {
+        assert!(ids.contains(part), "{part}");
+    }
+    let count = loaded(&document).count();
+    assert!(count < 15_000, "{count}");
+    let notes = document.descendants().filter(|node| node.attribute("class") == Some("note"));
+    let notes: Vec<&str> = notes.filter_map(|node| node.text()).collect();
+    assert!(notes.iter().any(|note| note.contains("64 coordinates")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("left out")), "{notes:?}");
+}
+
 #[test]
 fn pages_of_long_arms_load_few_elements_and_one_open_form() {
     for (robot, form, most, math) in [
