@@ -13,7 +13,7 @@ use datafusion::error::Result;
 use super::estimate::{Estimate, Residual, Unidentifiable};
 use crate::error::Error;
 
-/// The fields, in their order.
+/// The fields of the struct.
 fn fields() -> Fields {
     let numbers = || DataType::new_list(DataType::Float64, true);
     let texts = || DataType::new_list(DataType::Utf8, true);

@@ -52,6 +52,16 @@ impl MistakeKind {
             MistakeKind::Factor => "factor",
         }
     }
+
+    /// A number of mistakes of the kind in words, such as `1 sign` or `9 indices`.
+    #[must_use]
+    pub fn counted(self, count: usize) -> String {
+        match (self, count) {
+            (_, 1) => format!("1 {}", self.name()),
+            (MistakeKind::Index, _) => format!("{count} indices"),
+            _ => format!("{count} {}s", self.name()),
+        }
+    }
 }
 
 /// One mistake in a term.

@@ -64,8 +64,8 @@ pub struct EquationOptions {
     pub snap: Option<f64>,
     /// The notation of sines and cosines.
     pub trigonometry: Trigonometry,
-    /// Whether sines and cosines of sums of angles of parallel joints are written, in all forms except
-    /// [`Form::Recursive`]; `None` to write them in all forms except [`Form::Expanded`].
+    /// How sines and cosines of sums of angles of parallel joints are written: kept or expanded. If it is `None`, only
+    /// [`Form::Expanded`] expands them. [`Form::Recursive`] ignores this option.
     pub angle_sums: Option<AngleSums>,
     /// Whether the coefficients in the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out instead of
     /// collected.

@@ -15,7 +15,8 @@ fn is_diagonal(place: usize) -> bool {
     ENTRIES.get(place).is_some_and(|(row, column)| row == column)
 }
 
-/// The ten parameters, in the given frame, of a body that has a unit of one parameter in the file's frame.
+/// The ten parameters, in the given frame, of a body whose parameters in the file's frame are all 0 except the given
+/// one, which is 1.
 pub(super) fn unit_in_frame<'g>(
     frame: &WorkingFrame<'g>,
     parameter: usize,
@@ -24,7 +25,8 @@ pub(super) fn unit_in_frame<'g>(
     unit.about(-frame.origin).turned(frame.axes.transpose()).parameters()
 }
 
-/// The ten parameters, in the file's frame, of a body that has a unit of one moment in the given frame.
+/// The ten parameters, in the file's frame, of a body whose moments in the given frame are all 0 except the given one,
+/// which is 1.
 pub(super) fn unit_in_file<'g>(
     frame: &WorkingFrame<'g>,
     moment: usize,

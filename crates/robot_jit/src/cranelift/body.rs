@@ -37,7 +37,7 @@ struct Body<'l, 'b, 'f> {
     position: usize,
 }
 
-/// Appends the steps; each value has `lanes` numbers, one or two.
+/// Writes the instructions of the list's steps at the cursor; each value has `lanes` numbers, one or two.
 pub(super) fn write(
     list: &List,
     cursor: &mut FuncCursor<'_>,

@@ -67,8 +67,7 @@ fn summary(comparison: &Comparison) -> String {
     for mistake in differences.iter().flat_map(|difference| &difference.mistakes) {
         *kinds.entry(mistake.kind).or_default() += 1;
     }
-    let kinds: Vec<String> =
-        kinds.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+    let kinds: Vec<String> = kinds.iter().map(|(kind, count)| kind.counted(*count)).collect();
     let counted =
         |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let mut shown = counted(*equations, "equation");

@@ -81,7 +81,7 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
         reader.report(
             Diagnostic::note(code::LEFT_OUT, format!("ignored: {}", counts.join(", ")))
                 .at(&root.tag(), "")
-                .because("they do not affect the motion; other files are not read"),
+                .because("they do not affect the motion; files that they name, such as meshes, are not read"),
         );
     }
 }
