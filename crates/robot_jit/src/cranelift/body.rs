@@ -62,6 +62,7 @@ pub(super) fn write(
                 let (pointer, offset) = body.entry(pointers.outputs, entry);
                 body.cursor.ins().store(Body::memory(), value, pointer, offset);
             }
+            Step::StorePair(..) => return Err("values are stored one by one".to_owned()),
         }
     }
     Ok(())

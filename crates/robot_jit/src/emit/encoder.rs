@@ -294,6 +294,16 @@ impl Bytes {
         self.store_to(memory, from);
     }
 
+    /// Stores the first two numbers of a register.
+    pub(super) fn store_pair(&mut self, entry: u32, from: u8) {
+        let memory = Bytes::at(OUTPUTS, i64::from(entry), false);
+        let code = match self.short([from; 2], None).vectors {
+            Vectors::Avx2 => Code::VEX_Vmovupd_xmmm128_xmm,
+            Vectors::Avx512 => Code::EVEX_Vmovupd_xmmm128_k1z_xmm,
+        };
+        self.put(Instruction::with2(code, memory, Register::XMM0 + u32::from(from)));
+    }
+
     /// Puts the first numbers of two values into the lanes of one.
     pub(super) fn pair(&mut self, to: u8, a: u8, b: Operand) {
         let other = if let Operand::Register(b) = b { b } else { 0 };

@@ -116,6 +116,16 @@ pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
                 let freed = body.release(&[*value]);
                 body.free_slot(freed);
             }
+            Step::StorePair(a, b, target) => {
+                let kept = [*a, *b];
+                let first = body.loaded(*a, &kept);
+                let second = body.operand(*b, &kept, true);
+                let freed = body.release(&kept);
+                let to = body.vacant(*a, &[]);
+                body.bytes.pair(to, first, second);
+                body.bytes.store_pair(*target, to);
+                body.free_slot(freed);
+            }
         }
     }
     body.working

@@ -5,6 +5,7 @@ use robot_codegen::program::{Operation, Program, Source};
 use robot_symbolic::Function as Call;
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::stores::Stores;
 use super::{Binary, Home, Id, Instruction, WIDE, Writer};
 
 /// The way in which the sines and cosines of a function's angles are computed.
@@ -50,7 +51,7 @@ pub(crate) fn lower(
         let pairs = lowering.writer.side_by_side(&lowering.angles, inputs);
         lowering.pairs = pairs.into_iter().map(Some).collect();
     }
-    let mut results: Vec<(usize, u32)> = match sines {
+    let results: Vec<(usize, u32)> = match sines {
         Sines::Single => lowering.results(&[]),
         Sines::SideBySide => {
             let rows = lowering.constant_rows();
@@ -58,13 +59,10 @@ pub(crate) fn lower(
             lowering.results(&rows)
         }
     };
-    results.sort_unstable();
-    let mut results = results.into_iter().peekable();
-    // Results are stored as soon as they are known.
+    let operations = function.core.operations().len();
+    let mut stores = Stores::new(results, operations, sines == Sines::SideBySide);
     lowering.values(&function.core, |writer, position, value| {
-        while let Some((_, entry)) = results.next_if(|(result, _)| *result == position) {
-            writer.store(value, entry);
-        }
+        stores.store(writer, position, value);
     })?;
     Ok(())
 }

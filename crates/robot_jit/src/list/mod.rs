@@ -8,6 +8,7 @@ mod lower;
 mod order;
 mod schedule;
 mod side_by_side;
+mod stores;
 
 use rustc_hash::FxHashMap;
 
@@ -121,6 +122,8 @@ pub(crate) enum Step {
     Value(Instruction),
     /// Stores a value in an entry of the outputs, or a wide value in it and the next entries. This step has no value.
     Store(Id, u32),
+    /// Stores two values, which are not wide, to an entry of the outputs and the next one.
+    StorePair(Id, Id, u32),
 }
 
 /// The number of numbers in a wide value.
@@ -205,6 +208,11 @@ impl<'p> Writer<'p> {
 
     pub(crate) fn store(&mut self, value: Id, entry: u32) {
         self.list.push(Step::Store(value, entry), self.wide);
+    }
+
+    /// Stores two values in an entry of the outputs and the next one.
+    fn store_pair(&mut self, values: [Id; 2], entry: u32) {
+        self.list.push(Step::StorePair(values[0], values[1], entry), self.wide);
     }
 
     /// Stores constants in neighboring entries.

@@ -14,6 +14,7 @@ pub(crate) fn operands(step: Step) -> impl Iterator<Item = Id> {
     };
     match step {
         Step::Store(value, _) => add(value),
+        Step::StorePair(a, b, _) => [a, b].into_iter().for_each(add),
         Step::Value(instruction) => match instruction {
             Instruction::Home(_) => {}
             Instruction::Sqrt(a)
@@ -34,7 +35,7 @@ pub(crate) fn operands(step: Step) -> impl Iterator<Item = Id> {
 pub(crate) fn needed(list: &List) -> Vec<bool> {
     let mut needed = vec![false; list.steps.len()];
     for (position, step) in list.steps.iter().enumerate().rev() {
-        needed[position] |= matches!(step, Step::Store(..));
+        needed[position] |= matches!(step, Step::Store(..) | Step::StorePair(..));
         if needed[position] {
             operands(*step).for_each(|value| needed[value.index()] = true);
         }
@@ -57,6 +58,7 @@ impl List {
             let at = |id: Id| moved[id.index()].unwrap_or(id);
             let step = match self.steps[*position] {
                 Step::Store(value, entry) => Step::Store(at(value), entry),
+                Step::StorePair(a, b, entry) => Step::StorePair(at(a), at(b), entry),
                 Step::Value(instruction) => Step::Value(instruction.map(at)),
             };
             moved[*position] = Some(list.push(step, self.wide[*position]));
@@ -72,7 +74,7 @@ impl List {
         let mut done = vec![false; self.steps.len()];
         let (mut order, mut pending) = (vec![], vec![]);
         for (position, step) in self.steps.iter().enumerate() {
-            if let Step::Store(..) = step {
+            if matches!(step, Step::Store(..) | Step::StorePair(..)) {
                 pending.push(position);
             }
             while let Some(top) = pending.last().copied() {
