@@ -74,7 +74,38 @@ impl From<DataFusionError> for Error {
                 Some(status) => lost(status.message()),
                 None => Error::Query(inner.to_string()),
             },
+            root if is_cancelled(root) => lost(&root.strip_backtrace()),
             _ => Error::Engine(error.strip_backtrace()),
         }
+    }
+}
+
+/// Whether a task was cancelled. Only a worker that shuts down cancels its tasks; it reports this as a text, which the
+/// engine passes on in errors of several kinds.
+fn is_cancelled(error: &DataFusionError) -> bool {
+    let text = error.to_string();
+    text.contains("Error joining spawned task") && text.contains("was cancelled")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_worker_that_shuts_down_is_lost() {
+        let text = "Error joining spawned task: task 868 was cancelled";
+        for error in [
+            DataFusionError::Execution(text.to_owned()),
+            DataFusionError::Context(
+                "Parquet".to_owned(),
+                Box::new(DataFusionError::Internal(text.to_owned())),
+            ),
+        ] {
+            let message = Error::from(error).to_string();
+            assert!(message.starts_with("a worker was lost"), "{message}");
+        }
+        let other =
+            Error::from(DataFusionError::Execution("no such column".to_owned())).to_string();
+        assert!(!other.contains("worker"), "{other}");
     }
 }
