@@ -206,7 +206,7 @@ fn line(severity: Severity, code: &str, message: &str) -> String {
 }
 
 /// Returns the problems that are not in `among`.
-fn absent<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
+fn new_problems<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
     let is_new = |one: &&Problem| among.iter().all(|other| other.line != one.line);
     problems.iter().filter(is_new).collect()
 }
