@@ -114,10 +114,10 @@ impl<'g> Subject<'_, 'g> {
 
     /// Compares a value, one value for each coordinate, or a matrix stored column by column with one row for each
     /// coordinate. The tolerance is relative to `size` or, if that is larger, to the largest value.
-    fn hold(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
+    fn assert_agrees(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
         let rows = self.state.q.len();
         if found.len() < rows {
-            return self.hold_rows(what, found, expected, size);
+            return self.assert_rows_agree(what, found, expected, size);
         }
         let by_rows = |values: &[f64]| -> Vec<f64> {
             let columns = values.len() / rows;
@@ -126,15 +126,20 @@ impl<'g> Subject<'_, 'g> {
                 .collect()
         };
         let layout = Layout::new(self.robot, what, &[rows, found.len() / rows]);
-        self.hold_as(&layout, &by_rows(found), &by_rows(expected), size);
+        self.assert_agrees_as(&layout, &by_rows(found), &by_rows(expected), size);
     }
 
     /// Compares values whose rows are not coordinates.
-    fn hold_rows(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
-        self.hold_as(&Layout::new(self.robot, what, &[1, found.len()]), found, expected, size);
+    fn assert_rows_agree(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
+        self.assert_agrees_as(
+            &Layout::new(self.robot, what, &[1, found.len()]),
+            found,
+            expected,
+            size,
+        );
     }
 
-    fn hold_as(&self, layout: &Layout<'_>, found: &[f64], expected: &[f64], size: f64) {
+    fn assert_agrees_as(&self, layout: &Layout<'_>, found: &[f64], expected: &[f64], size: f64) {
         let size = magnitude(expected).max(size).max(1e-3);
         let off = Off::of(layout, found, expected, size);
         assert!(off.error <= TOLERANCE, "{}: {off}", self.name);
@@ -157,7 +162,7 @@ impl<'g> Subject<'_, 'g> {
         let rates = DVector::from_column_slice(&self.state.qd);
         let energy = rates.dot(&(mass * &rates)) / 2.0;
         let kinetic = self.vector(FunctionKind::Energies)[0];
-        self.hold_rows("T of M", &[energy], &[kinetic], 0.0);
+        self.assert_rows_agree("T of M", &[energy], &[kinetic], 0.0);
     }
 
     fn torques(&self) {
@@ -173,11 +178,11 @@ impl<'g> Subject<'_, 'g> {
             [&self.state.qd, &self.state.qdd].map(|entries| DVector::from_column_slice(entries));
         let inertial = mass * accelerations;
         let (sum, size) = (&inertial + &bias, inertial.amax().max(bias.amax()));
-        self.hold("M q̈ + h", sum.as_slice(), torques.as_slice(), size);
+        self.assert_agrees("M q̈ + h", sum.as_slice(), torques.as_slice(), size);
         let wrench_of_unit_rate = coriolis * rates;
         let (sum, size) =
             (&wrench_of_unit_rate + &gravity, wrench_of_unit_rate.amax().max(gravity.amax()));
-        self.hold("C q̇ + g", sum.as_slice(), bias.as_slice(), size);
+        self.assert_agrees("C q̇ + g", sum.as_slice(), bias.as_slice(), size);
     }
 
     fn coriolis_matrix(&self) {
@@ -188,17 +193,17 @@ impl<'g> Subject<'_, 'g> {
         let size = rate.amax().max(coriolis.amax());
         let skew = rate - coriolis * 2.0;
         let opposite = -skew.transpose();
-        self.hold("Ṁ − 2 C", skew.as_slice(), opposite.as_slice(), size);
+        self.assert_agrees("Ṁ − 2 C", skew.as_slice(), opposite.as_slice(), size);
         let rates = DVector::from_column_slice(&self.state.qd);
         let power = rates.dot(&(skew * &rates));
-        self.hold_rows("q̇ᵀ (Ṁ − 2 C) q̇", &[power], &[0.0], size * rates.norm_squared());
+        self.assert_rows_agree("q̇ᵀ (Ṁ − 2 C) q̇", &[power], &[0.0], size * rates.norm_squared());
     }
 
     fn energies(&self) {
         let energies = self.roots(FunctionKind::Energies).concat();
         let gradient = self.slopes(&energies[1..], |state| &mut state.q);
         let gravity = self.vector(FunctionKind::Gravity);
-        self.hold("∂V/∂q", gradient.as_slice(), gravity.as_slice(), 0.0);
+        self.assert_agrees("∂V/∂q", gradient.as_slice(), gravity.as_slice(), 0.0);
         let rate = self.rate(|rate| {
             rate.q.clone_from(&self.state.qd);
             rate.qd.clone_from(&self.state.qdd);
@@ -206,7 +211,7 @@ impl<'g> Subject<'_, 'g> {
         let gain: f64 = derivative(self.robot, &energies, &self.state, &rate).iter().sum();
         let torques = self.vector(FunctionKind::InverseDynamics(Effects::NONE));
         let powers = torques.component_mul(&DVector::from_column_slice(&self.state.qd));
-        self.hold_rows("d(T + V)/dt", &[gain], &[powers.sum()], powers.abs().sum());
+        self.assert_rows_agree("d(T + V)/dt", &[gain], &[powers.sum()], powers.abs().sum());
     }
 
     fn forward_dynamics(&self) {
@@ -219,12 +224,12 @@ impl<'g> Subject<'_, 'g> {
         // The effect of M⁻¹ on rounding errors of torques depends on the condition number of M.
         let inverse = mass.clone().try_inverse().unwrap();
         let size = inverse.norm() * torques.amax().max(bias.amax());
-        self.hold("q̈ after τ", &found, &self.state.qdd, size);
+        self.assert_agrees("q̈ after τ", &found, &self.state.qdd, size);
         let mobility = self.matrix(&self.roots(FunctionKind::ForwardDynamicsDerivatives)[2]);
         let (unity, one) =
             (&mass * &mobility, DMatrix::<f64>::identity(mass.nrows(), mass.nrows()));
         let size = mass.norm() * mobility.norm();
-        self.hold("M ∂q̈/∂τ", unity.as_slice(), one.as_slice(), size);
+        self.assert_agrees("M ∂q̈/∂τ", unity.as_slice(), one.as_slice(), size);
     }
 
     fn jacobians(&self) {
@@ -248,7 +253,7 @@ impl<'g> Subject<'_, 'g> {
                 let spin = Matrix3::from_row_slice(&entries) * turned;
                 let omega = [spin[(2, 1)], spin[(0, 2)], spin[(1, 0)]];
                 let expected = [origin.column(k).as_slice(), &omega].concat();
-                self.hold_rows(
+                self.assert_rows_agree(
                     &format!("J by q{}", k + 1),
                     column.as_slice(),
                     &expected,
@@ -259,7 +264,7 @@ impl<'g> Subject<'_, 'g> {
             let rates = DVector::from_column_slice(&self.state.qd);
             let rate = DMatrix::from_row_slice(6, rates.len(), &rate);
             let (expected, size) = (&rate * &rates, rate.amax() * rates.amax());
-            self.hold_rows("J̇ q̇", &self.values(drift), expected.as_slice(), size);
+            self.assert_rows_agree("J̇ q̇", &self.values(drift), expected.as_slice(), size);
         }
     }
 
@@ -279,7 +284,7 @@ impl<'g> Subject<'_, 'g> {
         for (what, values, derivatives, entries) in ways {
             let expected = self.slopes(values, entries);
             let found = self.matrix(derivatives);
-            self.hold(what, found.as_slice(), expected.as_slice(), 0.0);
+            self.assert_agrees(what, found.as_slice(), expected.as_slice(), 0.0);
         }
     }
 }

@@ -95,7 +95,7 @@ impl Arm {
     }
 
     /// Compares values with those of the fixture; the error is relative to the largest value, or to `least`.
-    fn hold(&mut self, what: &str, found: &[f64], expected: &[f64], least: f64) {
+    fn assert_agrees(&mut self, what: &str, found: &[f64], expected: &[f64], least: f64) {
         let error = largest_difference(found, expected) / magnitude(expected).max(least);
         assert!(error <= TOLERANCE, "{}: {what} is off by {error:e}", self.name);
         let worst = self.worst.entry(what.to_owned()).or_default();
@@ -107,7 +107,7 @@ impl Arm {
             let outputs = self.call(kind.name(), state, inputs);
             assert_eq!(outputs.len(), keys.len());
             for (output, key) in outputs.iter().zip(keys) {
-                self.hold(key, output, &numbers(&state[*key]), 1e-3);
+                self.assert_agrees(key, output, &numbers(&state[*key]), 1e-3);
             }
         }
         // The columns of drives follow those of the links.
@@ -115,7 +115,7 @@ impl Arm {
         let columns = LINK_PARAMETERS * self.programs.robot.links.len();
         let rows = self.programs.robot.degrees_of_freedom();
         let of_links = found.chunks(found.len() / rows).flat_map(|row| row[..columns].to_vec());
-        self.hold("Y", &of_links.collect::<Vec<_>>(), &numbers(&state["Y"]), 1e-3);
+        self.assert_agrees("Y", &of_links.collect::<Vec<_>>(), &numbers(&state["Y"]), 1e-3);
     }
 
     /// Compares the poses of links and frames, and the Jacobians.
@@ -129,8 +129,8 @@ impl Arm {
             for (index, name) in names.iter().enumerate() {
                 let Some(expected) = state["poses"].get(name) else { continue };
                 let (rotation, origin) = (&outputs[0][9 * index..], &outputs[1][3 * index..]);
-                self.hold("poses", &rotation[..9], &numbers(&expected["R"]), 1.0);
-                self.hold("poses", &origin[..3], &numbers(&expected["p"]), 1.0);
+                self.assert_agrees("poses", &rotation[..9], &numbers(&expected["R"]), 1.0);
+                self.assert_agrees("poses", &origin[..3], &numbers(&expected["p"]), 1.0);
                 poses += 1;
             }
         }
@@ -138,9 +138,9 @@ impl Arm {
         for (body, expected) in state["J"].as_object().unwrap() {
             let frame = if frames.contains(body) { body.clone() } else { frame_at(body) };
             let jacobian = self.call(&format!("jacobian_{frame}"), state, &[]).remove(0);
-            self.hold("J", &jacobian, &numbers(expected), 1.0);
+            self.assert_agrees("J", &jacobian, &numbers(expected), 1.0);
             let drift = self.call(&format!("jacobian_dot_qd_{frame}"), state, &[]).remove(0);
-            self.hold("Jdot_v", &drift, &numbers(&state["Jdot_v"][body]), 1.0);
+            self.assert_agrees("Jdot_v", &drift, &numbers(&state["Jdot_v"][body]), 1.0);
         }
     }
 }

@@ -13,7 +13,7 @@ use robot_symbolic::{Expr, Formula, Graph};
 type Entries = (FunctionKind, Vec<String>);
 
 /// Compares functions with formulas, for the default plan of the recursion and for a uniform basic plan.
-fn hold(name: &str, textbook: &[Entries]) {
+fn assert_equal_to_textbook(name: &str, textbook: &[Entries]) {
     let robot = robot_testing::robot(name);
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &MechanismOptions::EXACT, None);
@@ -47,7 +47,7 @@ fn texts(entries: &[&str]) -> Vec<String> {
 #[test]
 fn the_planar_elbow_arm() {
     let h = "(-m2*l1*r2*sin(q2))";
-    hold(
+    assert_equal_to_textbook(
         "planar_2r",
         &[
             (
@@ -178,6 +178,6 @@ fn added(prefix: &str, link: usize) -> String {
 #[test]
 fn planar_chains() {
     for (name, links) in [("planar_2r", 2), ("planar_3r", 3)] {
-        hold(name, &PlanarChain { links }.entries());
+        assert_equal_to_textbook(name, &PlanarChain { links }.entries());
     }
 }

@@ -29,7 +29,7 @@ macro_rules! compare {
     ($robot:ident, $model:expr, $dof:literal) => {{
         let m = $model;
         let (mut size, mut worst) = (0.0_f64, 0.0_f64);
-        let mut hold = |a: f64, b: f64| {
+        let mut note_difference = |a: f64, b: f64| {
             size = size.max(b.abs());
             // NaN is not a small difference.
             worst = if (a - b).is_nan() { f64::INFINITY } else { worst.max((a - b).abs()) };
@@ -42,13 +42,13 @@ macro_rules! compare {
                 (m.inverse_dynamics(&q, &qd, &qdd), m.bias(&q, &qd), m.forward_dynamics(&q, &qd, &tau));
             let mass = m.mass_matrix(&q);
             for i in 0..$dof {
-                hold(all.inverse_dynamics[i], id[i]);
-                hold(all.bias[i], bias[i]);
-                hold(all.forward_dynamics[i], fd[i]);
-                for j in 0..$dof { hold(all.mass_matrix[i][j], mass[i][j]); }
+                note_difference(all.inverse_dynamics[i], id[i]);
+                note_difference(all.bias[i], bias[i]);
+                note_difference(all.forward_dynamics[i], fd[i]);
+                for j in 0..$dof { note_difference(all.mass_matrix[i][j], mass[i][j]); }
             }
-            hold(all.kinetic, energies.kinetic);
-            hold(all.potential, energies.potential);
+            note_difference(all.kinetic, energies.kinetic);
+            note_difference(all.potential, energies.potential);
         }
         println!("{} {:e}", stringify!($robot), worst / size);
     }};

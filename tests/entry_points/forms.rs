@@ -175,7 +175,7 @@ fn cases_text(fused: bool) -> String {
 }
 
 /// Compares the printed values with those of the interpreter; returns whether the program used fused operations.
-fn hold(printed: &str) -> bool {
+fn assert_values_agree(printed: &str) -> bool {
     let mut lines = printed.lines();
     for (robot, dof) in [(UR5, 6), (TRTTR1, 5)] {
         let expected = expected(robot, dof);
@@ -216,7 +216,7 @@ fn every_form_agrees_with_or_without_fused_instructions() {
         assert_eq!(code.contains("mul_add"), fused);
         package.write("src/cases.rs", &code);
         for (flags, fuses) in builds() {
-            assert_eq!(hold(&package.run_with(&["run"], flags)), fuses, "{flags}");
+            assert_eq!(assert_values_agree(&package.run_with(&["run"], flags)), fuses, "{flags}");
         }
     }
 }

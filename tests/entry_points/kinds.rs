@@ -186,7 +186,7 @@ impl Case {
     }
 
     /// Compares the printed lines of this robot with the solver.
-    fn hold<'l>(&self, lines: &mut impl Iterator<Item = &'l str>, worst: &mut Worst) {
+    fn assert_lines_agree<'l>(&self, lines: &mut impl Iterator<Item = &'l str>, worst: &mut Worst) {
         let solver = robot_numeric::Mechanism::nominal(&self.robot).unwrap();
         for (kind, functions) in &self.kinds {
             let name = format!("{}, {}", self.robot.name, kind.name());
@@ -288,7 +288,7 @@ fn every_function_of_every_robot() {
     let mut lines = printed.lines();
     let mut worst = Worst::default();
     for case in &cases {
-        case.hold(&mut lines, &mut worst);
+        case.assert_lines_agree(&mut lines, &mut worst);
     }
     assert_eq!(lines.next(), None);
     println!("| function | f32 | lanes of f64 | lanes of f32 |\n|---|---|---|---|");

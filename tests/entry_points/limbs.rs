@@ -76,7 +76,7 @@ fn main_text(programs: &Programs) -> String {
 }
 
 /// Compares the printed values with those of the interpreter.
-fn hold(programs: &Programs, trigonometry: Trigonometry, printed: &str) {
+fn assert_values_agree(programs: &Programs, trigonometry: Trigonometry, printed: &str) {
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
     let interpreter = interpreter.with_trigonometry(trigonometry);
     let mut lines = printed.lines();
@@ -111,6 +111,6 @@ fn legs_side_by_side_give_the_values_of_legs_apart() {
         assert!(code.contains("LanesOn"), "the legs are apart");
         package.write("src/robot.rs", &code);
         package.write("src/main.rs", &main_text(&programs));
-        hold(&programs, trigonometry, &package.run(&["run"]));
+        assert_values_agree(&programs, trigonometry, &package.run(&["run"]));
     }
 }

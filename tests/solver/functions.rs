@@ -113,7 +113,7 @@ fn check_links(mut robot: Robot, name: &str) {
     let links = (0..robot.links.len()).map(FrameRef::Link);
     let of_links = links
         .flat_map(|link| [FunctionKind::JacobianOf(link), FunctionKind::JacobianDotQdOf(link)]);
-    let hold = |robot: &Robot, kind: FunctionKind| {
+    let assert_agrees = |robot: &Robot, kind: FunctionKind| {
         let graph = Graph::new();
         let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
         let outputs = outputs(&derivation, kind);
@@ -126,13 +126,13 @@ fn check_links(mut robot: Robot, name: &str) {
             assert!(off.error <= TOLERANCE, "{name}, {kind:?} is {off}");
         }
     };
-    of_links.for_each(|kind| hold(&robot, kind));
+    of_links.for_each(|kind| assert_agrees(&robot, kind));
     // Without named frames, the kind alone stands for the last link of each branch.
     robot.frames.clear();
     let last = FrameRef::usual(&robot);
     assert!(!last.is_empty(), "{name}");
-    hold(&robot, FunctionKind::Jacobian);
-    hold(&robot, FunctionKind::JacobianDotQd);
+    assert_agrees(&robot, FunctionKind::Jacobian);
+    assert_agrees(&robot, FunctionKind::JacobianDotQd);
 }
 
 #[test]

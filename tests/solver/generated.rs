@@ -58,12 +58,12 @@ impl Case {
 
     /// Compares values, one list for each state, with the solver; returns the largest error relative to the largest
     /// value.
-    fn hold(&self, kind: FunctionKind, values: &[Vec<f64>]) -> f64 {
+    fn assert_agrees(&self, kind: FunctionKind, values: &[Vec<f64>]) -> f64 {
         let robot = &self.programs.robot;
         let expected: Vec<Vec<f64>> =
             self.states.iter().map(|state| expected(robot, &self.solver, kind, state)).collect();
         if kind == FunctionKind::ForwardDynamics(Effects::NONE) {
-            return self.hold_accelerations(values, &expected);
+            return self.assert_accelerations_agree(values, &expected);
         }
         let size = magnitude(expected.iter().flatten());
         let errors = values.iter().zip(&expected).map(|(a, b)| largest_difference(a, b));
@@ -72,9 +72,10 @@ impl Case {
         worst
     }
 
-    /// Compares values like [`Case::hold`], but by the torques that correspond to the accelerations: the mass matrix of
-    /// dozens of joints is ill-conditioned, so no solver can compute the accelerations themselves to the last digits.
-    fn hold_accelerations(&self, values: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
+    /// Compares values like [`Case::assert_agrees`], but by the torques that correspond to the accelerations: the mass
+    /// matrix of dozens of joints is ill-conditioned, so no solver can compute the accelerations themselves to the last
+    /// digits.
+    fn assert_accelerations_agree(&self, values: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
         let mut worst = 0.0_f64;
         for ((state, values), expected) in self.states.iter().zip(values).zip(expected) {
             let mass = self.solver.mass_matrix(&state.q).unwrap();
@@ -100,7 +101,7 @@ impl Case {
                 outputs.into_iter().flat_map(|output| output.values).collect()
             };
             let values: Vec<Vec<f64>> = self.states.iter().map(run).collect();
-            worst = worst.max(self.hold(kind, &values));
+            worst = worst.max(self.assert_agrees(kind, &values));
         }
         worst
     }
@@ -179,7 +180,7 @@ fn the_compiled_code_of_every_robot_file_and_of_twenty_random_robots() {
                     line.split(' ').map(|bits| f64::from_bits(bits.parse().unwrap())).collect()
                 })
                 .collect();
-            worst = worst.max(case.hold(kind, &values));
+            worst = worst.max(case.assert_agrees(kind, &values));
         }
     }
     assert_eq!(lines.next(), None);

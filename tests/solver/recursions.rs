@@ -38,7 +38,7 @@ fn references(robot: &Robot, random: &mut robot_numeric::random::Random) -> Vec<
         let (q, qd, qdd) = (&state.q, &state.qd, &state.qdd);
         let loads = Loads { wrenches: state.wrenches.clone(), friction: true };
         let links = solver.link_dynamics(q, qd, qdd, &state.wrenches).unwrap();
-        let torsor = |link: &robot_numeric::LinkDynamics| {
+        let wrench = |link: &robot_numeric::LinkDynamics| {
             [link.contact_force, link.contact_moment].map(|vector| [vector.x, vector.y, vector.z])
         };
         Reference {
@@ -48,7 +48,7 @@ fn references(robot: &Robot, random: &mut robot_numeric::random::Random) -> Vec<
                 torques.iter().copied().collect()
             },
             // In the solver, gyroscopic rotors are additional links after those of the robot.
-            link_wrenches: links[..robot.links.len()].iter().flat_map(torsor).flatten().collect(),
+            link_wrenches: links[..robot.links.len()].iter().flat_map(wrench).flatten().collect(),
             state,
         }
     };
@@ -62,14 +62,16 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::ROUNDED);
     let loaded = newton_euler(&mechanism, Effects { wrench: true, friction: true });
     let plain = newton_euler(&mechanism, Effects { wrench: false, friction: false });
-    let torsors: Vec<Expr<'_>> = loaded
+    let components: Vec<Expr<'_>> = loaded
         .wrenches
         .iter()
-        .flat_map(|torsor| [torsor.force.0, torsor.moment.0].concat())
+        .flat_map(|wrench| [wrench.force.0, wrench.moment.0].concat())
         .collect();
     let mut worst = 0.0_f64;
     let (order, links) = (robot.degrees_of_freedom(), robot.links.len());
-    let mut hold = |what: &str, roots: &[Expr<'_>], expected: fn(&Reference) -> &Vec<f64>| {
+    let mut assert_agrees = |what: &str,
+                             roots: &[Expr<'_>],
+                             expected: fn(&Reference) -> &Vec<f64>| {
         let per_joint = [order];
         let shape: &[usize] = if roots.len() == order { &per_joint } else { &[links, 6] };
         // A torque that passes through zero has no relative accuracy of its own, so errors are relative to the robot's
@@ -82,11 +84,13 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
             worst = worst.max(off.error);
         }
     };
-    hold("the paper's Q", &plain.generalized_forces, |reference| &reference.torques);
-    hold("the paper's Q with loads", &loaded.generalized_forces, |r| &r.torques_with_loads);
-    hold("F_l and M_l", &torsors, |reference| &reference.link_wrenches);
+    assert_agrees("the paper's Q", &plain.generalized_forces, |reference| &reference.torques);
+    assert_agrees("the paper's Q with loads", &loaded.generalized_forces, |r| {
+        &r.torques_with_loads
+    });
+    assert_agrees("F_l and M_l", &components, |reference| &reference.link_wrenches);
     let recursion = Recursion::new(&mechanism, &Plan::default_for(robot)).unwrap();
-    hold("the economical Q", &recursion.inverse_dynamics(false), |r| &r.torques);
+    assert_agrees("the economical Q", &recursion.inverse_dynamics(false), |r| &r.torques);
     worst
 }
 

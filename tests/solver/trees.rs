@@ -37,7 +37,13 @@ fn tree(seed: u64) -> Robot {
 }
 
 /// Compares values in each state with expected ones; returns the largest error relative to the largest value.
-fn hold(robot: &Robot, what: &str, seed: u64, found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
+fn assert_agrees(
+    robot: &Robot,
+    what: &str,
+    seed: u64,
+    found: &[Vec<f64>],
+    expected: &[Vec<f64>],
+) -> f64 {
     let size = magnitude(expected.iter().flatten());
     let layout = Layout::per_joint(robot, what);
     let errors = found.iter().zip(expected).map(|(found, expected)| {
@@ -94,9 +100,9 @@ fn check(seed: u64) -> f64 {
     let paper = at_states(&newton_euler(&mechanism, effects).generalized_forces);
     let economical = at_states(&recursion.inverse_dynamics(true));
     [
-        hold(&robot, "the paper's Q", seed, &paper, &expected),
-        hold(&robot, "the economical Q", seed, &economical, &expected),
-        hold(&robot, "the program", seed, &interpreted(&robot, &states), &expected),
+        assert_agrees(&robot, "the paper's Q", seed, &paper, &expected),
+        assert_agrees(&robot, "the economical Q", seed, &economical, &expected),
+        assert_agrees(&robot, "the program", seed, &interpreted(&robot, &states), &expected),
     ]
     .into_iter()
     .fold(0.0, f64::max)

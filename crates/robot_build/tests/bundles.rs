@@ -68,13 +68,13 @@ fn a_bundle_gives_what_its_functions_give_for_less() {
             let robot = robot_build::read(&source).unwrap().robot;
             let has = |kind: &FunctionKind| kind.missing_in(&robot).is_none();
             let kinds: Vec<FunctionKind> = kinds.iter().copied().filter(has).collect();
-            hold(&source, &kinds, percent);
+            assert_bundle_agrees(&source, &kinds, percent);
         }
     }
 }
 
 /// Compares a bundle of functions with the separate functions.
-fn hold(source: &Source, kinds: &[FunctionKind], percent: usize) {
+fn assert_bundle_agrees(source: &Source, kinds: &[FunctionKind], percent: usize) {
     let functions = Functions::Chosen(kinds.to_vec());
     let bundles = vec![bundle("together", kinds)];
     let options = Options { functions, bundles, ..Options::default() };

@@ -44,20 +44,20 @@ fn code_stands_in_code_spans_and_nothing_points_to_a_paper() {
 
 #[test]
 fn a_module_tells_what_else_there_is() {
-    let told = |functions, bundles| {
+    let other_functions = |functions, bundles| {
         let docs = docs(&source("scara"), &Options { functions, bundles, ..Options::default() });
         let line = docs.iter().position(|line| line.contains("`functions = [\"…\"]`"))?;
         Some(docs[line + 1].clone())
     };
-    let usual = told(Functions::Usual, vec![]).unwrap();
+    let usual = other_functions(Functions::Usual, vec![]).unwrap();
     assert!(usual.contains("`mass_matrix`") && usual.contains("`forward_dynamics`"), "{usual}");
     assert!(!usual.contains("`inverse_dynamics`"), "{usual}");
     let functions = vec![FunctionKind::MassMatrix];
     let bundle = Bundle { name: "together".to_owned(), functions };
-    let bundled = told(Functions::Usual, vec![bundle]).unwrap();
+    let bundled = other_functions(Functions::Usual, vec![bundle]).unwrap();
     assert!(
         !bundled.contains("`mass_matrix`") && bundled.contains("`inverse_dynamics`"),
         "{bundled}"
     );
-    assert_eq!(told(Functions::All, vec![]), None);
+    assert_eq!(other_functions(Functions::All, vec![]), None);
 }

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::{RobotFile, shown};
 use robot_check::errata;
-use robot_document::{DIGITS, Equations, Error, Form, Letters, TermOrder, Trigonometry, Unlike};
+use robot_document::{
+    DIGITS, Differences, Equations, Error, Form, Letters, TermOrder, Trigonometry,
+};
 use robot_dynamics::quantity::Kind;
 use robot_model::robot::Robot;
 use robot_symbolic::AngleSums;
@@ -229,25 +231,25 @@ impl EquationArguments {
     }
 
     /// Prints a note that decimals are rounded, if no option asks for it.
-    pub(crate) fn tell_rounding(
+    pub(crate) fn note_rounding(
         &self,
         equations: &Equations,
         terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
-        tell_rounding(equations.rounded && self.digits.is_none(), terminal)
+        note_rounding(equations.rounded && self.digits.is_none(), terminal)
     }
 
     /// Prints how many equations of the file given by `--like` differ from the derived ones.
-    pub(crate) fn tell_unlike(
+    pub(crate) fn note_differences(
         &self,
-        Unlike { foreign, all }: Unlike,
+        Differences { without_common_terms, compared }: Differences,
         terminal: &mut Terminal<'_>,
     ) -> Result<(), Failure> {
-        if let Some(path) = self.like.as_ref().filter(|_| foreign > 0) {
+        if let Some(path) = self.like.as_ref().filter(|_| without_common_terms > 0) {
             let file = shown(path);
             let message = format!(
-                "{foreign} of the {all} equations in {file} have no term in common with those of this robot, which \
-                 are printed in an order of their own; is it the right file for the robot?"
+                "{without_common_terms} of the {compared} equations in {file} have no term in common with those of \
+                 this robot, which are printed in an order of their own; is it the right file for the robot?"
             );
             writeln!(terminal.errors, "warning: {message}")?;
         }
@@ -318,7 +320,7 @@ pub(crate) const NO_DIGITS: &str =
     "--digits has no effect on JSON, whose equations are exact; leave it out";
 
 /// Prints a note that decimals are rounded, if they are.
-pub(crate) fn tell_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+pub(crate) fn note_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if is_rounded {
         let message = "significant digits; --digits 17 prints all";
         writeln!(terminal.errors, "note: decimals are rounded to {DIGITS} {message}")?;

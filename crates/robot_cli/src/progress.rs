@@ -96,10 +96,10 @@ mod tests {
     }
 
     #[test]
-    fn long_work_is_told_of_on_a_terminal_alone() {
-        let told = shown(true);
-        assert!(told.starts_with("\r\x1b[Kthinking: 1 s"), "{told:?}");
-        assert!(told.ends_with("\r\x1b[K"), "{told:?}");
+    fn long_work_is_shown_on_a_terminal_alone() {
+        let text = shown(true);
+        assert!(text.starts_with("\r\x1b[Kthinking: 1 s"), "{text:?}");
+        assert!(text.ends_with("\r\x1b[K"), "{text:?}");
         assert_eq!(shown(false), "");
     }
 

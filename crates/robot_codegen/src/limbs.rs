@@ -159,8 +159,8 @@ fn limb_call(
     let of_lanes: Vec<Vec<f64>> = padded.iter().map(fields_of).collect();
     let mut fields = Fields::default();
     let alone = Function {
-        angles: fields.settle(&alone.angles, &of_lanes),
-        core: fields.settle(&alone.core, &of_lanes),
+        angles: fields.fold_common_fields(&alone.angles, &of_lanes),
+        core: fields.fold_common_fields(&alone.core, &of_lanes),
         ..alone.clone()
     };
     let entries = |limb: &usize| {
@@ -188,7 +188,7 @@ struct Fields {
 
 impl Fields {
     /// Replaces the fields that are the same in all lanes with constants.
-    fn settle(&mut self, program: &Program, of_lanes: &[Vec<f64>]) -> Program {
+    fn fold_common_fields(&mut self, program: &Program, of_lanes: &[Vec<f64>]) -> Program {
         let mut builder = Builder::new();
         let mut values: Vec<Value> = Vec::with_capacity(program.operations().len());
         for (_, operation) in program.values() {

@@ -23,8 +23,8 @@ pub mod robot;
 pub use error::{Centimeters, Error};
 pub use forms::{Array, Cell, Room, Written};
 pub use forms::{
-    Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters, TermOrder, Unlike,
-    equations,
+    Differences, Equation, EquationOptions, Equations, Form, Group, InvalidLetters, Letters,
+    TermOrder, equations,
 };
 pub use layout::{DIGITS, Order, Rank, SymbolTable, Trigonometry};
 pub use layout::{breaking, math, meaning, width};

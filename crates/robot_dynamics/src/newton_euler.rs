@@ -144,9 +144,9 @@ fn inward<'g>(
         mechanism.frames.iter().filter_map(|frame| Some((frame, frame.wrench?)))
     {
         if let (true, Some(link)) = (effects.wrench, frame.link) {
-            let torsor = LinkWrench { force, moment };
+            let wrench = LinkWrench { force, moment };
             wrenches[link] =
-                wrenches[link].plus(torsor.seen_from(frame.rotation, frame.translation));
+                wrenches[link].plus(wrench.seen_from(frame.rotation, frame.translation));
         }
     }
     for (index, link) in mechanism.links.iter().enumerate().rev() {

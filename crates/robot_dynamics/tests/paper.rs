@@ -105,15 +105,15 @@ impl Text {
         Vector3::from(["x", "y", "z"].map(|axis| self.quantities[&format!("{name}.{axis}")]))
     }
 
-    fn hold(&mut self, relation: &str, left: &[f64], right: &[f64]) {
+    fn compare(&mut self, relation: &str, left: &[f64], right: &[f64]) {
         if left.iter().zip(right).any(|(a, b)| (a - b).abs() > TOLERANCE) {
             self.failed.insert(relation.to_owned());
         }
     }
 
-    fn hold_vector(&mut self, relation: &str, left: &str, right: Vector3<f64>) {
+    fn compare_vector(&mut self, relation: &str, left: &str, right: Vector3<f64>) {
         let left = self.vector(left);
-        self.hold(relation, left.as_slice(), right.as_slice());
+        self.compare(relation, left.as_slice(), right.as_slice());
     }
 
     /// Returns the relations that do not hold.
@@ -127,7 +127,7 @@ impl Text {
         for (index, relation) in (1..).zip(["(14)", "(15)", "(16)", "(17)", "(18)"]) {
             let mass = value(&format!("M{index}"));
             let force = self.vector(&format!("a_c{index}")) * mass;
-            self.hold_vector(relation, &format!("F{index}"), force);
+            self.compare_vector(relation, &format!("F{index}"), force);
         }
         let tip = Vector3::from(["Fx6", "Fy6", "Fz6"].map(value));
         let tip_moment = Vector3::from(["Mx6", "My6", "Mz6"].map(value));
@@ -150,9 +150,9 @@ impl Text {
                 ),
             };
             let own = (self.vector(&format!("F{link}")), self.vector(&format!("M_c{link}")));
-            self.hold_vector(of_forces, &format!("F_l{link}"), turn * force + own.0);
+            self.compare_vector(of_forces, &format!("F_l{link}"), turn * force + own.0);
             let sum = turn * moment + r.cross(&(turn * force)) + own.1;
-            self.hold_vector(of_moments, &format!("M_l{link}"), sum);
+            self.compare_vector(of_moments, &format!("M_l{link}"), sum);
         }
         let driving = [
             ("(52)", "(53) Q1", "F_l1.y"),
@@ -163,7 +163,7 @@ impl Text {
         ];
         for (relation, driving, component) in driving {
             let (left, right) = (self.numbered[driving], self.quantities[component]);
-            self.hold(relation, &[left], &[right]);
+            self.compare(relation, &[left], &[right]);
         }
         self.failed
     }

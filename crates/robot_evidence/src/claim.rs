@@ -215,8 +215,8 @@ impl Reader<'_> {
     }
 
     /// Whether a function is one of the runtime's functions that detect the processor.
-    fn asks(&self, place: usize) -> bool {
-        self.name(place).contains("runtime::processor::x86::ask")
+    fn detects_processor(&self, place: usize) -> bool {
+        self.name(place).contains("runtime::processor::x86::detect")
     }
 
     /// The number of a function's conditional jumps that choose between copies of a kernel for different processors.
@@ -247,12 +247,12 @@ impl Reader<'_> {
             measurements.conditional_jumps += listing.conditional_jumps - choices;
             measurements.choices += choices;
             measurements.bytes += listing.bytes;
-            self.judge(*place, takes_slices, &mut violations);
+            self.add_violations(*place, takes_slices, &mut violations);
             for called in &listing.calls {
                 let symbol = match called {
                     Referred::Outside(symbol) => symbol,
                     Referred::Function(place)
-                        if !walk.functions.contains(place) && !self.asks(*place) =>
+                        if !walk.functions.contains(place) && !self.detects_processor(*place) =>
                     {
                         self.name(*place)
                     }
@@ -275,7 +275,12 @@ impl Reader<'_> {
     }
 
     /// Adds the violations in one function.
-    fn judge(&self, place: usize, takes_slices: bool, violations: &mut BTreeSet<Violation>) {
+    fn add_violations(
+        &self,
+        place: usize,
+        takes_slices: bool,
+        violations: &mut BTreeSet<Violation>,
+    ) {
         let (listing, here) = (&self.listings[place], self.name(place).to_owned());
         let jumps = if takes_slices { 0 } else { listing.conditional_jumps - self.choices(place) };
         if jumps > 0 {
@@ -319,7 +324,7 @@ impl Reader<'_> {
         while let Some(place) = walk.functions.get(next) {
             next += 1;
             for callee in self.called(*place).collect::<Vec<_>>() {
-                if self.asks(callee) {
+                if self.detects_processor(callee) {
                     continue;
                 }
                 let is_trigonometry = self.is_trigonometry(callee);

@@ -83,7 +83,7 @@ pub fn prove(
         let object = compiler.compile(&probe, *profile)?;
         let mut module = Module::read(&object, &probe.roots, *profile)?;
         if *profile == Profile::Release {
-            hold_stack(&mut module, &programs, options);
+            check_stack(&mut module, &programs, options);
         }
         Ok(module)
     };
@@ -91,7 +91,7 @@ pub fn prove(
 }
 
 /// Compares the stack of each function with its budget.
-fn hold_stack(module: &mut Module, programs: &Programs, options: &Options) {
+fn check_stack(module: &mut Module, programs: &Programs, options: &Options) {
     for (function, name) in programs.module.functions.iter().zip(names(programs).functions) {
         let limit = max_stack(programs, options, &function.name);
         let path = format!("Model::{name}");

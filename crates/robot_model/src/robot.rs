@@ -103,7 +103,9 @@ pub struct Coordinate {
     pub joint: String,
     /// The kind of the joint: the coordinate is in radians for a revolute joint and in meters for a prismatic one.
     pub kind: JointKind,
-    /// The lower and upper limits, if the file gives them. They only restrict the states at which tests are made.
+    /// The lower and upper limits, if the file gives them. Nothing enforces them. They bound the states that `diff`
+    /// draws, the motion and the sliders of reports, and the trajectories that `robot-query` draws; generated code
+    /// contains them as constants if all coordinates have limits.
     pub limits: Option<[Rational; 2]>,
 }
 

@@ -54,7 +54,7 @@ pub struct Input<'a> {
     /// The evidence from the compiler about the code.
     pub compiled: &'a Compiled,
     /// Compares the programs with an independent solver, or returns the reason why it cannot.
-    pub judge: fn(&Programs) -> Result<Accuracy, String>,
+    pub compare: fn(&Programs) -> Result<Accuracy, String>,
     /// Whether the page contains a moving robot, provided that this adds at most 80 kB.
     pub live: bool,
 }
@@ -120,11 +120,11 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
     let snapped = changed(&robot, input, &snaps, tolerance);
     let symbols = Symbols::of(&robot);
     let lacking = unsolvable(&robot, input.options);
-    let has = |kind: &FunctionKind| {
+    let is_available = |kind: &FunctionKind| {
         let lacks = lacking.iter().any(|lacking| lacking.functions.contains(kind));
         !lacks && kind.missing_in(&robot).is_none()
     };
-    let functions: Vec<FunctionKind> = FUNCTIONS.into_iter().filter(has).collect();
+    let functions: Vec<FunctionKind> = FUNCTIONS.into_iter().filter(is_available).collect();
     let (programs, omitted) = programs_within_limits(input, &functions)?;
     let (live, lacks) = match input.live.then(|| live(input, &robot)) {
         None => (None, None),
@@ -256,7 +256,7 @@ fn costs(input: &Input<'_>, programs: &Programs, notes: [Option<String>; 2]) -> 
 }
 
 fn evidence(input: &Input<'_>, programs: &Programs) -> Section {
-    let mut body = evidence::accuracy(&(input.judge)(programs));
+    let mut body = evidence::accuracy(&(input.compare)(programs));
     body.extend(evidence::compiled(input.compiled));
     Section { id: "evidence", title: "Evidence", body }
 }

@@ -20,7 +20,7 @@ fn page_with(name: &str, text: &str, live: bool) -> String {
         options: &Options::default(),
         snap: 1e-5,
         compiled: &compiled,
-        judge,
+        compare,
         live,
     };
     report(&input).unwrap()
@@ -54,7 +54,7 @@ fn chain(joints: usize) -> String {
     format!("format = 1\n[robot]\nname = \"chain\"\n{links}")
 }
 
-fn judge(programs: &Programs) -> Result<Accuracy, String> {
+fn compare(programs: &Programs) -> Result<Accuracy, String> {
     let worst = robot_check::accuracy::worst(programs)?;
     let worst = worst.into_iter().map(|(function, error)| (function.to_owned(), error)).collect();
     Ok(Accuracy { states: robot_check::accuracy::states(), worst })
@@ -340,7 +340,7 @@ fn hostile_names_are_errors() {
             options: &Options::default(),
             snap: 1e-5,
             compiled: &compiled,
-            judge,
+            compare,
             live: true,
         };
         let message = report(&input).unwrap_err().to_string();
@@ -382,7 +382,7 @@ fn a_page_that_reloads_itself_is_the_same_page() {
             options: &options,
             snap: 1e-5,
             compiled: &compiled,
-            judge,
+            compare,
             live: false,
         })
         .unwrap()

@@ -81,7 +81,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
     pub(crate) fn sample(&self, t: f64) -> Result<(State, Vec<f64>, Vec<f64>), Error> {
         let state = self.system.state(self.method.y());
         let stopped = |cause| Error::Stopped { t, cause };
-        let (tau, Balance { qdd, .. }) = self.system.found(t, &state).map_err(stopped)?;
+        let (tau, Balance { qdd, .. }) = self.system.balance_at(t, &state).map_err(stopped)?;
         self.system.check(&state).map_err(stopped)?;
         Ok((state, qdd, tau))
     }
@@ -155,7 +155,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         let (t, y) = (self.method.t(), self.method.y().clone());
         let stopped = |cause| Error::Stopped { t, cause };
         let state = self.system.state(&y);
-        let (_, found) = self.system.found(t, &state).map_err(stopped)?;
+        let (_, found) = self.system.balance_at(t, &state).map_err(stopped)?;
         let overruns = self.system.overruns(&state, &found);
         let length = t - before;
         let seen = self.system.seen.get() - before;
@@ -202,7 +202,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
     fn choose(&mut self, t: f64, state: &State, ended: Option<&[usize]>) -> Result<(), Error> {
         let stopped = |cause| Error::Stopped { t, cause };
         let Some(friction) = self.system.friction else {
-            return self.system.found(t, state).map(|_| ()).map_err(stopped);
+            return self.system.balance_at(t, state).map(|_| ()).map_err(stopped);
         };
         let mut guess = starting(friction, &state.qd);
         for (index, mode) in self.system.modes.iter().enumerate() {
@@ -215,7 +215,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         let tau = self.system.driving(t, state).map_err(stopped)?;
         let (modes, _) = chosen(friction, state, &tau, guess).map_err(stopped)?;
         self.system.modes = modes;
-        let (_, found) = self.system.found(t, state).map_err(stopped)?;
+        let (_, found) = self.system.balance_at(t, state).map_err(stopped)?;
         self.overruns = self.system.overruns(state, &found);
         Ok(())
     }
@@ -259,7 +259,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
     /// The reason why there is no first step: the largest velocity or acceleration.
     fn too_large(&self, t: f64, y: &[f64]) -> Cause {
         let state = self.system.state(y);
-        let qdd = match self.system.found(t, &state) {
+        let qdd = match self.system.balance_at(t, &state) {
             Ok((_, Balance { qdd, .. })) => qdd,
             Err(cause) => return cause,
         };

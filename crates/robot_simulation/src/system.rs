@@ -79,7 +79,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
     }
 
     /// The joint torques τ, the accelerations q̈, and the friction of held coordinates.
-    pub(crate) fn found(&self, t: f64, state: &State) -> Result<(Vec<f64>, Balance), Cause> {
+    pub(crate) fn balance_at(&self, t: f64, state: &State) -> Result<(Vec<f64>, Balance), Cause> {
         let tau = self.driving(t, state)?;
         let found = match self.friction {
             Some(friction) => balance(friction, state, &tau, &self.modes)?,
@@ -115,7 +115,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
 
     fn derivatives(&self, t: f64, y: &[f64]) -> Result<Vec<f64>, Cause> {
         let state = self.state(y);
-        let (_, found) = self.found(t, &state)?;
+        let (_, found) = self.balance_at(t, &state)?;
         let mut dydt = [&state.qd[..], &found.qdd[..]].concat();
         if self.friction.is_some() {
             for holding in &found.holding {
@@ -125,14 +125,14 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
                 });
                 dydt.push(gained);
             }
-            self.look(t, &state, &found);
+            self.record_end_of_mode(t, &state, &found);
         }
         Ok(dydt)
     }
 
     /// Records the time if a mode seems to have ended. States within a step are only approximate, so this is checked
     /// again with a step to that time.
-    fn look(&self, t: f64, state: &State, found: &Balance) {
+    fn record_end_of_mode(&self, t: f64, state: &State, found: &Balance) {
         let margin = 100.0 * self.tolerance;
         let ended = |(overrun, qd): (Overrun, &f64)| {
             overrun.value > overrun.tolerance + margin * (1.0 + qd.abs())

@@ -56,7 +56,7 @@ pub struct Counter {
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
     /// The number of the last count that reached the node; the other fields belong to that count.
-    met: u64,
+    last_count: u64,
     /// Whether the node depends on symbols that are not free.
     varies: bool,
     /// Whether the node must be computed whenever these symbols change.
@@ -88,8 +88,8 @@ impl Counter {
         let mut pending = roots.to_vec();
         while let Some(id) = pending.pop() {
             let mark = &mut self.marks[id.index()];
-            if mark.met != self.count {
-                *mark = Mark { met: self.count, ..Mark::default() };
+            if mark.last_count != self.count {
+                *mark = Mark { last_count: self.count, ..Mark::default() };
                 found.push(id);
                 pending.extend(nodes[id.index()].operands());
             }

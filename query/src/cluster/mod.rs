@@ -21,7 +21,7 @@ pub use worker::{Listener, serve};
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// The minimum size of a part of a log for another machine, bytes; it takes a few milliseconds to compute.
-pub(crate) const WORTH: usize = 1 << 20;
+pub(crate) const MIN_PART_BYTES: usize = 1 << 20;
 
 /// The machines that compute queries.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

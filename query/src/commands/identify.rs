@@ -12,7 +12,7 @@ use datafusion::physical_plan::collect;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
 use robot_query::identify::{Estimate, Known, Prior};
-use robot_query::log::{Progress, is_whole};
+use robot_query::log::{Progress, check_row_count};
 
 use super::Engine;
 use super::inputs::{Inputs, Opened, explained};
@@ -59,7 +59,7 @@ impl Arguments {
         let Some(estimate) = self.estimate(&session, &opened).await? else {
             return Ok(());
         };
-        is_whole(estimate.rows + estimate.excluded, opened.rows())?;
+        check_row_count(estimate.rows + estimate.excluded, opened.rows())?;
         show(&shown(&estimate))?;
         if let Some(unit) = estimate.unit() {
             eprintln!("warning: the measured torques are {unit}");

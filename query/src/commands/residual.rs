@@ -9,7 +9,7 @@ use datafusion::logical_expr::Expr;
 use datafusion::prelude::ident;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
-use robot_query::log::{Session, is_whole};
+use robot_query::log::{Session, check_row_count};
 use robot_query::residual::{Residuals, Statistics, figure, statistics};
 
 use super::inputs::{Inputs, Opened, explained};
@@ -72,7 +72,7 @@ impl Arguments {
         }
         let found = statistics(table, opened.rows()).await;
         let found = found.map_err(|error| opened.located(error))?;
-        is_whole(found.rows + found.excluded, opened.rows())?;
+        check_row_count(found.rows + found.excluded, opened.rows())?;
         show(&shown(&found, &opened))?;
         match &self.plot {
             Some(path) => self.plot(path, residuals, &opened).await,

@@ -5,7 +5,7 @@ use std::path::Path;
 use datafusion::logical_expr::Expr;
 use datafusion::prelude::DataFrame;
 use robot_query::Error;
-use robot_query::log::{Answer, Log, Question, Resumed, Session, resume, write};
+use robot_query::log::{Answer, FileQuery, Log, Resumed, Session, resume, write};
 
 use super::Engine;
 use super::inputs::{Inputs, Opened, explained};
@@ -66,7 +66,7 @@ impl Rows<'_> {
             table.schema().fields().iter().map(|field| field.name().as_str()).collect();
         let column = (self.column)(&session, &opened)?;
         let filter = self.inputs.filter.as_deref().unwrap_or("true");
-        let question = Question {
+        let question = FileQuery {
             words: format!(
                 "{column} with {} where {filter}, of the robot\n{}",
                 names.join(", "),

@@ -109,7 +109,7 @@ impl Episodes {
         if !self.samples.times.is_empty() {
             self.converted.episodes += 1;
         }
-        self.keep(self.samples.times.len());
+        self.drop_before(self.samples.times.len());
         self.written = 0;
         Ok(())
     }
@@ -149,13 +149,13 @@ impl Episodes {
         self.writer.write(&batch).map_err(|error| Error::file(self.place.path(), error))?;
         self.converted.rows += rows.len() as u64;
         let needed = end.saturating_sub(self.window);
-        self.keep(needed);
+        self.drop_before(needed);
         self.written = end - needed;
         Ok(())
     }
 
     /// Drops the samples before `from`.
-    fn keep(&mut self, from: usize) {
+    fn drop_before(&mut self, from: usize) {
         self.samples.times.drain(..from);
         self.samples.positions.iter_mut().for_each(|column| drop(column.drain(..from)));
         self.torques.iter_mut().flatten().for_each(|column| drop(column.drain(..from)));

@@ -98,13 +98,13 @@ impl Search<'_> {
         let mut rows = None;
         for batch in batches.map_err(|error| failed(&error))? {
             let batch = batch.map_err(|error| failed(&error))?;
-            let wanted = Wanted::of(self, &batch.schema(), path)?;
+            let wanted = CheckedColumns::of(self, &batch.schema(), path)?;
             let arrays = wanted.arrays(&batch, path)?;
             let rows = match &mut rows {
                 Some(rows) => rows,
                 rows => rows.insert(Rows::new(self.model, &wanted)?),
             };
-            rows.look(&wanted, &arrays, batch.num_rows(), row, &mut self.last)?;
+            rows.check_batch(&wanted, &arrays, batch.num_rows(), row, &mut self.last)?;
             row += batch.num_rows() as u64;
         }
         let Some(rows) = rows else { return Ok(row) };
@@ -126,7 +126,7 @@ impl Search<'_> {
 }
 
 /// The columns to check: episode and time, if they are named, then those of the variables that the log has.
-struct Wanted {
+struct CheckedColumns {
     names: Vec<String>,
     has_episode: bool,
     has_time: bool,
@@ -136,8 +136,8 @@ struct Wanted {
     has_all: bool,
 }
 
-impl Wanted {
-    fn of(search: &Search<'_>, schema: &Schema, path: &Path) -> Result<Wanted, Error> {
+impl CheckedColumns {
+    fn of(search: &Search<'_>, schema: &Schema, path: &Path) -> Result<CheckedColumns, Error> {
         let Search { model, names, time, episode, .. } = search;
         let mut wanted: Vec<String> = vec![];
         wanted.extend(episode.map(str::to_owned));
@@ -157,7 +157,7 @@ impl Wanted {
         if factors.is_empty() {
             return Err(Error::file(path, "it has no column of q, qd, qdd or tau"));
         }
-        Ok(Wanted {
+        Ok(CheckedColumns {
             names: wanted,
             has_episode: episode.is_some(),
             has_time: time.is_some(),
@@ -233,7 +233,7 @@ struct Rows {
 }
 
 impl Rows {
-    fn new(model: &Model, wanted: &Wanted) -> Result<Rows, Error> {
+    fn new(model: &Model, wanted: &CheckedColumns) -> Result<Rows, Error> {
         let torques = wanted.has_all.then(|| Torques::new(model)).transpose()?;
         let bounds = if wanted.has_positions { bounds(model) } else { vec![] };
         Ok(Rows { first: [None; KINDS], count: [0; KINDS], bounds, torques })
@@ -245,9 +245,9 @@ impl Rows {
     }
 
     /// Checks the rows of a batch, whose first row in the file is `first`.
-    fn look(
+    fn check_batch(
         &mut self,
-        wanted: &Wanted,
+        wanted: &CheckedColumns,
         arrays: &[ArrayRef],
         rows: usize,
         first: u64,
@@ -287,7 +287,13 @@ impl Rows {
     }
 
     /// Checks a row; returns whether all its values are numbers.
-    fn row(&mut self, wanted: &Wanted, row: &Row<'_>, is_null: bool, last: &mut Last) -> bool {
+    fn row(
+        &mut self,
+        wanted: &CheckedColumns,
+        row: &Row<'_>,
+        is_null: bool,
+        last: &mut Last,
+    ) -> bool {
         if is_null {
             self.note(0, row.row);
             return false;

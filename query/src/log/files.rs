@@ -147,8 +147,8 @@ impl Log {
         let Error::Engine(reason) = &error else {
             return error;
         };
-        match (self.fault(), self.remote()) {
-            (Some(fault), _) => fault,
+        match (self.first_unreadable(), self.remote()) {
+            (Some(unreadable), _) => unreadable,
             (None, Some(path)) => {
                 let advice = "`robot-query check` over a copy names the file and the row group";
                 Error::file(path, format!("{reason}; if a file is not whole, {advice}"))
@@ -159,7 +159,7 @@ impl Log {
 
     /// The first place at which the files cannot be read, which is why a query over them failed.
     #[must_use]
-    pub fn fault(&self) -> Option<Error> {
+    pub fn first_unreadable(&self) -> Option<Error> {
         if self.format == Format::Csv {
             return None;
         }

@@ -7,7 +7,7 @@ use datafusion::prelude::DataFrame;
 use futures::StreamExt;
 
 use super::files::{Log, reader};
-use super::write::{Sink, drain, is_whole};
+use super::write::{Sink, check_row_count, drain};
 use crate::error::Error;
 
 /// The key in a file's metadata whose value describes the query of which the file is the result.
@@ -15,7 +15,7 @@ const KEY: &str = "robot-query";
 
 /// The query that is computed for each file of a log.
 #[derive(Clone, Debug)]
-pub struct Question {
+pub struct FileQuery {
     /// A description of the query with the robot and the columns, which must match that of a result to keep it.
     pub words: String,
     /// Whether the query selects rows, so that a result can have fewer rows than the log.
@@ -44,7 +44,7 @@ pub struct Resumed {
 pub async fn resume(
     log: &Log,
     folder: &Path,
-    question: &Question,
+    query: &FileQuery,
     table: impl AsyncFn(Log) -> Result<DataFrame, Error>,
 ) -> Result<Resumed, Error> {
     std::fs::create_dir_all(folder).map_err(|error| Error::file(folder, error))?;
@@ -63,7 +63,7 @@ pub async fn resume(
     }
     let table = &table;
     let answers = tasks.into_iter().map(|(path, rows, output)| async move {
-        let words = format!("{}\nof {}", question.words, version(&path)?);
+        let words = format!("{}\nof {}", query.words, version(&path)?);
         if output.exists() {
             return kept(&output, &words);
         }
@@ -75,12 +75,12 @@ pub async fn resume(
         let sink = tokio::spawn(drain(stream, sink)).await;
         let sink = sink.map_err(|error| Error::Query(error.to_string()))??;
         let rows_found = sink.rows();
-        is_whole(rows_found, (!question.filtered).then_some(rows))?;
+        check_row_count(rows_found, (!query.filtered).then_some(rows))?;
         sink.finish()?;
         Ok(Resumed { computed: rows_found, kept: 0 })
     });
     let mut found = Resumed::default();
-    let mut answers = futures::stream::iter(answers).buffer_unordered(question.threads.max(1));
+    let mut answers = futures::stream::iter(answers).buffer_unordered(query.threads.max(1));
     while let Some(answer) = answers.next().await {
         let Resumed { computed, kept } = answer?;
         found.computed += computed;

@@ -11,7 +11,7 @@ use datafusion_distributed::{DistributedExt, SessionStateBuilderExt};
 
 use super::files::{Format, Log};
 use super::stores::Stores;
-use crate::cluster::{Texts, WORTH, Workers};
+use crate::cluster::{MIN_PART_BYTES, Texts, Workers};
 use crate::error::Error;
 use crate::robots::Robots;
 use crate::{derivative, functions, identify};
@@ -76,7 +76,7 @@ impl Session {
             builder = builder
                 .with_distributed_worker_resolver(workers)
                 .with_distributed_planner()
-                .with_distributed_file_scan_config_bytes_per_partition(WORTH)?;
+                .with_distributed_file_scan_config_bytes_per_partition(MIN_PART_BYTES)?;
         }
         let mut context = SessionContext::new_with_state(builder.build()).enable_url_table();
         let robots = Arc::new(robots);

@@ -134,7 +134,7 @@ impl Names {
             [name] if name.contains("{}") => {
                 let wanted: Vec<String> = by_joints(name, model);
                 format!(
-                    "the log has not the columns {} for {meaning} of {robot}",
+                    "the log does not have the columns {} for {meaning} of {robot}",
                     wanted.join(", ")
                 )
             }

@@ -88,7 +88,7 @@ pub async fn write(table: DataFrame, answer: &Answer, wanted: Option<u64>) -> Re
         }
     }
     let rows = sinks.iter().map(|sink| sink.rows).sum();
-    is_whole(rows, wanted)?;
+    check_row_count(rows, wanted)?;
     sinks.into_iter().try_for_each(Sink::finish)?;
     Ok(rows)
 }
@@ -99,7 +99,7 @@ pub async fn write(table: DataFrame, answer: &Answer, wanted: Option<u64>) -> Re
 /// # Errors
 ///
 /// Another number of rows.
-pub fn is_whole(rows: u64, wanted: Option<u64>) -> Result<(), Error> {
+pub fn check_row_count(rows: u64, wanted: Option<u64>) -> Result<(), Error> {
     match wanted.filter(|wanted| *wanted != rows) {
         None => Ok(()),
         Some(wanted) => Err(Error::Query(format!(

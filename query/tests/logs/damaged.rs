@@ -40,8 +40,8 @@ fn a_damaged_row_group_is_named() {
     fs::write(&path, bytes).unwrap();
     let log = Log::open(std::slice::from_ref(&path)).unwrap();
     assert!(identified(1, log.files(), &robot("planar_2r"), "").is_err());
-    let fault = log.fault().unwrap().to_string();
-    assert!(fault.contains("log.parquet, row group 2: it cannot be read"), "{fault}");
+    let unreadable = log.first_unreadable().unwrap().to_string();
+    assert!(unreadable.contains("log.parquet, row group 2: it cannot be read"), "{unreadable}");
 }
 
 /// A log of the planar arm in row groups of 100 rows; a function defines the value of each variable in each row.

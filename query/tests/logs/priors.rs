@@ -56,8 +56,8 @@ fn a_known_parameter_is_weighed_as_a_measurement() {
     let place = place(&free, name);
     let (value, deviation) = (free.values[place], free.deviations[place].unwrap());
     // The prior is as accurate as the measurement and five deviations away, so the estimate is the mean of both.
-    let told = value + 5.0 * deviation;
-    let more = format!(", 0.5, '{name}={told}:{}'", deviation / free.scale);
+    let prior = value + 5.0 * deviation;
+    let more = format!(", 0.5, '{name}={prior}:{}'", deviation / free.scale);
     let found = identified(1, &files, &path, &more).unwrap();
     let moved = (found.values[place] - value) / deviation;
     assert!((moved - 2.5).abs() < 1e-6, "{moved}");

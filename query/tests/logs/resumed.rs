@@ -4,13 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use robot_query::Error;
-use robot_query::log::{Log, Question, Resumed, resume};
+use robot_query::log::{FileQuery, Log, Resumed, resume};
 use tokio::runtime::Runtime;
 
 use super::support::{files, generation, log, robot, session};
 
 fn torques(log: &Log, folder: &Path, words: &str, limit: &str) -> Result<Resumed, Error> {
-    let question = Question { words: words.to_owned(), filtered: false, threads: 2 };
+    let question = FileQuery { words: words.to_owned(), filtered: false, threads: 2 };
     let path = robot("planar_2r");
     let query =
         format!("SELECT t, inverse_dynamics('{path}', q, qd, qdd) AS torque FROM log {limit}");

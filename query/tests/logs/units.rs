@@ -36,7 +36,7 @@ fn columns_of_any_names_are_found() {
     assert!(error.contains("n0 to n2, one more than planar_2r has joints"), "{error}");
     for (names, wanted) in [
         (vec!["p"], "no column `p` with a list, nor p1 to p2"),
-        (vec!["p{}"], "the log has not the columns p1, p2"),
+        (vec!["p{}"], "the log does not have the columns p1, p2"),
         (vec!["B", "c"], "the log has no column `c`"),
         (vec!["B", "n1", "n2"], "--q names 3 columns"),
     ] {

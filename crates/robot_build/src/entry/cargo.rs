@@ -52,7 +52,7 @@ impl Directives {
     /// it would then get an error about this directive instead.
     pub(crate) fn errors(&mut self, errors: &Errors) {
         let declared = std::env::var("CARGO_PKG_RUST_VERSION").unwrap_or_default();
-        for problem in errors.problems().iter().filter(|_| knows_errors(&declared)) {
+        for problem in errors.problems().iter().filter(|_| supports_errors(&declared)) {
             self.line("cargo::error", &problem.headline);
         }
     }
@@ -94,7 +94,7 @@ impl Directives {
 }
 
 /// Whether Cargo of a declared version, such as `1.84`, supports `cargo::error`; true if none is declared.
-fn knows_errors(declared: &str) -> bool {
+fn supports_errors(declared: &str) -> bool {
     let mut numbers = declared.split('.').map_while(|number| number.parse::<u32>().ok());
     match (numbers.next(), numbers.next()) {
         (Some(major), Some(minor)) => (major, minor) >= (1, 84),
@@ -107,8 +107,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn old_packages_are_not_told_of_a_directive_that_they_refuse() {
-        for (declared, knows) in [
+    fn old_packages_get_no_directive_that_they_refuse() {
+        for (declared, supports) in [
             ("", true),
             ("1.84", true),
             ("1.95.0", true),
@@ -116,7 +116,7 @@ mod tests {
             ("1.83.9", false),
             ("1.70", false),
         ] {
-            assert_eq!(knows_errors(declared), knows, "{declared}");
+            assert_eq!(supports_errors(declared), supports, "{declared}");
         }
     }
 

@@ -59,7 +59,7 @@ fn spoiled(term: &str) -> Vec<String> {
 }
 
 /// The messages about the equation with the number 2.
-fn told(text: &str) -> String {
+fn messages(text: &str) -> String {
     let found = compared(&robot("planar_2r"), text).unwrap_or_else(|error| panic!("{text}{error}"));
     let mut shown = String::new();
     for one in found.differences.into_iter().filter(|one| one.number == "2") {
@@ -90,11 +90,11 @@ fn messages_about_spoiled_terms() {
             // A sign after another sign is not a valid formula.
             let text = format!("# As printed.\n(2) Q2 = {}\n{BESIDE}", own.join("\n  + "));
             let text = text.replace("+ -", "- ");
-            let _ = write!(shown, "{term} as {wrong}\n{}", told(&text));
+            let _ = write!(shown, "{term} as {wrong}\n{}", messages(&text));
             if number < 4 {
                 let whole =
                     format!("(6) M_l2.z = {}\n{text}", TERMS.join(" + ")).replace("+ -", "- ");
-                let _ = write!(shown, "  with the same term elsewhere\n{}", told(&whole));
+                let _ = write!(shown, "  with the same term elsewhere\n{}", messages(&whole));
             }
         }
     }

@@ -10,7 +10,7 @@ use serde_json::{Map, Value, json};
 use crate::Terminal;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
-use crate::forms::{NO_DIGITS, failed, tell_rounding};
+use crate::forms::{NO_DIGITS, failed, note_rounding};
 use crate::robot::RobotArgument;
 use crate::text;
 
@@ -69,7 +69,7 @@ impl Arguments {
         let exact = base(&robot, self.robot.snap()).map_err(failed)?;
         let (set, is_rounded) = exact.readable(self.digits.map_or(DIGITS, usize::from));
         if !matches!(self.format, Format::Json) {
-            tell_rounding(is_rounded && self.digits.is_none(), terminal)?;
+            note_rounding(is_rounded && self.digits.is_none(), terminal)?;
         }
         let displayed =
             |notation| self.layout.displayed(&robot.name, &[set.group()], notation).map_err(failed);

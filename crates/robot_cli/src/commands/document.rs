@@ -116,11 +116,11 @@ impl Arguments {
             snaps: &snaps,
         };
         let document = document(&robot, &options, &forms, extras).map_err(failed)?;
-        tell_length(&document, &forms, terminal)?;
+        note_length(&document, &forms, terminal)?;
         if self.equations.inputs().is_some() {
             let options = EquationOptions { form: Form::Expanded, ..options };
             let again = equations(&robot, &options).map_err(failed)?;
-            self.equations.tell_unlike(again.unlike, terminal)?;
+            self.equations.note_differences(again.differences, terminal)?;
         }
         let shown = match format {
             Format::Latex => commented("% ", "", latex::document(&document, page)),
@@ -151,7 +151,7 @@ impl Arguments {
 const LONG: usize = 300;
 
 /// Prints a note that other forms are shorter, if the document is long.
-fn tell_length(
+fn note_length(
     document: &Document,
     forms: &[Form],
     terminal: &mut Terminal<'_>,

@@ -76,9 +76,9 @@ impl Arguments {
         let equations =
             watched("deriving", terminal, || equations(&robot, &options)).map_err(failed)?;
         self.equations.check_layout(&equations)?;
-        self.equations.tell_unlike(equations.unlike, terminal)?;
+        self.equations.note_differences(equations.differences, terminal)?;
         if !matches!(self.format, Format::Json) {
-            self.equations.tell_rounding(&equations, terminal)?;
+            self.equations.note_rounding(&equations, terminal)?;
         }
         let has_arrays = self.equations.has_arrays(&forms, typeset);
         let displayed = |notation| {

@@ -95,7 +95,14 @@ impl Arguments {
             compiled(source, options)?
         };
         let live = !self.without_live;
-        Ok(report(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge, live })?)
+        Ok(report(&Input {
+            source,
+            options,
+            snap: PRINT_SNAP,
+            compiled: &compiled,
+            compare: compare_with_solver,
+            live,
+        })?)
     }
 }
 
@@ -109,7 +116,7 @@ fn show(path: &Path) -> Result<(), Failure> {
 }
 
 /// Compares the programs with the numeric solver; returns the largest deviations.
-pub(crate) fn judge(programs: &Programs) -> Result<Accuracy, String> {
+pub(crate) fn compare_with_solver(programs: &Programs) -> Result<Accuracy, String> {
     let worst = robot_check::accuracy::worst(programs)?;
     let worst = worst.into_iter().map(|(function, error)| (function.to_owned(), error)).collect();
     Ok(Accuracy { states: robot_check::accuracy::states(), worst })

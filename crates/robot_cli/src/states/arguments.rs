@@ -50,7 +50,7 @@ impl StateArguments {
             };
             let option = format!("--{}", variable.name());
             // A wrong array counts as given, so that it is not also reported as missing.
-            let array = state.give(index);
+            let array = state.begin_array(index);
             match of_joints(&option, text, variable, robot) {
                 Ok(values) => {
                     wrong.extend(miscounted(&option, &values, &robot.symbols(variable)));
@@ -65,7 +65,7 @@ impl StateArguments {
                     let name = &layout.arrays[index].name;
                     wrong.push(format!("--wrench: `{name}` is given twice"));
                 }
-                Ok((index, values)) => *state.give(index) = values,
+                Ok((index, values)) => *state.begin_array(index) = values,
                 Err(found) => wrong.extend(found),
             }
         }

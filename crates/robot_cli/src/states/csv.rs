@@ -15,13 +15,13 @@ pub(super) fn read<'l>(
     sink: &mut dyn Sink<'l>,
 ) -> Result<(), Failure> {
     let Some((_, header)) = lines.next_line()? else {
-        sink.wrong("there are no states".to_owned());
+        sink.error("there are no states".to_owned());
         return Ok(());
     };
     let header = cells(header);
     let errors = header_errors(&header, layout);
     if !errors.is_empty() {
-        errors.into_iter().for_each(|error| sink.wrong(error));
+        errors.into_iter().for_each(|error| sink.error(error));
         return Ok(());
     }
     let columns = Columns::of(&header, layout);
@@ -30,10 +30,10 @@ pub(super) fn read<'l>(
         state.clear(Place::Line(number));
         let is_right = numbers(line, &mut found) && found.len() == columns.names.len();
         let is_state = if is_right {
-            columns.give(&found, &mut state);
+            columns.set(&found, &mut state);
             true
         } else {
-            columns.give_cells(&cells(line), &mut state, sink)
+            columns.set_cells(&cells(line), &mut state, sink)
         };
         if is_state && sink.state(&mut state).is_break() {
             break;
@@ -88,15 +88,15 @@ impl Columns {
     }
 
     /// Sets the arrays of a state.
-    fn give(&self, numbers: &[f64], state: &mut State<'_>) {
+    fn set(&self, numbers: &[f64], state: &mut State<'_>) {
         for (index, columns) in &self.arrays {
-            state.give(*index).extend(columns.iter().map(|column| numbers[*column]));
+            state.begin_array(*index).extend(columns.iter().map(|column| numbers[*column]));
         }
     }
 
     /// Adds the cells that are numbers to the state, and reports the others as errors; returns whether the number of
     /// cells is that of the columns.
-    fn give_cells<'l>(
+    fn set_cells<'l>(
         &self,
         cells: &[&str],
         state: &mut State<'l>,
@@ -104,17 +104,17 @@ impl Columns {
     ) -> bool {
         let (place, entries, expected) = (state.place, cells.len(), self.names.len());
         if entries != expected {
-            sink.wrong(format!("{place}: {entries} entries, but the header has {expected}"));
+            sink.error(format!("{place}: {entries} entries, but the header has {expected}"));
             return false;
         }
         for (index, columns) in &self.arrays {
-            let array = state.give(*index);
+            let array = state.begin_array(*index);
             for column in columns {
                 match number(cells[*column]) {
                     Some(entry) => array.push(entry),
                     None => {
                         let (name, cell) = (&self.names[*column], quote(cells[*column]));
-                        sink.wrong(format!("{place}: `{name}` is `{cell}`, not a number"));
+                        sink.error(format!("{place}: `{name}` is `{cell}`, not a number"));
                     }
                 }
             }

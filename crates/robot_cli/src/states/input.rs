@@ -203,9 +203,9 @@ impl<'l> Sink<'l> for Search {
         if self.0 { std::ops::ControlFlow::Break(()) } else { std::ops::ControlFlow::Continue(()) }
     }
 
-    fn wrong(&mut self, _: String) {}
+    fn error(&mut self, _: String) {}
 
-    fn none(&mut self, _: String) {}
+    fn no_states(&mut self, _: String) {}
 }
 
 /// The number of bytes that were read for one element of an array, which must not exceed a mebibyte.

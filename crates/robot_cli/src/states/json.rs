@@ -31,12 +31,12 @@ pub(super) fn read<'l>(
     let has_stopped = elements.has_stopped;
     match read.and_then(|()| if has_stopped { Ok(()) } else { json.end() }) {
         Ok(()) if is_array => {}
-        Ok(()) => sink.none("expected an array of states, [{\"q\": […], …}, …]".to_owned()),
+        Ok(()) => sink.no_states("expected an array of states, [{\"q\": […], …}, …]".to_owned()),
         Err(_) if has_stopped => {}
         Err(error) if error.classify() == Category::Io => {
             return Err(Failure::input(std::io::Error::from(error).to_string()));
         }
-        Err(error) => sink.none(format!("this is not JSON: {error}")),
+        Err(error) => sink.no_states(format!("this is not JSON: {error}")),
     }
     Ok(())
 }
@@ -72,7 +72,7 @@ impl<'de> Visitor<'de> for &mut Elements<'_, '_> {
             number += 1;
             self.budget.renew(number);
             let Node::Object(object) = element else {
-                self.sink.wrong(format!("{place}: expected an object, not {}", element.kind()));
+                self.sink.error(format!("{place}: expected an object, not {}", element.kind()));
                 continue;
             };
             given.clear(place);
@@ -96,15 +96,15 @@ fn state<'l>(
     let place = state.place;
     for (index, (key, value)) in object.iter().enumerate() {
         if object[..index].iter().any(|(earlier, _)| earlier == key) {
-            sink.wrong(format!("{place}: `{}` is given twice", quote(key)));
+            sink.error(format!("{place}: `{}` is given twice", quote(key)));
             continue;
         }
         let Some(index) = layout.position(key) else {
-            sink.wrong(format!("{place}: {}", text::unknown("key", key, &layout.names())));
+            sink.error(format!("{place}: {}", text::unknown("key", key, &layout.names())));
             continue;
         };
-        let found = entries(value, layout.arrays[index].columns.len(), state.give(index));
-        found.into_iter().for_each(|error| sink.wrong(format!("{place}: `{key}` {error}")));
+        let found = entries(value, layout.arrays[index].columns.len(), state.begin_array(index));
+        found.into_iter().for_each(|error| sink.error(format!("{place}: `{key}` {error}")));
     }
 }
 

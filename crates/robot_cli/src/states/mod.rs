@@ -74,10 +74,10 @@ pub(crate) trait Sink<'l> {
     fn state(&mut self, state: &mut State<'l>) -> ControlFlow<()>;
 
     /// Receives a message about an error in the whole input, or in a state before that state is received.
-    fn wrong(&mut self, message: String);
+    fn error(&mut self, message: String);
 
     /// Receives the reason why there are no states at all; all earlier states and messages become invalid.
-    fn none(&mut self, message: String);
+    fn no_states(&mut self, message: String);
 }
 
 impl<'l> State<'l> {
@@ -94,7 +94,7 @@ impl<'l> State<'l> {
     }
 
     /// Marks an array as given, by its index in the layout, and returns it empty.
-    fn give(&mut self, index: usize) -> &mut Vec<f64> {
+    fn begin_array(&mut self, index: usize) -> &mut Vec<f64> {
         let array = &mut self.arrays[index];
         array.are_given = true;
         array.entries.clear();

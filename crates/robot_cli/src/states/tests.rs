@@ -21,11 +21,11 @@ impl Sink<'static> for Collected {
         ControlFlow::Continue(())
     }
 
-    fn wrong(&mut self, message: String) {
+    fn error(&mut self, message: String) {
         self.errors.push(message);
     }
 
-    fn none(&mut self, message: String) {
+    fn no_states(&mut self, message: String) {
         *self = Collected { states: vec![], errors: vec![message] };
     }
 }

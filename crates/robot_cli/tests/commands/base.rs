@@ -12,7 +12,7 @@ fn base(name: &str, frames: &str) -> Value {
 }
 
 /// Checks that the formula of a base parameter agrees with its coefficients, and that both can be read back.
-fn hold(entry: &Value) {
+fn assert_formula_agrees(entry: &Value) {
     let parse = |text: &Value| Formula::parse(text.as_str().unwrap()).unwrap();
     parse(&entry["value"]);
     // Each name has a different value, so that the coefficients must be those of the formula.
@@ -32,7 +32,7 @@ fn formulas_and_values_read_back() {
         let list = set["base"].as_array().unwrap();
         assert_eq!(list.len(), count, "{name}");
         for entry in list {
-            hold(entry);
+            assert_formula_agrees(entry);
             let kept =
                 set["standard"][entry["column"].as_u64().unwrap() as usize].as_str().unwrap();
             assert_eq!(entry["name"].as_str().unwrap().replacen("R_", "_", 1), kept);
@@ -49,7 +49,7 @@ fn moments_in_other_frames_are_written_in_the_parameters_of_the_file() {
         let list = set["base"].as_array().unwrap();
         assert_eq!(list.len(), count, "{name}");
         for entry in list {
-            hold(entry);
+            assert_formula_agrees(entry);
             let drive = entry["name"].as_str().unwrap().starts_with(['F', 'I']);
             assert_eq!(entry["column"].is_null(), !drive, "{name}: {entry}");
         }
@@ -123,6 +123,6 @@ fn what_is_out_of_reach_is_told() {
     let (first, second) = text.split_once("name = \"2\"").unwrap();
     let second = second.replacen("axis = \"z\"", "axis = \"z\", mimic = { joint = \"1\" }", 1);
     std::fs::write(&path, format!("{first}name = \"2\"{second}")).unwrap();
-    let told = complaint(1, &["base", path.to_str().unwrap()], "");
-    assert!(told.contains("joints share a coordinate"), "{told}");
+    let errors = complaint(1, &["base", path.to_str().unwrap()], "");
+    assert!(errors.contains("joints share a coordinate"), "{errors}");
 }

@@ -283,8 +283,8 @@ fn a_symbol_with_the_name_of_a_base_parameter_is_refused() {
     let text = std::fs::read_to_string(robot("planar_2r")).unwrap().replace("r1", "ZZR_1");
     let path = crate::folder("taken").join("arm.toml");
     std::fs::write(&path, text).unwrap();
-    let told = complaint(1, &["equations", path.to_str().unwrap(), "--form", "regrouped"], "");
-    assert!(told.contains("defines a symbol `ZZR_1` of its own"), "{told}");
+    let errors = complaint(1, &["equations", path.to_str().unwrap(), "--form", "regrouped"], "");
+    assert!(errors.contains("defines a symbol `ZZR_1` of its own"), "{errors}");
 }
 
 #[test]
@@ -362,10 +362,10 @@ fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
 #[test]
 fn a_layout_without_effect_is_refused() {
     let file = robot("trttr1");
-    let told = complaint(2, &["equations", &file, "--layout", "vectors"], "");
-    assert!(told.contains("--layout has no effect on these equations"), "{told}");
-    let told = complaint(2, &["equations", &file, "--style", "paper", "--trig", "short"], "");
-    assert!(told.contains("--style"), "{told}");
+    let errors = complaint(2, &["equations", &file, "--layout", "vectors"], "");
+    assert!(errors.contains("--layout has no effect on these equations"), "{errors}");
+    let errors = complaint(2, &["equations", &file, "--style", "paper", "--trig", "short"], "");
+    assert!(errors.contains("--style"), "{errors}");
 }
 
 /// The vectors of the paper are printed in its order, (9) to (24) outward and (31) to (39) inward, each as a column;

@@ -101,9 +101,12 @@ fn parameters_without_a_value_have_to_be_set() {
     let file = file.to_str().unwrap();
     let states = json!([{"q": [0.0]}]).to_string();
     let gravity = ["eval", file, "--function", "gravity", "--states", "-", "--set", "m=2"];
-    let told = complaint(1, &gravity, &states);
-    assert!(told.contains("`l` does not have a nominal value: set it with --set l=…"), "{told}");
-    assert!(!told.contains("`m`"), "{told}");
+    let errors = complaint(1, &gravity, &states);
+    assert!(
+        errors.contains("`l` does not have a nominal value: set it with --set l=…"),
+        "{errors}"
+    );
+    assert!(!errors.contains("`m`"), "{errors}");
     let shown: Value =
         serde_json::from_str(&output(&[&gravity[..], &["--set", "l=0.5"]].concat(), &states))
             .unwrap();

@@ -347,20 +347,20 @@ fn terms_and_factors_are_read() {
 fn equations_unlike_those_of_the_text_are_counted() {
     let text = root().join("docs/trttr1.printed");
     let text = text.to_str().unwrap();
-    let told = |command: &str, robot_name: &str| {
+    let errors_of = |command: &str, robot_name: &str| {
         let arguments = [command, &robot(robot_name), "--like", text, "--digits", "17"];
         let Outcome { code, errors, .. } = run(&arguments);
         assert_eq!(code, 0, "{errors}");
         errors
     };
     for command in ["equations", "document"] {
-        let shown = told(command, "puma560");
+        let shown = errors_of(command, "puma560");
         assert!(shown.starts_with("warning: "), "{shown}");
         assert!(shown.contains("docs/trttr1.printed have no term in common with"), "{shown}");
         let words = shown.split_whitespace();
         let numbers: Vec<usize> = words.filter_map(|word| word.parse().ok()).collect();
         assert!(numbers[0] > 20 && numbers[0] < numbers[1] && numbers[1] <= 85, "{shown}");
-        assert_eq!(told(command, "trttr1"), "");
+        assert_eq!(errors_of(command, "trttr1"), "");
     }
 }
 

@@ -434,9 +434,9 @@ fn a_document_in_markdown_has_tables_and_numbered_equations() {
 fn base_parameters_are_printed_in_markdown() {
     let shown = output(&["base", &robot("planar_2r"), "--format", "markdown"], "");
     assert!(shown.contains("\n$$\n") && shown.contains(r"\mathit{ZZR}_1 = "), "{shown}");
-    let told =
+    let errors =
         complaint(2, &["base", &robot("planar_2r"), "--format", "markdown", "--numbers"], "");
-    assert!(told.contains("--numbers has no effect on Markdown"), "{told}");
+    assert!(errors.contains("--numbers has no effect on Markdown"), "{errors}");
 }
 
 /// A torque that others contain has its own name, and sums are not split if terms would then cancel.

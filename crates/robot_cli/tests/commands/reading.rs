@@ -49,6 +49,10 @@ fn values_that_are_set_are_held_against_the_checks_of_the_reader() {
         assert!(shown.contains(&format!("error[{code}]")), "{setting}: {shown}");
     }
     output(&[&eval[..], &["payload_mass=1.5"]].concat(), STATE);
+    // No payload is a mass of 0 with a tensor of 0. With a mass of 0, a tensor is judged as with any other.
+    output(&[&eval[..], &["payload_mass=0"]].concat(), STATE);
+    let tensor = ["payload_xx=0.2", "--set", "payload_yy=0.2", "--set", "payload_zz=0.3"];
+    output(&[&eval[..], &tensor].concat(), STATE);
     let leaning = text.replacen("axis = \"z\"", "axis = [0, 0, \"r1\"]", 1);
     let file = written("reading-axis", "arm.toml", &leaning);
     let eval = ["eval", &file, "--function", "gravity", "--states", "-", "--set", "r1=0"];

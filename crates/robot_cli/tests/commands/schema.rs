@@ -78,7 +78,7 @@ fn what_the_reader_takes_is_valid() {
 #[test]
 fn wrong_keys_and_kinds_of_values_are_not() {
     let schema = schema();
-    let told =
+    let shape_codes =
         [code::UNKNOWN_KEY, code::WRONG_TYPE, code::UNKNOWN_WORD, code::WRONG_COUNT, code::FORMAT];
     let mut refused = 0;
     for (name, text) in files("crates/robot_model/tests/broken") {
@@ -89,7 +89,7 @@ fn wrong_keys_and_kinds_of_values_are_not() {
         }
         // Not every parser reads numbers outside the range.
         let Ok(value) = toml::from_str::<Value>(&text) else { continue };
-        if codes.iter().any(|code| told.contains(code)) {
+        if codes.iter().any(|code| shape_codes.contains(code)) {
             refused += 1;
             assert!(
                 validate(&schema, &value, "").is_err(),

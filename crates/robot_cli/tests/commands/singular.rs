@@ -21,7 +21,7 @@ fn arm(test: &str) -> String {
 
 /// Checks that a command reports missing functions in one line.
 #[track_caller]
-fn told(errors: &str) {
+fn assert_one_note(errors: &str) {
     let lines: Vec<&str> = errors.lines().filter(|line| line.contains(WHY)).collect();
     assert_eq!(lines.len(), 1, "{errors}");
     assert!(lines[0].starts_with("note: ") && lines[0].contains("`1`"), "{errors}");
@@ -32,7 +32,7 @@ fn the_other_functions_are_counted() {
     let arm = arm("singular_stats");
     let shown = run(&["stats", &arm, "--allow-massless"]);
     assert_eq!(shown.code, 0, "{}", shown.errors);
-    told(&shown.errors);
+    assert_one_note(&shown.errors);
     let counts: Value = serde_json::from_str(&shown.output).unwrap();
     let functions = counts["functions"].as_object().unwrap();
     assert!(functions.contains_key("mass_matrix") && functions.contains_key("bias"));
@@ -40,18 +40,21 @@ fn the_other_functions_are_counted() {
     for more in ["--passes", "--options"] {
         let shown = run(&["stats", &arm, "--allow-massless", more]);
         assert_eq!(shown.code, 0, "{}", shown.errors);
-        told(&shown.errors);
+        assert_one_note(&shown.errors);
     }
     let shown = run(&["show", &arm, "--allow-massless"]);
-    let told = shown.output.split("not available: forward_dynamics").nth(1).unwrap();
-    assert!(told.contains("\n    the mass matrix is singular in every configuration\n"), "{told}");
+    let reason = shown.output.split("not available: forward_dynamics").nth(1).unwrap();
+    assert!(
+        reason.contains("\n    the mass matrix is singular in every configuration\n"),
+        "{reason}"
+    );
 }
 
 #[test]
 fn a_page_is_about_the_other_functions() {
     let shown = run(&["report", &arm("singular_report"), "--allow-massless", "--without-compiler"]);
     assert_eq!(shown.code, 0, "{}", shown.errors);
-    told(&shown.errors);
+    assert_one_note(&shown.errors);
     assert!(shown.output.contains(WHY) && shown.output.contains("<code>mass_matrix</code>"));
     assert!(!shown.output.contains("<code>forward_dynamics</code>"));
     assert!(!shown.output.contains("were not compared with the numerical solver"));
@@ -62,7 +65,7 @@ fn all_functions_are_those_that_there_are() {
     let arm = arm("singular_all");
     let all = run(&["generate", &arm, "--allow-massless", "--function", "all"]);
     assert_eq!(all.code, 0, "{}", all.errors);
-    told(&all.errors);
+    assert_one_note(&all.errors);
     assert!(all.output.contains("fn mass_matrix") && !all.output.contains("forward_dynamics"));
     // If such a function is named, that is an error.
     let function = ["--function", "forward_dynamics"];

@@ -40,12 +40,17 @@ fn states(random: &mut Random) -> Vec<[f64; 2 * ENTRIES]> {
 
 /// Compares the bits that a program printed with the results of the interpreter, and returns these.
 #[track_caller]
-fn hold(label: &str, module: &Module, states: &[[f64; 2 * ENTRIES]], printed: &str) -> Vec<f64> {
-    hold_with(Trigonometry::default(), label, module, states, printed)
+fn assert_same_bits(
+    label: &str,
+    module: &Module,
+    states: &[[f64; 2 * ENTRIES]],
+    printed: &str,
+) -> Vec<f64> {
+    assert_same_bits_with(Trigonometry::default(), label, module, states, printed)
 }
 
 #[track_caller]
-fn hold_with(
+fn assert_same_bits_with(
     trigonometry: Trigonometry,
     label: &str,
     module: &Module,
@@ -87,7 +92,7 @@ fn compiled_code_gives_the_bits_of_the_interpreter() {
         let text = format!("#![deny(warnings)]\n{code}\n{}", main_text(&states));
         let printed = support::rustc::output_of(&format!("bits-{seed}"), &text, &["-O"]);
         let label = format!("seed {seed}");
-        let values = hold_with(trigonometry, &label, &module, &states, &printed);
+        let values = assert_same_bits_with(trigonometry, &label, &module, &states, &printed);
         assert!(values.iter().all(|value| value.is_finite()));
     }
 }
@@ -108,7 +113,7 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
     let start = std::time::Instant::now();
     let printed = support::rustc::output_of("long", &text, &["-C", "debuginfo=2"]);
     println!("{:?} for {} lines", start.elapsed(), code.lines().count());
-    hold("long", &module, &states[..1], &printed);
+    assert_same_bits("long", &module, &states[..1], &printed);
 }
 
 #[test]
@@ -147,7 +152,7 @@ fn fused_code_gives_the_bits_of_the_interpreter() {
     let text =
         |method: &str| format!("#![deny(warnings)]\n{code}\n{}", main_text_of(method, &states));
     let printed = support::rustc::output_of("fused", &text("f_generic"), &["-O"]);
-    let expected = hold("fused", &module, &states, &printed);
+    let expected = assert_same_bits("fused", &module, &states, &printed);
 
     let printed = support::rustc::output_of("fused-dispatched", &text("f"), &["-O"]);
     let found = printed.lines().map(|line| f64::from_bits(line.parse().unwrap()));

@@ -10,7 +10,7 @@ use robot_codegen::spec::{Input, ParameterSpec};
 use robot_codegen::{Interpreter, Module, Scalar, Trigonometry};
 use robot_symbolic::Function as Call;
 
-use crate::golden::hold;
+use crate::golden::assert_golden;
 use crate::support;
 
 /// The number of different operations that [`number`] distinguishes.
@@ -164,7 +164,7 @@ fn used(program: &Program) -> BTreeSet<usize> {
 fn every_operation_is_printed_as_committed() {
     for (name, options) in printings() {
         let text = generate(&module(name), &options).unwrap().to_text();
-        hold(&format!("coverage/{name}.rs"), &text);
+        assert_golden(&format!("coverage/{name}.rs"), &text);
     }
 }
 

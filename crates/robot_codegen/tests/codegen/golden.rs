@@ -41,22 +41,22 @@ fn options() -> RustOptions {
 #[test]
 fn the_planar_arm_is_generated_as_committed() {
     let text = generate(&compiled(&Graph::new()), &options()).unwrap().to_text();
-    hold("planar_arm.rs", &text);
+    assert_golden("planar_arm.rs", &text);
 }
 
 /// The text form of programs: that of the constructor and those of functions with and without accelerations.
 #[test]
 fn programs_of_the_planar_arm_are_as_committed() {
     let module = compiled(&Graph::new());
-    hold("programs/constructor.txt", &module.constructor.to_string());
+    assert_golden("programs/constructor.txt", &module.constructor.to_string());
     for function in &module.functions {
-        hold(&format!("programs/{}.txt", function.name), &function.to_string());
+        assert_golden(&format!("programs/{}.txt", function.name), &function.to_string());
     }
 }
 
 /// Compares a text with the committed file with this name.
 #[track_caller]
-pub(crate) fn hold(name: &str, text: &str) {
+pub(crate) fn assert_golden(name: &str, text: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(name);
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -11,7 +11,7 @@ use robot_codegen::backend::wgsl::Wgsl;
 use robot_codegen::{Scalar, Trigonometry};
 
 use crate::coverage::module;
-use crate::golden::hold;
+use crate::golden::assert_golden;
 
 fn options() -> FlatOptions {
     FlatOptions {
@@ -46,7 +46,10 @@ fn every_operation_is_printed_as_committed_in_every_language() {
     ];
     for (name, printer) in printers {
         for file in printer.files(&module(name)).unwrap() {
-            hold(&format!("languages/{name}/{}", file.name), file.contents.text().unwrap());
+            assert_golden(
+                &format!("languages/{name}/{}", file.name),
+                file.contents.text().unwrap(),
+            );
         }
     }
 }
@@ -54,7 +57,10 @@ fn every_operation_is_printed_as_committed_in_every_language() {
 #[test]
 fn external_functions_of_casadi_are_printed_as_committed() {
     let found = casadi(&module("double"), &options()).unwrap();
-    hold(&format!("languages/double/{}", found.file.name), found.file.contents.text().unwrap());
+    assert_golden(
+        &format!("languages/double/{}", found.file.name),
+        found.file.contents.text().unwrap(),
+    );
     assert_eq!(casadi(&module("single"), &FlatOptions { scalar: Scalar::F32, ..options() }), None);
 }
 

@@ -30,12 +30,12 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let target = Graph::new();
     let mut list = Definitions::new(&target, &values, writer.options.digits);
     list.is_economical = true;
-    list.own_names(writer, &quantities);
+    list.name_torques(writer, &quantities);
     let mut groups = list.define(writer)?;
     let mut equations: Vec<Equation> = vec![];
     for quantity in &quantities {
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
-        equations.push(match list.own_equation(quantity.symbol) {
+        equations.push(match list.torque_equation(quantity.symbol) {
             Some(equation) => equation,
             None => tidy(writer, name, left, list.named.rewritten(quantity.value))?,
         });

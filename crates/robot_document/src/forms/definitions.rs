@@ -28,9 +28,9 @@ pub(super) struct Definitions<'g, 'h> {
     moving: FxHashSet<Id>,
     /// Parts that possibly need no name.
     pending: Vec<Expr<'g>>,
-    /// The quantities that are parts of others.
-    own: Vec<Own<'g>>,
-    /// The places of the defined ones in `own`, in the order of their definition.
+    /// The joint torques that are parts of others.
+    named_torques: Vec<NamedTorque<'g>>,
+    /// The places of the defined ones in `named_torques`, in the order of their definition.
     defined: Vec<usize>,
     /// Roots with names; those that are parts of other expressions are defined among them.
     pub(super) entries: Vec<Root<'g>>,
@@ -43,8 +43,8 @@ pub(super) struct Root<'g> {
     pub(super) value: Expr<'g>,
 }
 
-/// A quantity that is used under its own name.
-struct Own<'g> {
+/// A joint torque that is used under its own name.
+struct NamedTorque<'g> {
     value: Expr<'g>,
     /// The value without its sign.
     part: Expr<'g>,
@@ -93,7 +93,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             worthy: worth_naming(roots, digits),
             moving: moving(roots),
             pending: vec![],
-            own: vec![],
+            named_torques: vec![],
             defined: vec![],
             entries: vec![],
         }
@@ -101,7 +101,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
 
     /// Gives joint torques that are parts of other quantities or definitions their own names: `Q2`, and not `x_1` with
     /// `Q2 = x_1`.
-    pub(super) fn own_names(&mut self, writer: &Writer<'_, '_>, quantities: &[Quantity<'g>]) {
+    pub(super) fn name_torques(&mut self, writer: &Writer<'_, '_>, quantities: &[Quantity<'g>]) {
         for quantity in quantities {
             let (value, symbol) = (quantity.value, quantity.symbol);
             let part = positive(value);
@@ -117,31 +117,40 @@ impl<'g, 'h> Definitions<'g, 'h> {
                 }
                 other => other,
             };
-            let is_new = self.own.iter().all(|own| own.part != part);
+            let is_new = self.named_torques.iter().all(|torque| torque.part != part);
             if is_new && writer.symbols.is_free(&name, &look) {
                 let (equation, is_placed) = (None, false);
-                self.own.push(Own { value, part, symbol, name, look, equation, is_placed });
+                self.named_torques.push(NamedTorque {
+                    value,
+                    part,
+                    symbol,
+                    name,
+                    look,
+                    equation,
+                    is_placed,
+                });
             }
         }
     }
 
-    /// The equation of a quantity that is used under its own name, once it is defined.
-    pub(super) fn own_equation(&self, symbol: Symbol) -> Option<Equation> {
-        self.own.iter().find(|own| own.symbol == symbol)?.equation.clone()
+    /// The equation of a joint torque that is used under its own name, once it is defined.
+    pub(super) fn torque_equation(&self, symbol: Symbol) -> Option<Equation> {
+        self.named_torques.iter().find(|torque| torque.symbol == symbol)?.equation.clone()
     }
 
     /// The equations of quantities that do not already stand before definitions. Joint torques come before the torques
     /// that contain them.
     pub(super) fn remaining(&self, symbols: &[Symbol], equations: Vec<Equation>) -> Vec<Equation> {
-        let own = |symbol: Symbol| self.own.iter().position(|own| own.symbol == symbol);
+        let place_of =
+            |symbol: Symbol| self.named_torques.iter().position(|torque| torque.symbol == symbol);
         let all = symbols.iter().copied().zip(equations);
-        let is_placed = |symbol| own(symbol).and_then(|place| self.own.get(place));
+        let is_placed = |symbol| place_of(symbol).and_then(|place| self.named_torques.get(place));
         let (torques, others): (Vec<_>, Vec<_>) = all
-            .filter(|(symbol, _)| !is_placed(*symbol).is_some_and(|own| own.is_placed))
+            .filter(|(symbol, _)| !is_placed(*symbol).is_some_and(|torque| torque.is_placed))
             .partition(|(symbol, _)| symbol.kind == Kind::GeneralizedForce);
         let order = |symbol| {
-            let place =
-                own(symbol).and_then(|place| self.defined.iter().position(|one| *one == place));
+            let place = place_of(symbol)
+                .and_then(|place| self.defined.iter().position(|one| *one == place));
             place.unwrap_or(usize::MAX)
         };
         let mut torques = torques;
@@ -171,7 +180,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             }
             if of_state {
                 for root in self.roots.clone() {
-                    self.settle(root, writer, &mut section)?;
+                    self.name_pending_parts(root, writer, &mut section)?;
                 }
             }
             for rest in std::mem::take(&mut self.pending) {
@@ -189,7 +198,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         writer: &mut Writer<'_, '_>,
         section: &mut Section,
     ) -> Result<(), Error> {
-        self.settle(expr, writer, section)?;
+        self.name_pending_parts(expr, writer, section)?;
         match is_cut && self.is_economical {
             true => self.pending.push(expr),
             false => self.emit(expr, writer, section)?,
@@ -198,7 +207,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
     }
 
     /// Names the pending parts of an expression, unless the expression is shorter by a tenth without the names.
-    fn settle(
+    fn name_pending_parts(
         &mut self,
         expr: Expr<'g>,
         writer: &mut Writer<'_, '_>,
@@ -235,8 +244,8 @@ impl<'g, 'h> Definitions<'g, 'h> {
         writer: &mut Writer<'_, '_>,
         section: &mut Section,
     ) -> Result<(), Error> {
-        if let Some(place) = self.own.iter().position(|own| own.part == expr) {
-            return self.emit_own(place, writer);
+        if let Some(place) = self.named_torques.iter().position(|torque| torque.part == expr) {
+            return self.emit_torque(place, writer);
         }
         let value = self.named.rewritten(expr);
         let terms = short_terms(writer, value);
@@ -244,15 +253,15 @@ impl<'g, 'h> Definitions<'g, 'h> {
             self.named.replace(expr, known);
             return Ok(());
         }
-        if self.uses_own(value) {
+        if self.uses_torque(value) {
             section.close();
             let torques = Group::of_quantities(TORQUES, String::new(), self.placed());
             section.groups.push(Group { used: true, ..torques });
         }
         if let Some(place) = self.entries.iter().position(|entry| positive(entry.value) == expr) {
             let Root { name, look, value } = self.entries.swap_remove(place);
-            let own = self.named.rewritten(value);
-            section.equations.push(tidy(writer, name.clone(), look, own)?);
+            let renamed = self.named.rewritten(value);
+            section.equations.push(tidy(writer, name.clone(), look, renamed)?);
             self.named.name(value, &name);
             return Ok(());
         }
@@ -267,33 +276,35 @@ impl<'g, 'h> Definitions<'g, 'h> {
     }
 
     /// Defines a joint torque under its own name.
-    fn emit_own(&mut self, place: usize, writer: &mut Writer<'_, '_>) -> Result<(), Error> {
-        let Some(own) = self.own.get_mut(place) else { return Ok(()) };
-        let value = self.named.rewritten(own.value);
-        let left = writer.look(own.symbol);
-        own.equation = Some(tidy(writer, own.symbol.to_string(), left, value)?);
-        writer.define(&own.name, own.look.clone())?;
-        self.named.name(own.value, &own.name);
+    fn emit_torque(&mut self, place: usize, writer: &mut Writer<'_, '_>) -> Result<(), Error> {
+        let Some(torque) = self.named_torques.get_mut(place) else { return Ok(()) };
+        let value = self.named.rewritten(torque.value);
+        let left = writer.look(torque.symbol);
+        torque.equation = Some(tidy(writer, torque.symbol.to_string(), left, value)?);
+        writer.define(&torque.name, torque.look.clone())?;
+        self.named.name(torque.value, &torque.name);
         self.defined.push(place);
         Ok(())
     }
 
     /// Whether an expression contains the name of a joint torque whose equation has no place yet.
-    fn uses_own(&self, value: Expr<'_>) -> bool {
+    fn uses_torque(&self, value: Expr<'_>) -> bool {
         let names = walk::symbols(&[value]);
         let names: Vec<String> =
             names.into_iter().map(|symbol| value.graph().symbol_name(symbol)).collect();
-        let defined = self.defined.iter().filter_map(|place| self.own.get(*place));
-        defined.filter(|own| !own.is_placed).any(|own| names.contains(&own.name))
+        let defined = self.defined.iter().filter_map(|place| self.named_torques.get(*place));
+        defined.filter(|torque| !torque.is_placed).any(|torque| names.contains(&torque.name))
     }
 
     /// The equations of the defined joint torques that have no place yet; they get their place now.
     fn placed(&mut self) -> Vec<Equation> {
         let mut equations = vec![];
         for place in &self.defined {
-            if let Some(own) = self.own.get_mut(*place).filter(|own| !own.is_placed) {
-                own.is_placed = true;
-                equations.extend(own.equation.clone());
+            if let Some(torque) =
+                self.named_torques.get_mut(*place).filter(|torque| !torque.is_placed)
+            {
+                torque.is_placed = true;
+                equations.extend(torque.equation.clone());
             }
         }
         equations

@@ -44,7 +44,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         let ordered = match writer.options.form {
             Form::Expanded => {
                 let (order, graph) = (&writer.options.order, writer.graph);
-                order.count(&mut writer.unlike, &name, &terms, graph);
+                order.count(&mut writer.differences, &name, &terms, graph);
                 order.arranged(&name, &terms, graph)
             }
             _ => None,

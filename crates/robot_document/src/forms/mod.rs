@@ -43,7 +43,7 @@ use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_tex
 use crate::math::Math;
 pub use letters::{InvalidLetters, Letters};
 pub use options::{EquationOptions, Form};
-pub use published::{TermOrder, Unlike};
+pub use published::{Differences, TermOrder};
 
 pub use arrays::{Array, Cell, Room, Written};
 pub use paper::Relation;
@@ -58,7 +58,7 @@ pub struct Equations {
     /// Whether decimals were rounded to [`EquationOptions::digits`].
     pub rounded: bool,
     /// The published equations in [`EquationOptions::order`] that have nothing in common with these.
-    pub unlike: Unlike,
+    pub differences: Differences,
 }
 
 /// Equations that belong together.
@@ -222,7 +222,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         symbols: SymbolTable::new(robot, options.trigonometry)?,
         order: Order::new(robot),
         parallel: vec![],
-        unlike: Unlike::default(),
+        differences: Differences::default(),
     };
     if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
@@ -246,7 +246,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
         group.numbers = options.order.numbers();
     }
-    Ok(Equations { groups, symbols: writer.symbols, rounded, unlike: writer.unlike })
+    Ok(Equations { groups, symbols: writer.symbols, rounded, differences: writer.differences })
 }
 
 /// The state that all forms share.
@@ -259,7 +259,7 @@ struct Writer<'r, 'g> {
     /// The groups of parallel joints, whose sums of angles are written.
     parallel: Vec<ParallelAngles<'g>>,
     /// The published equations that have nothing in common with the derived ones.
-    unlike: Unlike,
+    differences: Differences,
 }
 
 impl<'g> Writer<'_, 'g> {

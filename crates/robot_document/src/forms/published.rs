@@ -21,11 +21,11 @@ pub struct TermOrder {
 
 /// The number of published equations that have nothing in common with the derived ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Unlike {
+pub struct Differences {
     /// The number of equations without any term in common with the derived ones.
-    pub foreign: usize,
+    pub without_common_terms: usize,
     /// The number of all equations of the text, with each quantity counted once.
-    pub all: usize,
+    pub compared: usize,
 }
 
 /// Atoms with their exponents, in the order in which they are written.
@@ -78,22 +78,22 @@ impl TermOrder {
     /// Counts an equation of the robot if the text has it.
     pub(super) fn count<'g>(
         &self,
-        unlike: &mut Unlike,
+        differences: &mut Differences,
         quantity: &str,
         terms: &[ArrangedTerm<'g>],
         graph: &'g Graph,
     ) {
         let Some(printed) = self.terms.get(quantity) else {
-            unlike.all += usize::from(self.named.contains(quantity));
+            differences.compared += usize::from(self.named.contains(quantity));
             return;
         };
-        unlike.all += 1;
+        differences.compared += 1;
         let printed = printed.iter().map(|term| product(term, graph));
         // Equations with brackets are not compared.
         if let (Some(printed), Some(own)) = (printed.collect::<Option<Vec<_>>>(), products(terms)) {
             let printed: BTreeSet<_> = printed.iter().map(key).collect();
             let is_shared = own.iter().any(|term| printed.contains(&key(term)));
-            unlike.foreign += usize::from(!is_shared);
+            differences.without_common_terms += usize::from(!is_shared);
         }
     }
 
@@ -303,14 +303,14 @@ mod tests {
         order.insert("Q1", printed(&["m*v", "a*b"]));
         order.insert("Q2", printed(&["m*v", "-f"]));
         order.insert_name("Q3");
-        let mut unlike = Unlike::default();
-        order.count(&mut unlike, "Q1", &terms("a*k - 3*b*k"), &graph);
-        assert_eq!(unlike, Unlike { foreign: 1, all: 1 });
+        let mut differences = Differences::default();
+        order.count(&mut differences, "Q1", &terms("a*k - 3*b*k"), &graph);
+        assert_eq!(differences, Differences { without_common_terms: 1, compared: 1 });
         // Q2 has one term in common, with another coefficient; Q3 is only named, and Q4 is not in the text.
-        order.count(&mut unlike, "Q2", &terms("7*f + k"), &graph);
-        order.count(&mut unlike, "Q3", &terms("k"), &graph);
-        order.count(&mut unlike, "Q4", &terms("f"), &graph);
-        assert_eq!(unlike, Unlike { foreign: 1, all: 3 });
+        order.count(&mut differences, "Q2", &terms("7*f + k"), &graph);
+        order.count(&mut differences, "Q3", &terms("k"), &graph);
+        order.count(&mut differences, "Q4", &terms("f"), &graph);
+        assert_eq!(differences, Differences { without_common_terms: 1, compared: 3 });
     }
 
     #[test]

@@ -104,7 +104,7 @@ impl Look {
     fn vector(self, number: usize) -> Math {
         match self {
             Look::Letter(letter) => {
-                Math::Letter(letter).under_bar().with_upper(Math::integer(number))
+                Math::Letter(letter).with_bar().with_upper(Math::integer(number))
             }
             Look::Paper(kind) => Math::vector(kind, number),
         }

@@ -31,7 +31,7 @@ impl Math {
     #[must_use]
     pub fn vector(kind: Kind, number: usize) -> Math {
         let (letter, index) = kind.name().split_once('_').unwrap_or((kind.name(), ""));
-        let base = Math::Letter(letter.chars().next().unwrap_or('F')).under_bar();
+        let base = Math::Letter(letter.chars().next().unwrap_or('F')).with_bar();
         let lower = index.chars().next().map(Math::Letter);
         Math::Script(Box::new(Script { base, lower, upper: Some(Math::integer(number)) }))
     }
@@ -85,7 +85,7 @@ impl Math {
 
     /// The piece with a bar above it.
     #[must_use]
-    pub fn under_bar(self) -> Math {
+    pub fn with_bar(self) -> Math {
         Math::Accent(Accent::Bar, Box::new(self))
     }
 

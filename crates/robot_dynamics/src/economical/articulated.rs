@@ -38,7 +38,7 @@ struct ArticulatedInertia<'g> {
 struct Eliminated<'g> {
     /// U = I S plus the moment of the drive's gyroscopic rotor: the wrench that a unit acceleration of the joint
     /// requires from the parent, in home axes.
-    asked: Wrench<'g>,
+    required: Wrench<'g>,
     /// The pivot D = Sᵀ U plus the drive's reflected inertia.
     pivot: Expr<'g>,
     /// The reciprocal 1/D.
@@ -139,7 +139,7 @@ fn outward<'g>(frames: &Frames<'_, 'g>, joints: &[Eliminated<'g>]) -> Vec<Expr<'
             frames.twist_outward(Place { link: index, turned: false }, &own)
         });
         // s = (u − Uᵀ A) / D
-        let of_carrier = carried.map(|motion| motion.dot(&joint.asked));
+        let of_carrier = carried.map(|motion| motion.dot(&joint.required));
         let rate = of_carrier.map_or(joint.force, |of_carrier| joint.force - of_carrier)
             * joint.reciprocal;
         solution[link.coordinate] = rate / link.ratio;
@@ -166,11 +166,11 @@ impl<'g> Carried<'g> {
     ) -> Eliminated<'g> {
         let link = &frames.chain.links[index];
         let direction = frames.joint_twist(index);
-        let mut asked = self.inertia.asks_for(&direction);
-        let pivot = direction.dot(&asked) + link.reflected_inertia;
-        asked.moment.0[2] += link.rotor_coupling;
+        let mut required = self.inertia.required_wrench(&direction);
+        let pivot = direction.dot(&required) + link.reflected_inertia;
+        required.moment.0[2] += link.rotor_coupling;
         Eliminated {
-            asked,
+            required,
             pivot,
             reciprocal: pivots.reciprocal(pivot),
             force: right / link.ratio - direction.dot(&self.wrench),
@@ -179,10 +179,10 @@ impl<'g> Carried<'g> {
 
     /// The remaining inertia and wrench after the joint is eliminated: I − U Uᵀ/D and p + U u/D.
     fn without(&self, joint: &Eliminated<'g>, link: &ChainLink<'g>, unit: Expr<'g>) -> Carried<'g> {
-        let Eliminated { asked, reciprocal, force, .. } = joint;
+        let Eliminated { required, reciprocal, force, .. } = joint;
         let scaled =
-            Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
-        let inertia = self.inertia.minus_product(asked, &scaled);
+            Wrench { force: required.force * *reciprocal, moment: required.moment * *reciprocal };
+        let inertia = self.inertia.minus_product(required, &scaled);
         // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ, with the reflected inertia r and the rotor coupling k; k does not affect
         // a prismatic joint itself. Without a drive, the product is 0.
         let own_coupling = match link.kind {
@@ -190,7 +190,7 @@ impl<'g> Carried<'g> {
             JointKind::Prismatic => unit.graph().zero(),
         };
         let kept = (link.reflected_inertia - own_coupling) * *reciprocal;
-        let mut along = Wrench { force: asked.force * kept, moment: asked.moment * kept };
+        let mut along = Wrench { force: required.force * kept, moment: required.moment * kept };
         along.moment.0[2] -= link.rotor_coupling;
         let wrench = Wrench { force: scaled.force * *force, moment: scaled.moment * *force };
         Carried {
@@ -279,7 +279,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    fn asks_for(&self, motion: &Twist<'g>) -> Wrench<'g> {
+    fn required_wrench(&self, motion: &Twist<'g>) -> Wrench<'g> {
         let Twist { angular, linear } = *motion;
         Wrench {
             force: self.coupling.transpose() * angular + self.mass * linear,

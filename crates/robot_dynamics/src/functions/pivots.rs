@@ -98,16 +98,16 @@ impl<'m> Search<'m> {
         while self.left > half {
             for turned in 0..n {
                 for quarters in 0..4 {
-                    let mut joint_frame = q.clone();
-                    joint_frame[turned] = f64::from(quarters) * std::f64::consts::FRAC_PI_2;
-                    let part = self.smallest_part(&joint_frame);
-                    self.worst.push((part, joint_frame));
+                    let mut configuration = q.clone();
+                    configuration[turned] = f64::from(quarters) * std::f64::consts::FRAC_PI_2;
+                    let part = self.smallest_part(&configuration);
+                    self.worst.push((part, configuration));
                     if self.left <= half {
                         break;
                     }
                 }
             }
-            q = self.matrix.joint_frame(&mut random);
+            q = self.matrix.configuration(&mut random);
             let other = (random.uniform(0.0, n as f64) as usize).min(n.saturating_sub(1));
             if let Some(entry) = q.get_mut(other) {
                 *entry =
@@ -128,11 +128,11 @@ impl<'m> Search<'m> {
                     if self.left == 0 {
                         return part;
                     }
-                    let mut joint_frame = q.clone();
-                    joint_frame[coordinate] += change;
-                    let found = self.smallest_part(&joint_frame);
+                    let mut configuration = q.clone();
+                    configuration[coordinate] += change;
+                    let found = self.smallest_part(&configuration);
                     if found < part {
-                        (part, q) = (found, joint_frame);
+                        (part, q) = (found, configuration);
                     }
                 }
             }

@@ -95,7 +95,7 @@ impl SampledMassMatrix {
     }
 
     /// A random configuration: angles within ±π, distances within ±0.5 m.
-    pub(super) fn joint_frame(&self, random: &mut Random) -> Vec<f64> {
+    pub(super) fn configuration(&self, random: &mut Random) -> Vec<f64> {
         self.ranges.iter().map(|range| random.uniform(-range, *range)).collect()
     }
 

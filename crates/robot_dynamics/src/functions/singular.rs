@@ -25,7 +25,7 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     let mut random = Random::new(SEED);
     let mut found: Vec<usize> = (0..matrix.order()).collect();
     for _ in 0..CONFIGURATIONS {
-        let here = of_matrix(&matrix.at(&matrix.joint_frame(&mut random)));
+        let here = of_matrix(&matrix.at(&matrix.configuration(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
         // One regular configuration is enough. It is important to stop here, because every build calls this function.
         if found.is_empty() {

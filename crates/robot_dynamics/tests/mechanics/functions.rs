@@ -50,7 +50,7 @@ fn functions_agree_with_the_numeric_solver() {
             let expected: Vec<Vec<f64>> =
                 states.iter().map(|state| expected(&robot, &solver, kind, state)).collect();
             let size = magnitude(expected.iter().flatten()).max(1e-3);
-            let hold = |derivation: &Derivation<'_, '_>, plan: Option<&Plan>| {
+            let assert_agrees = |derivation: &Derivation<'_, '_>, plan: Option<&Plan>| {
                 let outputs = outputs(derivation, kind);
                 let layout = Layout::of(&robot, &outputs);
                 let roots: Vec<Expr<'_>> =
@@ -60,10 +60,10 @@ fn functions_agree_with_the_numeric_solver() {
                     assert!(off.error <= TOLERANCE, "{name}, {}: {off}\n{plan:?}", kind.name());
                 }
             };
-            hold(&usual, None);
+            assert_agrees(&usual, None);
             // The forms of the derivatives are compared by their operations, which takes long.
             if kind != FunctionKind::InverseDynamicsDerivatives {
-                drawn.iter().for_each(|(derivation, plan)| hold(derivation, Some(plan)));
+                drawn.iter().for_each(|(derivation, plan)| assert_agrees(derivation, Some(plan)));
             }
         }
     }

@@ -21,9 +21,9 @@ fn joint_torques_and_forces_between_links_agree_with_the_numeric_solver() {
         let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
         let plain = newton_euler(&mechanism, Effects { wrench: false, friction: false });
         let loaded = newton_euler(&mechanism, Effects { wrench: true, friction: true });
-        let forces = loaded.wrenches.iter().flat_map(|torsor| torsor.force.0);
-        let moments = loaded.wrenches.iter().flat_map(|torsor| torsor.moment.0);
-        let torsors: Vec<Expr<'_>> = forces.chain(moments).collect();
+        let forces = loaded.wrenches.iter().flat_map(|wrench| wrench.force.0);
+        let moments = loaded.wrenches.iter().flat_map(|wrench| wrench.moment.0);
+        let components: Vec<Expr<'_>> = forces.chain(moments).collect();
         let recursion = Recursion::new(&mechanism, &Plan::default_for(&robot));
         let economical = recursion.map(|recursion| recursion.inverse_dynamics(true));
         let joints = [robot.degrees_of_freedom()];
@@ -36,7 +36,7 @@ fn joint_torques_and_forces_between_links_agree_with_the_numeric_solver() {
                 FunctionKind::InverseDynamics(Effects::BOTH),
                 &joints,
             ),
-            ("F_l, then M_l", &torsors, FunctionKind::LinkWrenches, &links),
+            ("F_l, then M_l", &components, FunctionKind::LinkWrenches, &links),
         ];
         if let Some(torques) = &economical {
             let kind = FunctionKind::InverseDynamics(Effects::WRENCH);

@@ -14,7 +14,7 @@ use crate::emit::{Addressing, Fault};
 use crate::list::List;
 
 /// Converts an error of cranelift.
-fn said(error: impl std::fmt::Display) -> Fault {
+fn encoding_fault(error: impl std::fmt::Display) -> Fault {
     Fault::Encoding(error.to_string())
 }
 
@@ -36,10 +36,10 @@ pub(crate) fn encode(
     context.func = Function::with_name_signature(Default::default(), signature);
     write(list, lanes, addressing, &mut context.func).map_err(Fault::Encoding)?;
     let compiled = context.compile(&*isa, &mut ControlPlane::default());
-    let compiled = compiled.map_err(|error| said(error.inner))?;
+    let compiled = compiled.map_err(|error| encoding_fault(error.inner))?;
     let stack = compiled.buffer.frame_layout().map_or(0, |frame| frame.frame_to_fp_offset);
     if !compiled.buffer.relocs().is_empty() {
-        return Err(said("it refers to other code"));
+        return Err(encoding_fault("it refers to other code"));
     }
     Ok((compiled.code_buffer().to_vec(), stack))
 }
@@ -54,14 +54,14 @@ fn processor() -> Result<OwnedTargetIsa, Fault> {
         &["has_sse3", "has_ssse3", "has_sse41", "has_sse42", "has_avx", "has_avx2", "has_fma"]
     };
     let architecture = if is_arm { "aarch64" } else { "x86_64" };
-    let mut builder = isa::lookup_by_name(architecture).map_err(said)?;
+    let mut builder = isa::lookup_by_name(architecture).map_err(encoding_fault)?;
     for extension in extensions {
-        builder.enable(extension).map_err(said)?;
+        builder.enable(extension).map_err(encoding_fault)?;
     }
     let mut flags = settings::builder();
     let flag = if cfg!(debug_assertions) { "true" } else { "false" };
-    flags.set("enable_verifier", flag).map_err(said)?;
-    builder.finish(settings::Flags::new(flags)).map_err(said)
+    flags.set("enable_verifier", flag).map_err(encoding_fault)?;
+    builder.finish(settings::Flags::new(flags)).map_err(encoding_fault)
 }
 
 /// The calling convention of the function types in `memory.rs`.

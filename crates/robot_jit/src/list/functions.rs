@@ -102,7 +102,7 @@ impl Writer<'_> {
         let (half, one) = (self.number(-0.5), self.number(1.0));
         let cosine = self.multiply_add(z, polynomial, half);
         let cosine = self.multiply_add(z, cosine, one);
-        self.turned(shifted, sine, cosine)
+        self.apply_quadrant(shifted, sine, cosine)
     }
 
     /// x, or NaN in lanes in which its magnitude is not below the limit.
@@ -125,7 +125,7 @@ impl Writer<'_> {
     }
 
     /// Sine and cosine of r + k·π/2 from those of r; the low bits of the value `k` are those of the integer k.
-    fn turned(&mut self, k: Id, sine: Id, cosine: Id) -> (Id, Id) {
+    fn apply_quadrant(&mut self, k: Id, sine: Id, cosine: Id) -> (Id, Id) {
         let sign = self.bits(SIGN);
         let odd = self.value(Instruction::ShiftLeft(k, 63));
         let odd = self.spread_sign(odd);

@@ -4,7 +4,7 @@ use super::draft::{Draft, DraftFrame, DraftLink, DraftPayload, Parent};
 use super::locations::{DroppedBody, FrameLocation, Locations, ParameterLocation};
 use super::mimic::{self, Following};
 use super::payload;
-use super::placement::without_rests;
+use super::placement::without_zero_moves;
 use super::reader::{Named, Reader};
 use crate::robot::{Coordinate, Frame, Joint, JointKind, Link, Parameter, Placement, Robot};
 
@@ -148,7 +148,7 @@ fn moving(
     robot.links.push(Link {
         name: link.name.name,
         parent: on.by,
-        placement: without_rests(on.frame.then(&link.before)),
+        placement: without_zero_moves(on.frame.then(&link.before)),
         joint: Joint {
             name: link.joint.name.name,
             kind: motion.kind,

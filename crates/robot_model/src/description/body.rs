@@ -2,7 +2,7 @@
 
 use super::inertia::{self, Tensor};
 use super::locations::BodyLocation;
-use super::placement::{without_rests, zero, zeros};
+use super::placement::{without_zero_moves, zero, zeros};
 use super::reader::{Named, Reader};
 use super::table::Table;
 use super::value::{Quantity, quantity};
@@ -72,7 +72,7 @@ pub(super) fn read(
     let body = Body {
         name: name.name.clone(),
         mass,
-        placement: without_rests(Placement(moves)),
+        placement: without_zero_moves(Placement(moves)),
         inertia: tensor.inertia,
     };
     Some((body, place))

@@ -20,19 +20,19 @@ pub(super) fn to_toml(lowered: &Lowered, name: &str) -> String {
     let mut text = format!("# Imported from {}.\nformat = 1\n\n[robot]\n", quote(file));
     line(&mut text, &format!("name = \"{}\"", draft.name.name));
     line(&mut text, &format!("gravity = {}", vector(&draft.gravity)));
-    let mut standing = vec![false; draft.links.len()];
+    let mut are_on_base = vec![false; draft.links.len()];
     let mut before = None;
     for index in order {
         let Some(link) = draft.links.get(*index) else { continue };
-        let on_standing = match link.parent {
-            Parent::Link(parent) => standing.get(parent).copied().unwrap_or_default(),
+        let is_parent_on_base = match link.parent {
+            Parent::Link(parent) => are_on_base.get(parent).copied().unwrap_or_default(),
             Parent::Base | Parent::Name(_) => true,
         };
-        let stands = link.joint.kind.is_none() && on_standing;
-        if let Some(slot) = standing.get_mut(*index) {
-            *slot = stands;
+        let is_on_base = link.joint.kind.is_none() && is_parent_on_base;
+        if let Some(slot) = are_on_base.get_mut(*index) {
+            *slot = is_on_base;
         }
-        push_link(&mut text, draft, link, before, stands);
+        push_link(&mut text, draft, link, before, is_on_base);
         before = Some(*index);
     }
     text
@@ -43,14 +43,14 @@ fn line(text: &mut String, line: &str) {
     text.push('\n');
 }
 
-/// Writes a link. `before` is the link that was written before it; `stands` is whether the link is fixed to the base,
+/// Writes a link. `before` is the link that was written before it; `is_on_base` is whether the link is fixed to the base,
 /// so that its mass has no effect.
 fn push_link(
     text: &mut String,
     draft: &Draft,
     link: &DraftLink,
     before: Option<usize>,
-    stands: bool,
+    is_on_base: bool,
 ) {
     line(text, &format!("\n[[link]]\nname = \"{}\"", link.name.name));
     let parent = match (&link.parent, before) {
@@ -71,7 +71,7 @@ fn push_link(
     if !origin.is_empty() {
         line(text, &format!("origin = {{ {} }}", origin.join(", ")));
     }
-    let body = link.body.as_ref().filter(|_| !stands);
+    let body = link.body.as_ref().filter(|_| !is_on_base);
     push_body(text, body.map(|(body, _)| body), link.joint.kind.is_some());
     if link.friction != Friction::none() {
         line(text, &format!("friction = {}", friction(&link.friction, link.joint.kind)));

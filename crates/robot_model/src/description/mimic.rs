@@ -72,23 +72,23 @@ fn leader<'l>(
         return Some(Leader { name: &link.joint.name.name, ratio: one(), offset: zero() });
     };
     let (mut ratio, mut offset) = (mimic.ratio.clone(), mimic.offset.clone());
-    let mut way = vec![link];
+    let mut chain = vec![link];
     let mut wanted = &mimic.joint;
     loop {
         let next = links.iter().copied().find(|link| link.joint.name.name == wanted.name);
         let Some(next) = next.filter(|next| next.joint.kind.is_some()) else {
             // A wrong name further along the chain is reported for the link that contains it.
-            if way.len() == 1 {
+            if chain.len() == 1 {
                 let diagnostic = no_leader(reader, wanted, links);
                 reader.report(diagnostic);
             }
             return None;
         };
-        if way.iter().any(|passed| passed.joint.name == next.joint.name) {
+        if chain.iter().any(|passed| passed.joint.name == next.joint.name) {
             let place = |link: &DraftLink| link.joint.name.span.start;
-            let is_first = way.iter().all(|passed| place(passed) >= place(link));
+            let is_first = chain.iter().all(|passed| place(passed) >= place(link));
             if is_first && next.joint.name == link.joint.name {
-                reader.report(circle(&way, wanted));
+                reader.report(circle(&chain, wanted));
             }
             return None;
         }
@@ -114,21 +114,21 @@ fn leader<'l>(
             return None;
         };
         (ratio, offset) = (folded_ratio, folded_offset);
-        way.push(next);
+        chain.push(next);
         wanted = &mimic.joint;
     }
 }
 
-fn circle(way: &[&DraftLink], wanted: &Named) -> Diagnostic {
-    let [_] = way else {
+fn circle(chain: &[&DraftLink], wanted: &Named) -> Diagnostic {
+    let [_] = chain else {
         let names: Vec<String> =
-            way.iter().map(|link| format!("`{}`", quote(&link.joint.name.name))).collect();
+            chain.iter().map(|link| format!("`{}`", quote(&link.joint.name.name))).collect();
         let message = format!("joints follow each other in a cycle: {}", names.join(", "));
         let mut diagnostic = Diagnostic::error(code::MIMIC, message)
             .at(&wanted.span, "leads back to the first")
             .because("at least one of them must move independently")
             .help("remove `mimic` from one of these joints");
-        for link in way.iter().take(8) {
+        for link in chain.iter().take(8) {
             if let Some(mimic) = link.joint.mimic.as_ref().filter(|mimic| mimic.joint != *wanted) {
                 diagnostic = diagnostic.and_at(&mimic.joint.span, "");
             }

@@ -83,7 +83,7 @@ pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement 
         .map_or_else(zeros, |entry| reader.vector(entry.value, quantity("the origin", 0, 1, 0)));
     let rpy = table.get("rpy").map_or_else(zeros, |entry| reader.angle_vector(entry.value, RPY));
     table.finish(reader);
-    without_rests(Placement::from_xyz_rpy(xyz, rpy))
+    without_zero_moves(Placement::from_xyz_rpy(xyz, rpy))
 }
 
 fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Frames {
@@ -138,7 +138,7 @@ pub(super) fn frames_of_row(
         Convention::Standard => vec![rotate_z, shift_z, shift_x, rotate_x],
         Convention::Modified => vec![rotate_x, shift_x, rotate_z, shift_z],
     };
-    let moves = without_rests(Placement(moves));
+    let moves = without_zero_moves(Placement(moves));
     let (before, after) = match (convention, kind) {
         (Convention::Standard, Some(_)) => (Placement::default(), moves),
         _ => (moves, Placement::default()),
@@ -147,7 +147,7 @@ pub(super) fn frames_of_row(
 }
 
 /// The placement without the moves that are zero.
-pub(super) fn without_rests(placement: Placement) -> Placement {
+pub(super) fn without_zero_moves(placement: Placement) -> Placement {
     let moves = placement.0.into_iter().filter(|step| match step {
         Move::Translate(vector) => !vector.iter().all(Reader::is_zero),
         Move::Rotate(_, angle) => !Reader::is_zero(angle),

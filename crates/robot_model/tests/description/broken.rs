@@ -62,8 +62,8 @@ fn broken_files_give_their_messages() {
             wrong.push(format!("{name}: expected\n{expected}\nfound\n{found}"));
         }
     }
-    let told: BTreeSet<String> = files.iter().map(|name| stem(name).to_owned()).collect();
-    let stale: Vec<_> = stems("txt").difference(&told).cloned().collect();
+    let names: BTreeSet<String> = files.iter().map(|name| stem(name).to_owned()).collect();
+    let stale: Vec<_> = stems("txt").difference(&names).cloned().collect();
     assert!(stale.is_empty(), "messages without a file: {stale:?}");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

@@ -85,7 +85,7 @@ impl<'r> Drawing<'r> {
 
     /// All shapes, and the rectangle around them.
     fn shapes(mut self) -> (Vec<Shape>, Rectangle) {
-        self.take_room();
+        self.reserve_room();
         let links = 0..self.layout.links.len();
         let mut shapes: Vec<Shape> =
             vec![symbols::ground(self.view.point(&BASE)).into(), self.body(None).into()];
@@ -108,27 +108,27 @@ impl<'r> Drawing<'r> {
     }
 
     /// Reserves the space of symbols and lines, so that labels are placed elsewhere.
-    fn take_room(&mut self) {
+    fn reserve_room(&mut self) {
         let size = Point::new(2.0, 2.0) * (symbols::HALF + 2.0);
         for place in &self.layout.links {
-            self.room.take(Rectangle::about(self.view.point(&place.position), size));
+            self.room.reserve(Rectangle::about(self.view.point(&place.position), size));
             let ends =
                 symbols::AXIS.map(|reach| self.view.point(&(place.position + place.axis * reach)));
-            self.room.take_line(ends[0], ends[1]);
+            self.room.reserve_line(ends[0], ends[1]);
             let [from, to] = self.arrow(place);
-            self.room.take_line(from, to);
+            self.room.reserve_line(from, to);
         }
         for place in self.places() {
             for Segment { ends: [from, to], .. } in &place.path {
-                self.room.take_line(self.view.point(from), self.view.point(to));
+                self.room.reserve_line(self.view.point(from), self.view.point(to));
             }
             for axis in place.rotation.column_iter() {
                 let end = place.position + axis * symbols::TRIAD;
-                self.room.take_line(self.view.point(&place.position), self.view.point(&end));
+                self.room.reserve_line(self.view.point(&place.position), self.view.point(&end));
             }
         }
         let base = self.view.point(&BASE);
-        self.room.take(Rectangle::about(base + Point::new(0.0, 5.0), Point::new(60.0, 14.0)));
+        self.room.reserve(Rectangle::about(base + Point::new(0.0, 5.0), Point::new(60.0, 14.0)));
     }
 
     /// The body of a link: the lines from its joint to the joints and frames that it carries.
@@ -302,11 +302,11 @@ impl<'r> Drawing<'r> {
         }
         let middle = (ends[0] + ends[1]) / 2.0;
         group = group.with_all(arrow(middle, ends[0], 6.0)).with_all(arrow(middle, ends[1], 6.0));
-        self.room.take_line(ends[0], ends[1]);
+        self.room.reserve_line(ends[0], ends[1]);
         let place = label(best);
         // If this place is taken, the label goes to the best free place near it.
         let place = if self.room.cost(&place) < 1e3 {
-            self.room.set(place);
+            self.room.reserve_label(place);
             place
         } else {
             self.room.find(middle, size, 4.0)
@@ -385,7 +385,7 @@ impl<'r> Drawing<'r> {
     /// Whether labels overlap.
     #[cfg(test)]
     pub(crate) fn crowds(mut self) -> bool {
-        self.take_room();
+        self.reserve_room();
         self.write();
         self.room.is_crowded()
     }

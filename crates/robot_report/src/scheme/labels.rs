@@ -46,12 +46,12 @@ const DIRECTIONS: usize = 16;
 
 impl Room {
     /// Reserves the area of a symbol.
-    pub(crate) fn take(&mut self, rectangle: Rectangle) {
+    pub(crate) fn reserve(&mut self, rectangle: Rectangle) {
         self.drawn.push((rectangle, 1.0));
     }
 
     /// Reserves the area of a line.
-    pub(crate) fn take_line(&mut self, from: Vector2<f64>, to: Vector2<f64>) {
+    pub(crate) fn reserve_line(&mut self, from: Vector2<f64>, to: Vector2<f64>) {
         let pieces = ((to - from).norm() / 5.0).ceil().max(1.0);
         for piece in 0..=pieces as usize {
             let point = from + (to - from) * (piece as f64 / pieces);
@@ -68,7 +68,7 @@ impl Room {
     }
 
     /// Reserves the area of a label with a fixed place.
-    pub(crate) fn set(&mut self, label: Rectangle) {
+    pub(crate) fn reserve_label(&mut self, label: Rectangle) {
         self.labels.push(label);
     }
 
@@ -89,7 +89,7 @@ impl Room {
                 }
             }
         }
-        self.set(best.1);
+        self.reserve_label(best.1);
         best.1
     }
 
@@ -116,14 +116,14 @@ mod tests {
     #[test]
     fn labels_of_one_point_lie_apart() {
         let mut room = Room::default();
-        room.take(Rectangle::about(Vector2::zeros(), Vector2::new(30.0, 30.0)));
+        room.reserve(Rectangle::about(Vector2::zeros(), Vector2::new(30.0, 30.0)));
         for _ in 0..12 {
             room.find(Vector2::zeros(), Vector2::new(50.0, 14.0), 10.0);
         }
         assert!(!room.is_crowded());
         let bounds = room.bounds().unwrap();
         assert!(bounds.high.x - bounds.low.x < 500.0);
-        room.set(Rectangle::about(Vector2::zeros(), Vector2::new(500.0, 500.0)));
+        room.reserve_label(Rectangle::about(Vector2::zeros(), Vector2::new(500.0, 500.0)));
         assert!(room.is_crowded());
     }
 }

@@ -18,7 +18,7 @@ pub(super) trait Number<F>:
     fn nan_unless_below(self, limit: F) -> Self;
 
     /// Sine and cosine of r + k·π/2 from those of r; the low bits of `self` are those of k.
-    fn turned(self, sine: Self, cosine: Self) -> (Self, Self);
+    fn apply_quadrant(self, sine: Self, cosine: Self) -> (Self, Self);
 }
 
 macro_rules! implement_number {
@@ -48,7 +48,7 @@ macro_rules! implement_number {
             }
 
             #[inline(always)]
-            fn turned(self, sine: Self, cosine: Self) -> (Self, Self) {
+            fn apply_quadrant(self, sine: Self, cosine: Self) -> (Self, Self) {
                 const TO_SIGN: u32 = $bits::BITS - 2;
                 let (k, sine, cosine) = (self.to_bits(), sine.to_bits(), cosine.to_bits());
                 let swap = (sine ^ cosine) & (k & 1).wrapping_neg();

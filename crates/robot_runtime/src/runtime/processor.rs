@@ -178,35 +178,35 @@ mod x86 {
     /// branches inside in either case.
     #[cfg_attr(debug_assertions, inline(never))]
     #[cfg_attr(not(debug_assertions), inline(always))]
-    fn asked() -> u8 {
+    fn detected_level() -> u8 {
         LEVEL.load(Ordering::Relaxed)
     }
 
     #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
     #[inline(always)]
     pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
-        if asked() >= AVX2 {
+        if detected_level() >= AVX2 {
             // SAFETY: the processor was queried and has these features.
             return unsafe { with_avx2(kernel) };
         }
-        undecided(kernel)
+        run_after_detection(kernel)
     }
 
     #[inline(always)]
     pub(super) fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
-        if asked() == AVX512 {
+        if detected_level() == AVX512 {
             // SAFETY: the processor was queried and has these features.
             return unsafe { with_avx512(kernel) };
         }
-        undecided_block(kernel)
+        run_block_after_detection(kernel)
     }
 
     /// Queries the processor and runs the kernel. This happens in the first call, and in each call on a processor that
     /// has only the baseline features.
     #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
     #[inline(never)]
-    fn undecided<K: Kernel>(kernel: K) -> K::Output {
-        if ask() >= AVX2 {
+    fn run_after_detection<K: Kernel>(kernel: K) -> K::Output {
+        if detect() >= AVX2 {
             // SAFETY: the processor was queried and has these features.
             return unsafe { with_avx2(kernel) };
         }
@@ -214,8 +214,8 @@ mod x86 {
     }
 
     #[inline(never)]
-    fn undecided_block<K: Kernel>(kernel: K) -> K::Output {
-        match ask() {
+    fn run_block_after_detection<K: Kernel>(kernel: K) -> K::Output {
+        match detect() {
             // SAFETY: the processor was queried and has these features.
             AVX512 => unsafe { with_avx512(kernel) },
             #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
@@ -225,7 +225,7 @@ mod x86 {
     }
 
     #[inline(never)]
-    fn ask() -> u8 {
+    fn detect() -> u8 {
         let avx2 = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma");
         let avx512 = is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")
@@ -294,7 +294,7 @@ mod x86 {
         where
             O: Lanewise<K, R>,
         {
-            unsafe { T::lanewise_asked::<O, ONCE, K, R, N>(arguments) }
+            unsafe { T::lanewise_queried::<O, ONCE, K, R, N>(arguments) }
         }
     }
 }

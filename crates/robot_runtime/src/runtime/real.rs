@@ -47,7 +47,7 @@ pub trait Real: Scalar + sealed::Sealed + 'static {
     ///
     /// The processor must have fused multiply-adds and, if it is an x86-64, AVX2.
     #[doc(hidden)]
-    unsafe fn lanewise_asked<
+    unsafe fn lanewise_queried<
         O: Lanewise<K, R>,
         const ONCE: bool,
         const K: usize,
@@ -63,7 +63,7 @@ mod sealed {
 }
 
 macro_rules! implement_real {
-    ($float:ident, $polynomials:ident, $asked:ident) => {
+    ($float:ident, $polynomials:ident, $queried:ident) => {
         impl sealed::Sealed for $float {}
 
         impl Real for $float {
@@ -95,7 +95,7 @@ macro_rules! implement_real {
             }
 
             #[inline(always)]
-            unsafe fn lanewise_asked<
+            unsafe fn lanewise_queried<
                 O: Lanewise<K, R>,
                 const ONCE: bool,
                 const K: usize,
@@ -105,7 +105,7 @@ macro_rules! implement_real {
                 arguments: [&[Self; N]; K],
             ) -> [[Self; N]; R] {
                 #[cfg(target_arch = "x86_64")]
-                return registers::$asked::<O, ONCE, K, R, N>(arguments);
+                return registers::$queried::<O, ONCE, K, R, N>(arguments);
                 #[cfg(not(target_arch = "x86_64"))]
                 Self::lanewise::<O, K, R, N>(arguments)
             }
@@ -113,5 +113,5 @@ macro_rules! implement_real {
     };
 }
 
-implement_real!(f64, double, asked_f64);
-implement_real!(f32, single, asked_f32);
+implement_real!(f64, double, queried_f64);
+implement_real!(f32, single, queried_f32);

@@ -125,7 +125,7 @@ fn at<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
 }
 
 #[cfg(target_arch = "x86_64")]
-macro_rules! asked {
+macro_rules! queried {
     ($name:ident, $float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal) => {
         /// Applies an operation to each lane of arrays on a processor that has AVX2 and fused multiply-adds.
         #[inline(always)]
@@ -153,9 +153,9 @@ macro_rules! asked {
 }
 
 #[cfg(target_arch = "x86_64")]
-asked!(asked_f64, f64: F64x2 2, F64x4 4);
+queried!(queried_f64, f64: F64x2 2, F64x4 4);
 #[cfg(target_arch = "x86_64")]
-asked!(asked_f32, f32: F32x4 4, F32x8 8);
+queried!(queried_f32, f32: F32x4 4, F32x8 8);
 
 by_widest!(f64: F64x2 2, F64x4 4, F64x8 8);
 by_widest!(f32: F32x4 4, F32x8 8, F32x16 16);

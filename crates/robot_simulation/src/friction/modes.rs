@@ -62,7 +62,7 @@ pub(crate) fn chosen(
             guess[*index] = *mode;
         }
     }
-    tried(friction, state, tau, guess, &at_rest)
+    first_consistent(friction, state, tau, guess, &at_rest)
 }
 
 /// The coordinates at rest whose modes are not consistent with the accelerations, and the modes to try instead.
@@ -83,7 +83,7 @@ fn wrong(at_rest: &[usize], modes: &[Mode], found: &Balance) -> Vec<(usize, Mode
 }
 
 /// Tries all combinations of modes of the coordinates at rest.
-fn tried(
+fn first_consistent(
     friction: &dyn DryFriction,
     state: &State,
     tau: &[f64],

@@ -57,7 +57,7 @@ pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) 
             is_sum: name == "total",
         };
         Panel {
-            quantity: look(JointVariable::Torque, Some(index)),
+            quantity: name(JointVariable::Torque, Some(index)),
             unit: JointVariable::Torque.unit(kind).to_owned(),
             curves: contributions.named().into_iter().map(curve).collect(),
         }
@@ -78,12 +78,12 @@ fn by_unit(
         let numbers = robot.coordinates.iter().enumerate();
         let numbers = numbers.filter(|(_, coordinate)| coordinate.kind == kind);
         let curve = |(index, _)| Curve {
-            name: look(variable, Some(index)),
+            name: name(variable, Some(index)),
             values: entries(samples, index),
             is_sum: false,
         };
         let curves: Vec<Curve> = numbers.map(curve).collect();
-        let quantity = format!("{quantity} {}", look(variable, None));
+        let quantity = format!("{quantity} {}", name(variable, None));
         let unit = variable.unit(kind).to_owned();
         (!curves.is_empty()).then_some(Panel { quantity, unit, curves })
     };
@@ -91,7 +91,7 @@ fn by_unit(
 }
 
 /// The name of a variable with the number of its coordinate as a subscript: `q̇₁`.
-fn look(variable: JointVariable, index: Option<usize>) -> String {
+fn name(variable: JointVariable, index: Option<usize>) -> String {
     let letters = match variable {
         JointVariable::Velocity => "q\u{307}",
         JointVariable::Acceleration => "q\u{308}",
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn variables_have_their_signs() {
         let all = [JointVariable::Position, JointVariable::Velocity, JointVariable::Torque];
-        assert_eq!(all.map(|variable| look(variable, Some(10))), ["q₁₁", "q\u{307}₁₁", "τ₁₁"]);
-        assert_eq!(look(JointVariable::Position, None), "q");
+        assert_eq!(all.map(|variable| name(variable, Some(10))), ["q₁₁", "q\u{307}₁₁", "τ₁₁"]);
+        assert_eq!(name(JointVariable::Position, None), "q");
     }
 }

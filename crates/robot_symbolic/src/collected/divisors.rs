@@ -48,10 +48,10 @@ impl Candidate {
     }
 }
 
-/// Returns the candidates of a sum, best first. `figures` are the absolute values of coefficients that are allowed in
+/// Returns the candidates of a sum, best first. `allowed` are the absolute values of coefficients that are allowed in
 /// the result, besides small integers.
-pub(super) fn candidates(terms: &Terms, figures: &FxHashSet<Rational>) -> Vec<Candidate> {
-    let seeker = Seeker::new(terms, figures);
+pub(super) fn candidates(terms: &Terms, allowed: &FxHashSet<Rational>) -> Vec<Candidate> {
+    let seeker = Seeker::new(terms, allowed);
     let mut found = seeker.squares();
     let (powers, kernels) = seeker.powers();
     found.extend(powers);
@@ -73,7 +73,7 @@ struct Pair<'t> {
 
 struct Seeker<'t> {
     terms: &'t Terms,
-    figures: &'t FxHashSet<Rational>,
+    allowed: &'t FxHashSet<Rational>,
     places: FxHashMap<&'t Powers, usize>,
     /// The variables of each term, as given by [`Powers::bits`].
     bits: Vec<u64>,
@@ -84,12 +84,12 @@ struct Seeker<'t> {
 }
 
 impl<'t> Seeker<'t> {
-    fn new(terms: &'t Terms, figures: &'t FxHashSet<Rational>) -> Seeker<'t> {
+    fn new(terms: &'t Terms, allowed: &'t FxHashSet<Rational>) -> Seeker<'t> {
         let places = terms.as_slice().iter().enumerate();
         let places = places.map(|(place, (powers, _))| (powers, place)).collect();
         let bits = terms.as_slice().iter().map(|(powers, _)| powers.bits()).collect();
         let lengths = terms.as_slice().iter().map(term_length).collect();
-        Seeker { terms, figures, places, bits, lengths, length: terms.unsigned_length() }
+        Seeker { terms, allowed, places, bits, lengths, length: terms.unsigned_length() }
     }
 
     /// Creates the candidate f = K Q + R from K, Q and the places of the terms of K Q.
@@ -112,7 +112,7 @@ impl<'t> Seeker<'t> {
     fn allows(&self, number: &Rational) -> bool {
         let number = number.abs();
         number.to_integer().is_some_and(|integer| integer <= MAX_INTEGER)
-            || self.figures.contains(&number)
+            || self.allowed.contains(&number)
     }
 
     /// Candidates whose factor is a variable or the common powers of two terms (co-kernels), and candidates whose

@@ -264,7 +264,7 @@ struct Place {
 /// The search for the short forms of one sum and its parts.
 pub(super) struct Factoring {
     /// The absolute values of its coefficients; no other numbers are made, except small integers.
-    figures: FxHashSet<Rational>,
+    coefficients: FxHashSet<Rational>,
     known: FxHashMap<(Terms, usize), Rc<Formula>>,
     work: usize,
     /// The number of variables that are written before brackets.
@@ -273,8 +273,8 @@ pub(super) struct Factoring {
 
 impl Factoring {
     pub(super) fn new(terms: &Terms, early: usize) -> Factoring {
-        let figures = terms.as_slice().iter().map(|(_, number)| number.abs()).collect();
-        Factoring { figures, known: FxHashMap::default(), work: 0, early }
+        let coefficients = terms.as_slice().iter().map(|(_, number)| number.abs()).collect();
+        Factoring { coefficients, known: FxHashMap::default(), work: 0, early }
     }
 
     /// Returns the shortest form that is found.
@@ -315,7 +315,7 @@ impl Factoring {
         };
         let mut best = Formula::flat(terms);
         let mut least = best.measure(self.early, place.depth > 0);
-        for candidate in candidates(terms, &self.figures).into_iter().take(width) {
+        for candidate in candidates(terms, &self.coefficients).into_iter().take(width) {
             let formula = self.of_candidate(terms, &candidate, place);
             for formula in formula.unnested(self.early).into_iter().chain([formula]) {
                 let measure = formula.measure(self.early, place.depth > 0);

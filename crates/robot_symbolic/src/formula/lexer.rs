@@ -19,7 +19,7 @@ pub(super) enum Token {
     Number(Rational),
     Name,
     /// One of `+ - * / ^ ( )`.
-    Sign(u8),
+    Symbol(u8),
     End,
 }
 
@@ -54,11 +54,11 @@ impl<'t> Lexer<'t> {
             }
             Some(byte @ (b'+' | b'-' | b'*' | b'/' | b'^' | b'(' | b')')) => {
                 self.position += 1;
-                Token::Sign(byte)
+                Token::Symbol(byte)
             }
             Some(byte) if starts_name(byte) => self.name(start)?,
             Some(byte) if byte.is_ascii_digit() || byte == b'.' => self.number(start)?,
-            Some(_) => return Err(self.stranger(start)),
+            Some(_) => return Err(self.unknown_character(start)),
         };
         Ok((token, start..self.position))
     }
@@ -133,7 +133,7 @@ impl<'t> Lexer<'t> {
     }
 
     /// The error for a character that cannot occur in a formula.
-    fn stranger(&self, start: usize) -> ParseError {
+    fn unknown_character(&self, start: usize) -> ParseError {
         let rest = self.text.get(start..).unwrap_or_default();
         let character = rest.chars().next().unwrap_or_default();
         let span = start..start + character.len_utf8();

@@ -111,23 +111,23 @@ impl Parser<'_> {
                 Ok(false)
             }
             Token::Name => self.name(span),
-            Token::Sign(b'(') => self.open(Pending::Open, span),
-            Token::Sign(b'-') => self.open(Pending::Neg, span),
-            Token::Sign(b'+') => {
+            Token::Symbol(b'(') => self.open(Pending::Open, span),
+            Token::Symbol(b'-') => self.open(Pending::Neg, span),
+            Token::Symbol(b'+') => {
                 Err(self.expected("a number, a name or `(`", span).help(if self.last.is_empty() {
                     "leave out the leading `+`"
                 } else {
                     "leave out one of the two signs"
                 }))
             }
-            Token::Sign(b')') if self.pending.last().is_some_and(|p| p.0.is_parenthesis()) => {
+            Token::Symbol(b')') if self.pending.last().is_some_and(|p| p.0.is_parenthesis()) => {
                 Err(ParseError::new(
                     self.last.start..span.end,
                     "expected an expression between the parentheses",
                 )
                 .help("write an expression there, or remove the parentheses"))
             }
-            Token::Sign(_) => Err(self
+            Token::Symbol(_) => Err(self
                 .expected("a number, a name or `(`", span)
                 .help("every operator needs an operand on both sides")),
             Token::End => {
@@ -144,11 +144,11 @@ impl Parser<'_> {
     /// Consumes a token at a position for an operator. Returns whether the next token must be an operand.
     fn operator(&mut self, token: &Token, span: Range<usize>) -> Result<bool, ParseError> {
         match token {
-            Token::Sign(b')') => {
+            Token::Symbol(b')') => {
                 self.close(span)?;
                 Ok(false)
             }
-            Token::Sign(b'(') | Token::Number(_) | Token::Name => {
+            Token::Symbol(b'(') | Token::Number(_) | Token::Name => {
                 let whole = self.last.start..span.end;
                 let (before, after) = (self.quote(&self.last), self.quote(&span));
                 let dots = if after == "(" { "…)" } else { "" };
@@ -162,7 +162,7 @@ impl Parser<'_> {
                     format!("write a product as `{before}*{after}{dots}`")
                 }))
             }
-            Token::Sign(sign) => {
+            Token::Symbol(sign) => {
                 let operator = Pending::Binary(*sign);
                 let limit = operator.strength() + u8::from(*sign == b'^');
                 self.reduce(limit)?;

@@ -34,7 +34,8 @@ impl Budget {
         }
     }
 
-    pub(super) fn hold(&self, terms: usize) -> Result<(), PolynomialError> {
+    /// Checks that this many more terms are within the limit.
+    pub(super) fn check_terms(&self, terms: usize) -> Result<(), PolynomialError> {
         if self.live.saturating_add(terms) > self.max_terms {
             return Err(PolynomialError::TooManyTerms { limit: self.max_terms });
         }
@@ -168,7 +169,7 @@ impl Accumulator<'_> {
             }
             indexmap::map::Entry::Vacant(free) => {
                 free.insert(coefficient);
-                self.budget.hold(self.terms.len())
+                self.budget.check_terms(self.terms.len())
             }
         }
     }
@@ -187,7 +188,7 @@ impl Accumulator<'_> {
                 let (product, _) = rest.product(x).ok_or(PolynomialError::ExponentTooLarge)?;
                 pending.push((product, &coefficient * c));
             }
-            self.budget.hold(self.terms.len() + pending.len())?;
+            self.budget.check_terms(self.terms.len() + pending.len())?;
         }
         Ok(())
     }

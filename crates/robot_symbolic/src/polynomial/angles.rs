@@ -12,7 +12,7 @@ use crate::rational::Rational;
 use crate::trigonometry::quarter_turns;
 
 /// The sine and cosine of one angle.
-type Circle = [Rc<Terms>; 2];
+type SineCosine = [Rc<Terms>; 2];
 
 impl Expander<'_> {
     /// The sine or cosine of the angle with these terms; `id` is the angle's node.
@@ -29,37 +29,40 @@ impl Expander<'_> {
             AngleSums::Keep if phase % 2 == 0 => single(self.graph, Function::Sin, &rest),
             AngleSums::Keep => single(self.graph, Function::Cos, &rest),
             AngleSums::Expand => {
-                let circle = match self.circles.get(&id) {
+                let pair = match self.sines_and_cosines.get(&id) {
                     Some(known) => known.clone(),
                     None => {
-                        let circle = self.sum_circle(&rest)?;
-                        self.budget.live += circle[0].len() + circle[1].len();
-                        self.circles.insert(id, circle.clone());
-                        circle
+                        let pair = self.sine_cosine_of_sum(&rest)?;
+                        self.budget.live += pair[0].len() + pair[1].len();
+                        self.sines_and_cosines.insert(id, pair.clone());
+                        pair
                     }
                 };
-                circle[usize::from(phase % 2)].to_vec()
+                pair[usize::from(phase % 2)].to_vec()
             }
         };
         Ok(if phase >= 2 { terms::scaled(&value, &Number::integer(-1)) } else { value })
     }
 
     /// The sine and cosine of a sum of angles, from those of its terms.
-    fn sum_circle(&mut self, angle: &[Term]) -> Result<Circle, PolynomialError> {
-        let mut sum: Option<Circle> = None;
+    fn sine_cosine_of_sum(&mut self, angle: &[Term]) -> Result<SineCosine, PolynomialError> {
+        let mut sum: Option<SineCosine> = None;
         for term in angle {
-            let circle = self.multiple_circle(term)?;
+            let pair = self.sine_cosine_of_multiple(term)?;
             sum = Some(match sum {
-                Some(before) => self.turn(&before, &circle)?,
-                None => circle,
+                Some(before) => self.angle_sum(&before, &pair)?,
+                None => pair,
             });
         }
-        Ok(sum.unwrap_or_else(zero_circle))
+        Ok(sum.unwrap_or_else(sine_cosine_of_zero))
     }
 
     /// The sine and cosine of `n x` for an integer `n`, by repeated doubling of `x`. Terms with other coefficients are
     /// single angles.
-    fn multiple_circle(&mut self, (monomial, number): &Term) -> Result<Circle, PolynomialError> {
+    fn sine_cosine_of_multiple(
+        &mut self,
+        (monomial, number): &Term,
+    ) -> Result<SineCosine, PolynomialError> {
         let multiple = number
             .as_rational()
             .and_then(Rational::to_integer)
@@ -72,21 +75,21 @@ impl Expander<'_> {
         let mut power = [Function::Sin, Function::Cos]
             .map(|function| Rc::new(single(self.graph, function, &unit)));
         let multiple = multiple.unwrap_or(1);
-        let mut circle: Option<Circle> = None;
+        let mut pair: Option<SineCosine> = None;
         let mut rest = multiple.unsigned_abs();
         while rest > 0 {
             if rest & 1 == 1 {
-                circle = Some(match circle {
-                    Some(before) => self.turn(&before, &power)?,
+                pair = Some(match pair {
+                    Some(before) => self.angle_sum(&before, &power)?,
                     None => power.clone(),
                 });
             }
             rest >>= 1;
             if rest > 0 {
-                power = self.turn(&power, &power)?;
+                power = self.angle_sum(&power, &power)?;
             }
         }
-        let [sine, cosine] = circle.unwrap_or_else(zero_circle);
+        let [sine, cosine] = pair.unwrap_or_else(sine_cosine_of_zero);
         Ok(if multiple < 0 {
             [Rc::new(terms::scaled(&sine, &Number::integer(-1))), cosine]
         } else {
@@ -95,7 +98,7 @@ impl Expander<'_> {
     }
 
     /// The sine and cosine of a sum of two angles.
-    fn turn(&mut self, a: &Circle, b: &Circle) -> Result<Circle, PolynomialError> {
+    fn angle_sum(&mut self, a: &SineCosine, b: &SineCosine) -> Result<SineCosine, PolynomialError> {
         let ([s, c], [t, d]) = (a, b);
         let (plus, minus) = (Number::integer(1), Number::integer(-1));
         let part = |a, b, factor| Part { a, b: Some(b), factor };
@@ -105,7 +108,7 @@ impl Expander<'_> {
     }
 }
 
-fn zero_circle() -> Circle {
+fn sine_cosine_of_zero() -> SineCosine {
     [0, 1].map(|value| Rc::new(terms::constant(Number::integer(value))))
 }
 

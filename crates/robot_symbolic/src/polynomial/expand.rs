@@ -47,7 +47,7 @@ pub(super) struct Expander<'g> {
     /// The reciprocals of denominators, most of which occur under many numerators.
     inverses: FxHashMap<Id, Rc<Terms>>,
     /// The sine and cosine of each expanded angle.
-    pub(super) circles: FxHashMap<Id, [Rc<Terms>; 2]>,
+    pub(super) sines_and_cosines: FxHashMap<Id, [Rc<Terms>; 2]>,
 }
 
 impl<'g> Expander<'g> {
@@ -83,12 +83,12 @@ impl<'g> Expander<'g> {
             uses,
             inlined,
             inverses: FxHashMap::default(),
-            circles: FxHashMap::default(),
+            sines_and_cosines: FxHashMap::default(),
         }
     }
 
     fn store(&mut self, id: Id, terms: Terms) -> Result<(), PolynomialError> {
-        self.budget.hold(terms.len())?;
+        self.budget.check_terms(terms.len())?;
         self.budget.live += terms.len();
         self.memo.insert(id, Rc::new(terms));
         Ok(())

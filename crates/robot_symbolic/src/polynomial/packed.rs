@@ -314,7 +314,7 @@ impl<'a, const W: usize> Sum<'a, W> {
             }
             std::collections::hash_map::Entry::Vacant(free) => {
                 free.insert(coefficient);
-                self.budget.hold(self.terms.len())
+                self.budget.check_terms(self.terms.len())
             }
         }
     }

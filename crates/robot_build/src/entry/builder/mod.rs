@@ -241,7 +241,7 @@ impl Builder {
     /// result is ignored.
     pub fn compile(&self, paths: &[impl AsRef<Path>]) -> Result<(), Errors> {
         let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
-        self.telling_cargo(|directives| self.run(&paths, directives))
+        self.with_directives(|directives| self.run(&paths, directives))
     }
 
     /// Generates the modules of all robot files `*.toml` of a folder, in the order of their names.
@@ -252,11 +252,11 @@ impl Builder {
     ///
     /// The errors of [`Builder::compile`], and a folder that cannot be read or has no robot files.
     pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Errors> {
-        self.telling_cargo(|directives| self.run_folder(folder.as_ref(), directives))
+        self.with_directives(|directives| self.run_folder(folder.as_ref(), directives))
     }
 
     /// Does the work and prints the lines for Cargo.
-    fn telling_cargo(
+    fn with_directives(
         &self,
         work: impl FnOnce(&mut Directives) -> Result<(), Errors>,
     ) -> Result<(), Errors> {

@@ -204,15 +204,15 @@ impl<'l> Sink<'l> for Evaluation<'_, 'l, '_> {
         ControlFlow::Continue(())
     }
 
-    fn wrong(&mut self, message: String) {
+    fn error(&mut self, message: String) {
         let source = self.task.source.as_deref();
         let message = source.map(|source| format!("{source}: {message}")).unwrap_or(message);
         self.wrong.read.push(message);
     }
 
-    fn none(&mut self, message: String) {
+    fn no_states(&mut self, message: String) {
         let before = std::mem::take(&mut self.wrong.before);
         self.wrong = Wrong { before, ..Wrong::default() };
-        self.wrong(message);
+        self.error(message);
     }
 }

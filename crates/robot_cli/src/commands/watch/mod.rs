@@ -122,7 +122,7 @@ fn follow(
                     // The next save may result in a page.
                     Err(error) => {
                         Failure::from(error).report(terminal);
-                        Ok(writeln!(terminal.errors, "{}", page.standing())?)
+                        Ok(writeln!(terminal.errors, "{}", page.described())?)
                     }
                 }
             }

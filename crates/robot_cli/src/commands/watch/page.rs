@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use robot_build::{Errors, Options, Output, Ownership, Source, Writer, shown};
 use robot_report::{Compiled, Input, Reloading, reloading};
 
-use crate::commands::report::judge;
+use crate::commands::report::compare_with_solver;
 use crate::failure::Failure;
 use crate::robot::PRINT_SNAP;
 
@@ -52,11 +52,18 @@ impl Page {
         let compiled = Compiled::Unread { reason };
         // A page that reloads itself would lose the positions of its sliders.
         let live = false;
-        reloading(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge, live })
+        reloading(&Input {
+            source,
+            options,
+            snap: PRINT_SNAP,
+            compiled: &compiled,
+            compare: compare_with_solver,
+            live,
+        })
     }
 
     /// Describes the file at the path if a page cannot be made.
-    pub(super) fn standing(&self) -> String {
+    pub(super) fn described(&self) -> String {
         let path = shown(&self.path);
         match self.last {
             None => format!("the page {path} is not written yet"),

@@ -108,13 +108,13 @@ impl State {
     fn after_valid(&self, now: &ValidRobot, settings: &Settings<'_>) -> Shown {
         let before = self.valid.iter().flat_map(|valid| &valid.problems);
         let before: Vec<&Problem> = before.chain(self.wrong.iter().flatten()).collect();
-        let problems = texts(absent(&now.problems, &before));
-        let gone = gone(before, &now.problems);
+        let problems = texts(new_problems(&now.problems, &before));
+        let resolved = resolved_lines(before, &now.problems);
         let Some(valid) = &self.valid else {
             let (coordinates, parameters) =
                 (now.robot.degrees_of_freedom(), now.robot.parameters.len());
             let changes = format!(
-                "{gone}{}: {coordinates} coordinates, {parameters} parameters; watching\n",
+                "{resolved}{}: {coordinates} coordinates, {parameters} parameters; watching\n",
                 now.robot.name
             );
             return Shown { title: title(self.number, None, settings), problems, changes };
@@ -123,12 +123,12 @@ impl State {
         let differences = differences(&found, settings.terms);
         let none = if differences.is_empty() { "no changes in the robot\n" } else { "" };
         let title = title(self.number, Some(valid.number), settings);
-        Shown { title, problems, changes: format!("{gone}{differences}{none}") }
+        Shown { title, problems, changes: format!("{resolved}{differences}{none}") }
     }
 
     /// The output for a file that does not describe a robot.
     fn after_errors(&self, wrong: &[Problem], settings: &Settings<'_>) -> Shown {
-        let gone = gone(self.wrong.iter().flatten().collect(), wrong);
+        let resolved = resolved_lines(self.wrong.iter().flatten().collect(), wrong);
         let stands = match &self.valid {
             None => "the file has errors; waiting for a save without errors".to_owned(),
             Some(valid) => {
@@ -141,7 +141,7 @@ impl State {
         Shown {
             title: title(self.number, None, settings),
             problems: texts(wrong.iter().collect()),
-            changes: format!("{gone}{stands}\n"),
+            changes: format!("{resolved}{stands}\n"),
         }
     }
 }
@@ -206,7 +206,7 @@ fn line(severity: Severity, code: &str, message: &str) -> String {
 }
 
 /// Returns the problems that are not in `among`.
-fn absent<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
+fn new_problems<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
     let is_new = |one: &&Problem| among.iter().all(|other| other.line != one.line);
     problems.iter().filter(is_new).collect()
 }
@@ -216,11 +216,11 @@ fn texts(problems: Vec<&Problem>) -> String {
 }
 
 /// Prints a line for each problem that no longer exists.
-fn gone(before: Vec<&Problem>, now: &[Problem]) -> String {
-    let is_gone = |one: &&Problem| now.iter().all(|other| other.line != one.line);
+fn resolved_lines(before: Vec<&Problem>, now: &[Problem]) -> String {
+    let is_resolved = |one: &&Problem| now.iter().all(|other| other.line != one.line);
     // The message of a parser about a pin has several lines.
     let first = |one: &Problem| one.line.lines().next().unwrap_or_default().to_owned();
-    before.into_iter().filter(is_gone).map(|one| format!("gone: {}\n", first(one))).collect()
+    before.into_iter().filter(is_resolved).map(|one| format!("gone: {}\n", first(one))).collect()
 }
 
 /// The name of a look: `save 3`.

@@ -235,8 +235,8 @@ fn a_save_in_pieces_is_seen_whole() {
     }
     assert_eq!(shown(look(&heavier())), Some(heavier()));
     // A file that stays missing is reported once.
-    let told: Vec<String> = (0..100).filter_map(|_| shown(away())).collect();
-    assert_eq!(told, ["away"]);
+    let messages: Vec<String> = (0..100).filter_map(|_| shown(away())).collect();
+    assert_eq!(messages, ["away"]);
     // A return to the content that was shown last is not new.
     assert_eq!((shown(look(ARM)), shown(away()), shown(look(ARM))), (None, None, None));
     assert_eq!(shown(look(ARM)).as_deref(), Some(ARM));

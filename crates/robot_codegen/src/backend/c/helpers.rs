@@ -203,7 +203,7 @@ impl Writer<'_> {
         if fused {
             lines.push("#endif".to_owned());
         }
-        lines.extend(self.turned(lanes));
+        lines.extend(self.apply_quadrant(lanes));
         lines
     }
 
@@ -233,7 +233,7 @@ impl Writer<'_> {
 
     /// Prints the sine and cosine of the angle in terms of `s` and `c`, which are swapped and change sign depending on
     /// the low bits of `k`.
-    fn turned(&self, lanes: usize) -> Vec<String> {
+    fn apply_quadrant(&self, lanes: usize) -> Vec<String> {
         let (size, to_sign) = (self.size(lanes), self.width() - 2);
         Writer::lines(&format!(
             "    memcpy(&turns, &shifted, {size});

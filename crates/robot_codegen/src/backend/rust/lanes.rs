@@ -26,8 +26,9 @@ impl Methods<'_, '_> {
     ) -> Vec<ImplItem> {
         let returned = self.block_type(slices, layout);
         let (parameters, types) = self.block_parameters(slices, layout);
-        let turned = layout == Layout::States && self.is_turned(slices);
-        let loops = if turned { self.turned(slices, names) } else { self.loops(slices, layout) };
+        let uses_lanes = layout == Layout::States && self.uses_lanes(slices);
+        let loops =
+            if uses_lanes { self.by_lanes(slices, names) } else { self.loops(slices, layout) };
         let outputs = slices.output_names().into_iter().map(syntax::variable).collect();
         let value = syntax::tuple(outputs);
         let (method, with) = names.of(layout);
@@ -133,12 +134,12 @@ impl Methods<'_, '_> {
 
     /// Whether the states of a block are converted to lanes before it is computed. LLVM does not vectorize a loop over
     /// sixteen states in memory, and such code takes four times as long.
-    fn is_turned(&self, slices: &Slices) -> bool {
+    fn uses_lanes(&self, slices: &Slices) -> bool {
         self.scope.options.scalar == Scalar::F32 && slices.count >= 16 && self.dispatched
     }
 
     /// Prints the conversion of the states to lanes, the computation, and the conversion of the results back to states.
-    fn turned(&self, slices: &Slices, names: &BatchNames) -> Vec<Stmt> {
+    fn by_lanes(&self, slices: &Slices, names: &BatchNames) -> Vec<Stmt> {
         let (runtime, scalar, lanes) = (self.number.runtime(), self.number.ty(), &slices.lanes);
         let used: Vec<&Ident> = slices.used().collect();
         let outputs = slices.output_names();

@@ -74,7 +74,7 @@ fn sin_cos(mut code: Code) -> Code {
     polynomial(&mut code, &numbers.cosine, z, zz);
     code.set(c).get(z).get(c).mul().number(-0.5).add().set(c);
     code.get(z).get(c).mul().number(1.0).add().set(c);
-    turned(&mut code, shifted, s, c);
+    apply_quadrant(&mut code, shifted, s, c);
     code
 }
 
@@ -109,7 +109,7 @@ fn polynomial(code: &mut Code, coefficients: &[f64], z: Local, zz: Local) {
 
 /// Writes sine and cosine of the angle from those of the angle minus k right angles, which are swapped and change sign
 /// depending on the low bits of k.
-fn turned(code: &mut Code, shifted: Local, s: Local, c: Local) {
+fn apply_quadrant(code: &mut Code, shifted: Local, s: Local, c: Local) {
     let width = code.kind.width();
     let to_sign = width - 2;
     let [k, swap] = code.patterns();

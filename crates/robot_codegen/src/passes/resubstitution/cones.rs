@@ -90,11 +90,11 @@ impl Cones {
         if uses[value.index()] == 0 || self.visits.get() > MAX_VISITS {
             return 0;
         }
-        let added: usize = operands.iter().map(|operand| self.hold(*operand, &mut uses)).sum();
+        let added: usize = operands.iter().map(|operand| self.retain(*operand, &mut uses)).sum();
         let inside = self.operands(value);
         let freed: usize = inside.iter().map(|operand| self.release(*operand, &mut uses)).sum();
         for operand in inside {
-            self.hold(*operand, &mut uses);
+            self.retain(*operand, &mut uses);
         }
         for operand in operands {
             self.release(*operand, &mut uses);
@@ -106,7 +106,7 @@ impl Cones {
     pub(super) fn replace(&mut self, value: Value, operands: Operands, cost: usize) {
         let mut uses = self.uses.borrow_mut();
         for operand in operands.iter() {
-            self.hold(*operand, &mut uses);
+            self.retain(*operand, &mut uses);
         }
         for operand in self.operands(value) {
             self.release(*operand, &mut uses);
@@ -149,7 +149,7 @@ impl Cones {
     }
 
     /// Adds one use of a value; returns the cost of the values that were not needed before.
-    fn hold(&self, value: Value, uses: &mut [usize]) -> usize {
+    fn retain(&self, value: Value, uses: &mut [usize]) -> usize {
         let (mut pending, mut cost) = (vec![value], 0);
         while let Some(value) = pending.pop() {
             self.visits.set(self.visits.get() + 1);

@@ -57,10 +57,10 @@ pub(in crate::forms) fn relations(writer: &Writer<'_, '_>) -> Result<Vec<Relatio
 /// The symbols that occur only in relations, with their meanings, for a link i and a link j that it carries.
 pub(crate) fn vectors() -> Vec<(Math, &'static str)> {
     let i = || Math::Letter('i');
-    let own = |letter| with(Math::Letter(letter).under_bar(), i(), i());
+    let own = |letter| with(Math::Letter(letter).with_bar(), i(), i());
     let inertia = Math::row(vec![sign('*'), i()]);
     let rotation = Math::Fenced(Fence::Brackets, Box::new(Math::Letter('R')));
-    let lever = |lower| with(Math::Letter('r').under_bar(), lower, i());
+    let lever = |lower| with(Math::Letter('r').with_bar(), lower, i());
     vec![
         (own('ω'), "angular velocity of link i, rad/s"),
         (own('ε'), "angular acceleration of link i, rad/s²"),
@@ -104,7 +104,7 @@ fn factor(writer: &Writer<'_, '_>, value: Expr<'_>) -> Result<Vec<Math>, Error> 
 
 /// A letter with a bar, such as `\bar{r}_{c_5}^5`, with a lower index and the frame of its axes as the upper one.
 fn bar(letter: char, lower: Math, axes: usize) -> Math {
-    with(Math::Letter(letter).under_bar(), lower, Math::integer(axes))
+    with(Math::Letter(letter).with_bar(), lower, Math::integer(axes))
 }
 
 fn own(letter: char, number: usize) -> Math {

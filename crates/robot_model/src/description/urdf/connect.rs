@@ -41,7 +41,7 @@ pub(super) fn connect(
     let ends = ends(reader, joints, &by_name)?;
     let root = root(reader, links, &ends)?;
     for name in joints.iter().map(|joint| &joint.name) {
-        name.tell(reader);
+        name.report_renaming(reader);
     }
     let mut connected = Connected { links: Vec::new(), sources: Vec::new() };
     let is_base = |link: usize| links.get(link).is_some_and(|link| link.name.written == "base");
@@ -65,7 +65,7 @@ pub(super) fn connect(
     }
     for link in &connected.sources {
         if let Some(link) = links.get(*link) {
-            link.name.tell(reader);
+            link.name.report_renaming(reader);
         }
     }
     Some(connected)

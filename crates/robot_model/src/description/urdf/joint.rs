@@ -56,7 +56,7 @@ pub(super) struct Dynamics {
 
 impl Dynamics {
     /// The values as text on one line.
-    pub(super) fn figures(&self) -> String {
+    pub(super) fn values_text(&self) -> String {
         format!("damping {}, friction {}", self.damping, self.friction)
     }
 }

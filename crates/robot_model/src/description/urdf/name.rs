@@ -36,8 +36,8 @@ pub(super) fn label<'a>(
 
 impl Name<'_> {
     /// Reports a note if the name has changed.
-    pub(super) fn tell(&self, reader: &mut Reader<'_>) {
-        tell(reader, self.written, &self.named);
+    pub(super) fn report_renaming(&self, reader: &mut Reader<'_>) {
+        report_renaming(reader, self.written, &self.named);
     }
 }
 
@@ -54,11 +54,11 @@ pub(super) fn identifier(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> 
         name.push_str("_robot");
     }
     let named = reader.check_name(&name, &attribute.span, "a robot", Kind::Identifier)?;
-    tell(reader, attribute.text, &named);
+    report_renaming(reader, attribute.text, &named);
     Some(named)
 }
 
-fn tell(reader: &mut Reader<'_>, written: &str, named: &Named) {
+fn report_renaming(reader: &mut Reader<'_>, written: &str, named: &Named) {
     if written == named.name {
         return;
     }

@@ -141,7 +141,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_with_a_number_is_told() {
-        for (word, told) in [
+        for (word, reason) in [
             ("1_500", "is not a number"),
             ("1e", "is not a number"),
             ("1e5.5", "is not a number"),
@@ -152,7 +152,7 @@ mod tests {
         ] {
             assert!(number(word).is_none(), "{word}");
             let message = wrong(word, &(0..1)).message;
-            assert_eq!(message, format!("`{word}` {told}"));
+            assert_eq!(message, format!("`{word}` {reason}"));
         }
     }
 }

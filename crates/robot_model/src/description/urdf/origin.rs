@@ -3,7 +3,7 @@
 use robot_symbolic::Formula;
 
 use super::super::locations::AngleLocation;
-use super::super::placement::{without_rests, zeros};
+use super::super::placement::{without_zero_moves, zeros};
 use super::super::reader::Reader;
 use super::element::Element;
 use super::number::{formulas, words};
@@ -51,5 +51,5 @@ pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Orig
 }
 
 fn placement(xyz: [Formula; 3], rpy: [Formula; 3]) -> Placement {
-    without_rests(Placement::from_xyz_rpy(xyz, rpy))
+    without_zero_moves(Placement::from_xyz_rpy(xyz, rpy))
 }

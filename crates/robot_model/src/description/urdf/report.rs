@@ -127,7 +127,7 @@ fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
         let message = format!("the friction of `{name}` is included");
         reader.report(
             Diagnostic::note(code::TAKEN_DEFAULT, message)
-                .at(&dynamics.span, dynamics.figures())
+                .at(&dynamics.span, dynamics.values_text())
                 .because("damping is viscous friction, friction is constant Coulomb friction"),
         );
     }

@@ -66,7 +66,7 @@ fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     let message = format!("{count}: the friction in `<dynamics>` is not part of the robot");
     reader.report(
         Diagnostic::note(code::LEFT_OUT, message)
-            .at(&first.span, first.figures())
+            .at(&first.span, first.values_text())
             .because("the torques do not include it")
             .help("the import option `friction` takes it into the robot file"),
     );
@@ -110,10 +110,10 @@ fn any(node: Node<'_, '_>, is: fn(&str, &str) -> bool) -> bool {
 
 /// Whether a value of a transmission affects the dynamics.
 fn has_gear(name: &str, text: &str) -> bool {
-    let figure = text.parse::<f64>().ok();
+    let value = text.parse::<f64>().ok();
     match name {
-        "mechanicalReduction" | "mechanical_reduction" => figure != Some(1.0),
-        "motorInertia" | "motor_inertia" | "rotorInertia" | "rotor_inertia" => figure != Some(0.0),
+        "mechanicalReduction" | "mechanical_reduction" => value != Some(1.0),
+        "motorInertia" | "motor_inertia" | "rotorInertia" | "rotor_inertia" => value != Some(0.0),
         _ => false,
     }
 }

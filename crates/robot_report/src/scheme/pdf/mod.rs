@@ -1,6 +1,7 @@
 //! The scheme as a PDF file with one page of the scheme's size, for LaTeX and other programs that include figures. The
 //! file contains only ASCII characters.
 
+mod fonts;
 mod writing;
 
 use pdf_writer::types::{LineCapStyle, LineJoinStyle};
@@ -10,7 +11,8 @@ use robot_document::figure::{Color, Figure, Label, Path, Point, Segment, Shape};
 use robot_model::robot::Robot;
 
 use super::figure;
-use writing::{FONTS, Run, runs};
+use fonts::FONTS;
+use writing::{Run, runs};
 
 /// The width of a line of text on A4 in pt; wider schemes are scaled down to it.
 const WIDTH: f64 = 455.0;
@@ -157,6 +159,9 @@ fn write(content: &mut Content, label: &Label, page: &Page) {
 
 #[cfg(test)]
 mod tests {
+    use robot_document::document::Inline;
+    use robot_document::math::Math;
+
     use super::*;
 
     fn robot(name: &str) -> Robot {
@@ -174,5 +179,23 @@ mod tests {
         // The lengths of the robot are italic letters with an index.
         assert!(pdf.contains("(l) Tj") && pdf.contains("(6) Tj"), "{pdf}");
         assert_eq!(pdf, scheme_pdf(&robot("trttr1")));
+    }
+
+    #[test]
+    fn the_background_of_a_greek_label_is_as_wide_as_the_letters() {
+        let label = Label {
+            words: Inline::Math(Math::Letter('α')),
+            center: [50.0, 10.0],
+            size: 10.0,
+            is_bold: false,
+            color: Color([0; 3]),
+        };
+        let page = Page { low: [0.0; 2], high: [100.0, 20.0], scale: 1.0 };
+        let mut content = Content::new();
+        write(&mut content, &label, &page);
+        let text = String::from_utf8(content.finish().into_vec()).unwrap();
+        // The width is 6.31 with margins of 0.5.
+        assert!(text.contains("46.345 5 7.31 10 re"), "{text}");
+        assert!(text.contains("1 0 0 1 46.85"), "{text}");
     }
 }

@@ -3,54 +3,7 @@
 use robot_document::document::Inline;
 use robot_document::math::{Fence, Math};
 
-/// A font.
-pub(super) struct Font {
-    /// The name within the file.
-    pub(super) key: &'static [u8],
-    /// The name in the PDF standard.
-    pub(super) name: &'static [u8],
-    /// Whether it has Latin letters.
-    pub(super) is_latin: bool,
-    /// The widths of the characters from the space to the tilde, in thousandths of the font size.
-    widths: &'static [u16; 95],
-}
-
-const SANS: usize = 0;
-const BOLD: usize = 1;
-const UPRIGHT: usize = 2;
-const ITALIC: usize = 3;
-const GREEK: usize = 4;
-
-/// The standard fonts that are used.
-pub(super) const FONTS: [Font; 5] = [
-    Font { key: b"S", name: b"Helvetica", is_latin: true, widths: &HELVETICA },
-    Font { key: b"B", name: b"Helvetica-Bold", is_latin: true, widths: &HELVETICA },
-    Font { key: b"R", name: b"Times-Roman", is_latin: true, widths: &TIMES },
-    Font { key: b"I", name: b"Times-Italic", is_latin: true, widths: &TIMES },
-    Font { key: b"G", name: b"Symbol", is_latin: false, widths: &TIMES },
-];
-
-/// The widths of Helvetica. They are also used for the bold font, some of whose letters are wider.
-#[rustfmt::skip]
-const HELVETICA: [u16; 95] = [
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,
-    556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556,
-    1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778,
-    667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556,
-    333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556,
-    556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
-];
-
-/// The widths of Times-Italic. They are also used for Times-Roman and Symbol, whose widths differ somewhat.
-#[rustfmt::skip]
-const TIMES: [u16; 95] = [
-    250, 333, 420, 500, 500, 833, 778, 214, 333, 333, 500, 675, 250, 333, 250, 278,
-    500, 500, 500, 500, 500, 500, 500, 500, 500, 500, 333, 333, 675, 675, 675, 500,
-    920, 611, 611, 667, 722, 611, 611, 722, 722, 333, 444, 667, 556, 833, 667, 722,
-    611, 722, 611, 500, 556, 722, 611, 833, 611, 556, 556, 389, 278, 389, 422, 500,
-    333, 500, 500, 444, 500, 444, 278, 500, 500, 278, 278, 444, 278, 722, 500, 500,
-    500, 500, 389, 389, 278, 500, 444, 667, 444, 444, 389, 400, 275, 400, 541,
-];
+use super::fonts::{BOLD, DOT, FONTS, GREEK, ITALIC, ROOT, SANS, TIMES, UPRIGHT};
 
 /// Characters with the same font, size and height.
 pub(super) struct Run {
@@ -71,12 +24,7 @@ impl Run {
 
     /// The width of characters, in units of their font size.
     pub(super) fn width_of(font: usize, text: &[u8]) -> f64 {
-        let widths = FONTS.get(font).map_or(&HELVETICA, |font| font.widths);
-        let width = |code: &u8| {
-            let place = usize::from(*code).checked_sub(32);
-            f64::from(place.and_then(|place| widths.get(place)).copied().unwrap_or(556))
-        };
-        text.iter().map(width).sum::<f64>() / 1000.0
+        text.iter().map(|code| FONTS[font].width(*code)).sum()
     }
 }
 
@@ -119,8 +67,8 @@ fn formula(math: &Math, rise: f64, scale: f64, runs: &mut Vec<Run>) {
         },
         // The minus sign, the multiplication sign and the dot are in the font of Greek letters.
         Math::Sign('-') => add(GREEK, b"-".to_vec()),
-        Math::Sign('·') => add(GREEK, vec![0xd7]),
-        Math::Sign('×') => add(GREEK, vec![0xb4]),
+        Math::Sign('·') => add(GREEK, vec![DOT]),
+        Math::Sign('×') => add(GREEK, vec![TIMES]),
         Math::Sign(sign) => add(UPRIGHT, latin(&sign.to_string())),
         Math::Symbol(symbol) => formula(&symbol.shape, rise, scale, runs),
         Math::Row(pieces) => pieces.iter().for_each(|piece| formula(piece, rise, scale, runs)),
@@ -139,7 +87,7 @@ fn formula(math: &Math, rise: f64, scale: f64, runs: &mut Vec<Run>) {
             formula(&parts[1], rise, scale, runs);
         }
         Math::Root(inside) => {
-            add(GREEK, vec![0xd6]);
+            add(GREEK, vec![ROOT]);
             formula(inside, rise, scale, runs);
         }
         Math::Fenced(fence, inside) => {

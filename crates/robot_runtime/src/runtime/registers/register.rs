@@ -113,7 +113,7 @@ macro_rules! register {
             }
 
             #[inline(always)]
-            fn turned(self, sine: Self, cosine: Self) -> (Self, Self) {
+            fn apply_quadrant(self, sine: Self, cosine: Self) -> (Self, Self) {
                 let (k, one, two) = (self.bits(), Self::splat_bits(1), Self::splat_bits(2));
                 unsafe {
                     let odd = $sub_bits(Self::splat_bits(0), $and(k, one));

@@ -82,7 +82,7 @@ pub(in super::super) fn compute<const ONCE: bool, V: Number<f64>>(angle: V) -> (
     let z = r * r;
     let sine = r + (r * z).multiply_add::<ONCE>(polynomial::<ONCE, V>(&SINE, z), -rest);
     let cosine = z.multiply_add::<ONCE>(polynomial::<ONCE, V>(&COSINE, z), V::splat(-0.5));
-    shifted.turned(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
+    shifted.apply_quadrant(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
 }
 
 /// `angle` minus `k` right angles, as a number minus a remainder that matters if the number is tiny.

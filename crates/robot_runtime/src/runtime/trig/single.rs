@@ -47,7 +47,7 @@ pub(in super::super) fn compute<const ONCE: bool, V: Number<f32>>(angle: V) -> (
     let z = r * r;
     let sine = (r * z).multiply_add::<ONCE>(polynomial::<ONCE, V>(&SINE, z), r);
     let cosine = z.multiply_add::<ONCE>(polynomial::<ONCE, V>(&COSINE, z), V::splat(-0.5));
-    shifted.turned(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
+    shifted.apply_quadrant(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
 }
 
 /// `angle` minus `k` right angles.

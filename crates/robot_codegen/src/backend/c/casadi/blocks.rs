@@ -1,7 +1,7 @@
 //! Jacobians of functions, computed by other functions of the module.
 
 use super::super::Header;
-use super::external::{External, Port, call, given, model, taken};
+use super::external::{External, Port, call, copy_inputs, copy_output, model};
 use crate::backend::flat::Function;
 
 /// The functions that compute the blocks of a Jacobian, one block for each input: the name of a function and the names
@@ -41,7 +41,7 @@ pub(super) fn jacobian(
     let mut body = vec![];
     let mut inputs = of.inputs.clone();
     inputs.push(Port::zero(format!("out_{}", output.name), output.rows, output.columns));
-    body.extend(taken(&of.inputs));
+    body.extend(copy_inputs(&of.inputs));
     body.extend(model(header, of.variables));
     let mut outputs: Vec<Port> = vec![];
     let mut stores = vec![];
@@ -67,7 +67,7 @@ pub(super) fn jacobian(
             let index = outputs.len();
             let name = format!("jac_{}_{}", output.name, of.inputs[index].name);
             let port = Port::dense(name, output.size(), of.inputs[index].size());
-            stores.push(given(index, &format!("{results}{found}"), &port));
+            stores.push(copy_output(index, &format!("{results}{found}"), &port));
             outputs.push(port);
         }
     }

@@ -55,12 +55,12 @@ impl External {
     pub(super) fn of(header: &Header<'_>, function: &Function<'_>, name: &str) -> External {
         let (inputs, outputs) = ports(function, header.tree.parameters.len());
         let variables = function.inputs.len();
-        let mut body = taken(&inputs);
+        let mut body = copy_inputs(&inputs);
         body.extend(model(header, variables));
         let arguments = (0..variables).map(|index| format!("x{index}"));
         body.extend(call(header, function, arguments, "y"));
         for (index, port) in outputs.iter().enumerate() {
-            body.push(given(index, &format!("y{index}"), port));
+            body.push(copy_output(index, &format!("y{index}"), port));
         }
         External { name: name.to_owned(), inputs, outputs, variables, body }
     }
@@ -145,7 +145,7 @@ impl External {
 }
 
 /// Prints the statements that copy the inputs to `x0`, `x1` and so on.
-pub(super) fn taken(inputs: &[Port]) -> Vec<String> {
+pub(super) fn copy_inputs(inputs: &[Port]) -> Vec<String> {
     let inputs = inputs.iter().enumerate();
     let lines = inputs.flat_map(|(index, port)| {
         let size = port.size();
@@ -193,7 +193,7 @@ pub(super) fn call(
 }
 
 /// Prints the statement that copies an output from an array in row-major order.
-pub(super) fn given(index: usize, from: &str, port: &Port) -> String {
+pub(super) fn copy_output(index: usize, from: &str, port: &Port) -> String {
     format!("give_(res[{index}], {from}, {}, {});", port.rows, port.columns)
 }
 
@@ -209,6 +209,6 @@ pub(super) fn nominal(header: &Header<'_>, name: &str) -> External {
     for (index, field) in fields.iter().enumerate() {
         body.push(format!("y0[{index}] = parameters.{field};"));
     }
-    body.push(given(0, "y0", &port));
+    body.push(copy_output(0, "y0", &port));
     External { name: name.to_owned(), inputs: vec![], outputs: vec![port], variables: 0, body }
 }
