@@ -28,7 +28,7 @@ fn display(
     layout: Layout,
     number: Option<&str>,
 ) -> Result<String, Error> {
-    let lines = right_side(equation, layout.width - width(&equation.left))?;
+    let lines = right_side(equation, layout.width - width(&equation.left), 0.0)?;
     let lines: Vec<String> = lines.iter().map(formula).collect();
     let left = formula(&equation.left);
     let display = match lines.as_slice() {
