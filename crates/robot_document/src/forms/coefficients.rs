@@ -22,7 +22,7 @@ pub(super) const MAX_TERMS: usize = 160;
 pub(super) const MAX_LENGTH: usize = 200;
 /// The most printed symbols of a coefficient that is written out where others need named parts: the limit by which the
 /// coefficients and the named parts of the longer ones are shortest together.
-const LENGTHS: [usize; 4] = [300, 200, 130, 80];
+const LENGTHS: [usize; 6] = [300, 200, 130, 80, 50, 30];
 /// The printed symbols of the shortest coefficient that is written by another one.
 pub(super) const MIN_LENGTH: usize = 3;
 
