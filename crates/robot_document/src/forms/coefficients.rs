@@ -22,7 +22,10 @@ pub(super) const MAX_TERMS: usize = 160;
 pub(super) const MAX_LENGTH: usize = 200;
 /// The most printed symbols of a coefficient that is written out where others need named parts: the limit by which the
 /// coefficients and the named parts of the longer ones are shortest together.
-const LENGTHS: [usize; 6] = [300, 200, 130, 80, 50, 30];
+const LENGTHS: [usize; 4] = [300, 200, 130, 80];
+/// Limits that leave few coefficients written out: only if with the one above all is longer than with parts for every
+/// coefficient by more than a tenth.
+const SHORTER: [usize; 2] = [50, 30];
 /// The printed symbols of the shortest coefficient that is written by another one.
 pub(super) const MIN_LENGTH: usize = 3;
 
@@ -129,6 +132,9 @@ pub(super) fn limit<'g>(
         written + named_length(&named, writer.options.digits)
     };
     let Some(most) = LENGTHS.into_iter().min_by_key(|most| total(*most)) else { return };
+    let longest = total(0) * 11 / 10;
+    let chosen = std::iter::once(most).chain(SHORTER).find(|most| total(*most) <= longest);
+    let most = chosen.unwrap_or(most);
     for (shown, printed) in shown.iter_mut().flatten().zip(printed.iter().flatten()) {
         if let (Shown::Short { value, .. }, Shown::Short { terms, .. }) = (&*shown, printed)
             && length(terms) > most

@@ -124,7 +124,7 @@ enum Cut {
 }
 
 /// A further line: the sign that it starts with is set apart from what follows, as in a sum.
-pub(super) fn continued(line: &Math) -> String {
+pub(in crate::notation) fn continued(line: &Math) -> String {
     match line.pieces() {
         [Math::Sign(_), rest @ ..] => {
             let sign = formula(&Math::row(line.pieces().iter().take(1).cloned().collect()));
