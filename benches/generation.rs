@@ -1,7 +1,7 @@
-//! The time from a robot file's text to Rust and to equations.
+//! Measures the time from a robot file's text to Rust code and to equations.
 //!
-//! `cargo bench -p robots --bench generation` measures the generator optimized. Build scripts and macros run
-//! without optimization unless the user's manifest says otherwise; that is
+//! `cargo bench -p robots --bench generation` measures the generator with optimization. Build scripts and macros
+//! run without optimization unless the user's manifest changes this; to measure that, run
 //!
 //! ```text
 //! CARGO_PROFILE_DEV_OPT_LEVEL=0 cargo bench -p robots --bench generation --profile dev
@@ -15,7 +15,7 @@ use robot_build::{Options, Source, generate};
 use robot_document::{EquationOptions, equations};
 use robot_dynamics::quantity::Kind;
 
-/// Time for each measurement.
+/// The time for each measurement.
 const BUDGET: Duration = Duration::from_millis(400);
 
 fn main() {
@@ -34,7 +34,8 @@ fn main() {
         let options = Options::default();
         let size = generate(&source, &options).unwrap().code.len() as f64 / 1024.0;
         let code = median(|| generate(&source, &options).unwrap().code.len());
-        // Every quantity of the paper where that is what people print: the joint torques elsewhere.
+        // All quantities of the paper for TRTTR1, which are usually printed; only the joint torques for other
+        // robots.
         let kinds =
             if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::GeneralizedForce] };
         let options = EquationOptions { kinds, ..EquationOptions::default() };

@@ -3,7 +3,7 @@
 
     pip install -r conformance/requirements.txt && python conformance/peers.py
 
-Every row runs in a process of its own, so that a crash is a finding and not the end. What a program
+Every row runs in a process of its own, so that a crash is a result and does not end the run. Everything that a program
 writes to its standard output and error counts as a message.
 """
 
@@ -34,7 +34,7 @@ SECONDS = 20
 
 
 def pinocchio_torques(row):
-    """Torques of the row's joints by Pinocchio's defaults, and what is odd about its coordinates."""
+    """Returns the torques of the row's joints by Pinocchio with its defaults, and its numbers of velocities and positions."""
     model = pinocchio.buildModelFromXML(row["urdf"])
     data = model.createData()
     joints = row.get("joints") or list(model.names)[1:]
@@ -55,7 +55,7 @@ def pinocchio_torques(row):
 
 
 def mujoco_torques(row):
-    """The same by MuJoCo: inverse dynamics, passive forces and friction included as MuJoCo has it."""
+    """Returns the same by MuJoCo: inverse dynamics, which in MuJoCo includes passive forces and friction."""
     model = mujoco.MjModel.from_xml_string(row["urdf"])
     data = mujoco.MjData(model)
     joints = row.get("joints") or [model.joint(index).name for index in range(model.njnt)]
@@ -72,7 +72,7 @@ def mujoco_torques(row):
 
 
 def apart(function, row):
-    """The answer of a function in a process of its own: (kind, content, whether it said anything)."""
+    """Runs a function in a process of its own; returns its result and whether it wrote anything."""
     with tempfile.TemporaryFile() as said, tempfile.TemporaryDirectory() as folder:
         reader, writer = os.pipe()
         child = os.fork()
@@ -82,7 +82,7 @@ def apart(function, row):
             os.dup2(said.fileno(), 2)
             try:
                 answer = ["torques", *function(row)]
-            except Exception as error:  # whatever the program raises is its refusal
+            except Exception as error:  # any exception counts as a refusal
                 answer = ["refuses", str(error)]
             os.write(writer, json.dumps(answer, default=float).encode())
             sys.stdout.flush()
@@ -116,7 +116,7 @@ def right(row):
 
 
 def ours(row):
-    """What `tests/derivations/conformance.rs` holds this project to."""
+    """Returns the result that `tests/derivations/conformance.rs` demands of this project."""
     if "refused" in row:
         return "refuses, " + " ".join(row["refused"])
     warned = row.get("warned", [])
@@ -124,7 +124,7 @@ def ours(row):
 
 
 def judge(row, answer, messages):
-    """The cell of an answer, and whether it is 'right', 'said' or 'silent'."""
+    """Returns the cell for a result, and whether the result is 'right', 'said' or 'silent'."""
     if answer[0] == "refuses":
         return ("refuses", "right") if "refused" in row else ("**refuses**", "said")
     if answer[0] != "torques":

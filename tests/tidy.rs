@@ -1,6 +1,6 @@
-//! The rules of ARCHITECTURE.md that the compiler does not check: which crate and which module may depend on which,
-//! who may touch the system, how long a file and how large a crate may be, that packages are self-contained,
-//! and that messages of libraries name no command.
+//! The rules of ARCHITECTURE.md that the compiler does not check: which crates and modules may depend on which, which
+//! of them may access the system, the maximum size of files and crates, that packages are self-contained, and that
+//! messages of libraries do not mention the command.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
 
-/// The crates along the arrow of ARCHITECTURE.md: each may depend on those before it.
+/// The crates in the order of ARCHITECTURE.md: each may depend on the preceding ones.
 const CRATES: [&str; 17] = [
     "robot_runtime",
     "robot_symbolic",
@@ -29,14 +29,14 @@ const CRATES: [&str; 17] = [
     "robot_languages",
 ];
 
-/// Who may depend on the numeric solver: what judges, the command that asks it, and what tests share. Nothing
-/// that derives, prints or generates.
+/// The crates that may depend on the numeric solver: those that check results, the command that uses it, and the common
+/// code of tests. No crate that derives, prints or generates may depend on it.
 const JUDGES: [&str; 3] = ["robot_check", "robot_cli", "robot_testing"];
 
-/// Packages that are never published: their sources may use files of the whole project.
+/// Packages that are never published: their sources may include files of the whole project.
 const UNPUBLISHED: [&str; 2] = ["robot_testing", "robot_languages"];
 
-/// The modules of crates in layers: each may use those of its own layer and of those before.
+/// The layers of modules in some crates: each module may use those of its own layer and of the preceding ones.
 const LAYERS: [(&str, &[&[&str]]); 3] = [
     (
         "robot_model",
@@ -62,17 +62,17 @@ const LAYERS: [(&str, &[&[&str]]); 3] = [
     ("robot_build", &[&["error", "driver"], &["entry"]]),
 ];
 
-/// The most lines of a file.
+/// The maximum number of lines of a file.
 const LONGEST: usize = 500;
 
-/// The largest part of the code, in percent, that one crate may have.
+/// The maximum percentage of the code in a single crate.
 const LARGEST: usize = 20;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// The Rust files below a folder, in order.
+/// The Rust files in a folder and its subfolders, in order.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = vec![];
     for entry in fs::read_dir(folder).unwrap() {
@@ -93,7 +93,7 @@ fn place(name: &str) -> usize {
     })
 }
 
-/// The crates of this project that a crate depends on, as users build it.
+/// The crates of this project on which a crate depends when users build it.
 fn dependencies(name: &str) -> Vec<String> {
     let manifest = root().join("crates").join(name).join("Cargo.toml");
     let manifest: toml::Table = fs::read_to_string(manifest).unwrap().parse().unwrap();
@@ -124,7 +124,7 @@ fn crates_depend_on_those_before_them() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The modules of its own crate that a source names: `crate::unit::Unit` and `crate::{unit, robot}`.
+/// The modules of its own crate that a source names, as in `crate::unit::Unit` and `crate::{unit, robot}`.
 fn named(text: &str) -> Vec<String> {
     let word = |text: &str| -> String {
         text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
@@ -191,7 +191,7 @@ fn files_are_short_and_no_crate_dwarfs_the_others() {
         let folder = root().join("crates").join(name);
         for path in sources(&folder) {
             let count = fs::read_to_string(&path).unwrap().lines().count();
-            // Goldens are generated code.
+            // Golden files are generated code.
             let is_golden = path.components().any(|part| part.as_os_str() == "goldens");
             if count > LONGEST && !is_golden {
                 long.push(format!("{}: {count} lines", path.display()));
@@ -207,8 +207,8 @@ fn files_are_short_and_no_crate_dwarfs_the_others() {
     assert!(large.is_empty(), "of {all} lines: {large:?}");
 }
 
-/// Where a module with a folder may lie beside it: the folder is copied into generated crates as it is, and its
-/// files keep their names there.
+/// The crate in which a module file may be beside the folder of the module: its sources are copied into generated
+/// crates and keep their names there.
 const COPIED: &str = "robot_runtime";
 
 #[test]
@@ -224,7 +224,7 @@ fn modules_with_a_folder_lie_in_it() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The files that a source includes by paths as they are written: `include_str!("a")`, `include!("a")`,
+/// The paths of files that a source includes, as they are written: `include_str!("a")`, `include!("a")`,
 /// `#[path = "a"]`.
 fn included(text: &str) -> Vec<&str> {
     let openings = ["include_str!(\"", "include_bytes!(\"", "include!(\"", "#[path = \""];
@@ -232,7 +232,7 @@ fn included(text: &str) -> Vec<&str> {
     found.filter_map(|rest| rest.split('"').next()).collect()
 }
 
-/// A path without `.` and `..`, as text alone.
+/// A path without `.` and `..`, computed from its text alone.
 fn plain(path: &Path) -> PathBuf {
     let mut found = PathBuf::new();
     for part in path.components() {
@@ -265,7 +265,7 @@ fn packages_include_nothing_from_outside() {
             let is_test = path.starts_with(package.join("tests"));
             for file in included(&text) {
                 let outside = !plain(&folder.join(file)).starts_with(&package);
-                // Tests are not packed, and may read files of the project; code of another package they may not.
+                // Tests are not packaged, so they may read files of the project, but not code of another package.
                 let may = is_test && !file.ends_with(".rs") || UNPUBLISHED.contains(&name);
                 if outside && !may {
                     wrong.push(format!("{} includes {file}", path.display()));
@@ -276,15 +276,14 @@ fn packages_include_nothing_from_outside() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The text of a source before its tests.
+/// The text of a source before its unit tests.
 fn without_tests(path: &Path) -> String {
     let text = fs::read_to_string(path).unwrap();
     let end = text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len());
     text[..end].to_owned()
 }
 
-/// The parts of the system, by the paths that lead to them, and who may touch them: a crate, or a file or folder
-/// of one.
+/// The parts of the system, given by their paths, and the crates, folders and files that may access them.
 const SYSTEM: [(&[&str], &[&str]); 3] = [
     (
         &["std::fs", "std::env", "std::io::std", "io::stdin", "io::stdout", "io::stderr"],
@@ -330,7 +329,7 @@ fn the_solver_knows_no_derivation() {
     assert_eq!(dependencies("robot_numeric"), ["robot_symbolic", "robot_model"]);
 }
 
-/// What an invariant says it is held by, by the words in code spans: paths, and in each the names behind it.
+/// The tests that an invariant names in code spans: paths, each with the names that follow it.
 fn held_by(invariant: &str) -> Vec<(&str, Vec<&str>)> {
     let spans = invariant.split('`').skip(1).step_by(2);
     let mut found: Vec<(&str, Vec<&str>)> = vec![];
@@ -366,7 +365,7 @@ fn invariants_name_what_holds_them() {
     }
 }
 
-/// Words that the glossary replaces and that mean nothing else.
+/// Words that the glossary replaces and that have no other meaning.
 const REPLACED: [&str; 9] = [
     "driving force",
     "torsor",
@@ -379,7 +378,7 @@ const REPLACED: [&str; 9] = [
     "optimis",
 ];
 
-/// The prose of a page, without blocks of code.
+/// The text of a page without code blocks, in lower case.
 fn prose(page: &str) -> String {
     let blocks = page.split("\n```");
     blocks.step_by(2).collect::<Vec<_>>().join("\n").to_lowercase()
@@ -394,7 +393,7 @@ fn pages_use_the_terms_of_the_glossary() {
         let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
         paths.extend(entries.filter(|path| path.extension().is_some_and(|end| end == "md")));
     }
-    // The glossary lists them, the summary has the titles of diagnostics.
+    // The glossary contains these words, and the summary contains the titles of diagnostics.
     paths.retain(|path| !path.ends_with("glossary.md") && !path.ends_with("SUMMARY.md"));
     assert!(paths.len() >= 25, "{}", paths.len());
     let mut wrong = vec![];
@@ -407,7 +406,7 @@ fn pages_use_the_terms_of_the_glossary() {
     assert!(wrong.is_empty(), "docs/glossary.md has other words: {wrong:#?}");
 }
 
-/// What a package is made of, by its manifest.
+/// Checks the metadata in the manifests of packages.
 #[test]
 fn packages_say_what_they_are() {
     let workspace: toml::Table =
@@ -429,14 +428,15 @@ fn packages_say_what_they_are() {
     }
 }
 
-/// The variables of joints are named in one place: elsewhere nobody writes `"qdd"`, or puts a number behind it.
+/// The names of joint variables are defined in one place: no other source contains `"qdd"`, alone or followed by a
+/// placeholder for a number.
 #[test]
 fn names_of_joint_variables_have_one_place() {
     const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
     let mut wrong = vec![];
     for path in sources(&root().join("crates")) {
         let shown = path.strip_prefix(root()).unwrap().display().to_string();
-        // Greek letters by their names, what tests call things, and code that is copied into generated crates.
+        // Exceptions: names of Greek letters, names in tests, and code that is copied into generated crates.
         let is_free = shown == "crates/robot_model/src/variable.rs"
             || shown == "crates/robot_model/src/signs/letter.rs"
             || shown.starts_with("crates/robot_runtime/")
@@ -460,20 +460,20 @@ fn names_of_joint_variables_have_one_place() {
     assert!(wrong.is_empty(), "use robot_model::variable::JointVariable: {wrong:#?}");
 }
 
-/// What sources of libraries may say of the command all the same: the file, and a literal or words in one.
+/// Names of the command or of options that sources of libraries may contain: the file, and a literal or a part of one.
 const NAMED_ON_PURPOSE: [(&str, &str); 17] = [
-    // Options of CMake, in the READMEs of packages.
+    // Options of CMake in the READMEs of packages.
     ("robot_build/src/driver/languages/package/c.rs", "cmake --build build"),
     ("robot_build/src/driver/languages/package/cpp.rs", "cmake --build build"),
     ("robot_build/src/driver/languages/package/cuda.rs", "cmake --build build"),
-    // Marks of files that this program writes: those written before must be recognized.
+    // Marks in files that this program writes; files that were written earlier must be recognized.
     ("robot_build/src/entry/files/marker.rs", "@generated by robot-symbolic"),
     ("robot_build/src/entry/files/staging.rs", ".robot-symbolic-tmp-"),
-    // The header of pinned plans, which the command alone writes.
+    // The header of pinned plans, which only the command writes.
     ("robot_dynamics/src/economical/plan/pin.rs", "Written by\\n"),
     // The footer of a page names the program that wrote it.
     ("robot_report/src/page.rs", "Written by robot-symbolic"),
-    // Options of rustc, which this crate starts.
+    // Options of rustc, which this crate runs.
     ("robot_evidence/src/compile.rs", "--crate-type=lib"),
     ("robot_evidence/src/compile.rs", "--edition=2024"),
     ("robot_evidence/src/compile.rs", "--cap-lints=allow"),
@@ -486,7 +486,7 @@ const NAMED_ON_PURPOSE: [(&str, &str); 17] = [
     ("robot_evidence/src/compile.rs", "`rustc --print"),
 ];
 
-/// The string literals of a source outside of comments, each with its line.
+/// The string literals of a source outside comments, each with its line.
 fn literals(text: &str) -> Vec<(usize, &str)> {
     let (bytes, mut found, mut at) = (text.as_bytes(), vec![], 0);
     let line = |at: usize| 1 + text[..at].matches('\n').count();
@@ -519,7 +519,7 @@ fn literals(text: &str) -> Vec<(usize, &str)> {
     found
 }
 
-/// Whether a literal names the command, or an option as the command line spells it.
+/// Whether a literal contains the name of the command, or an option as it is spelled on the command line.
 fn names_command(literal: &str) -> bool {
     let is_flag = |at: usize| {
         let before = literal[..at].chars().next_back();
@@ -544,11 +544,11 @@ fn literals_that_name_the_command_are_found() {
     }
 }
 
-/// Who builds with a library has no command line: messages say what helps in words that hold everywhere, and the
-/// command adds its own.
+/// Users of a library have no command line: messages describe remedies in words that apply everywhere, and the command
+/// adds its own hints.
 #[test]
 fn libraries_name_no_command_and_no_option_of_it() {
-    // Options are whole literals, all else may be a part of one.
+    // Options must be whole literals; other exceptions may be a part of one.
     let is_of = |literal: &str, part: &str| match part.trim_start().starts_with("--") {
         true => literal == part,
         false => literal.contains(part),

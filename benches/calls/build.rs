@@ -1,6 +1,6 @@
-//! Generates every function of every robot twice, with the standard library's sine and cosine and with
-//! the runtime's, and the list of all calls. Multiply-adds are products and sums where the target has
-//! none. Besides, inverse dynamics with the default options, forms of the UR5 over many states, and single functions of
+//! Generates every function of every robot twice, with the standard library's sine and cosine and with the
+//! runtime's, and the list of all calls. If the target has no multiply-adds, they are products and sums. It also
+//! generates inverse dynamics with the default options, forms of the UR5 over many states, and single functions of
 //! larger robots.
 
 use std::error::Error;
@@ -14,10 +14,10 @@ use robot_build::{
 const TRIGONOMETRY: [(&str, Trigonometry); 2] =
     [("standard", Trigonometry::Standard), ("polynomial", Trigonometry::Polynomial)];
 
-/// The poses and Jacobians of all named frames in one call, as the other contenders give them for the
-/// last one.
+/// The poses and Jacobians of all named frames in one call; the other programs compute those of the last frame
+/// only.
 const BUNDLE: &str = "pose_and_jacobian";
-/// Functions of robots that would need too long with all of them: file, functions.
+/// Robot files for which all functions would take too long, and the functions to generate for them.
 const LARGE: [(&str, &[&str]); 3] = [
     ("../../tests/fixtures/limbs/quadruped.toml", &["inverse_dynamics"]),
     ("robots/humanoid.toml", &["inverse_dynamics", "inverse_dynamics_derivatives"]),
@@ -80,7 +80,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(std::fs::write(out.join("list.rs"), list)?)
 }
 
-/// The calls of one robot's functions, in modules of these names with these functions of it, or all and a batch.
+/// Adds the calls of one robot's functions to the list. Each module has either the given functions of the robot, or
+/// all of them and a batch.
 fn robot(
     list: &mut String,
     file: &Path,
@@ -105,7 +106,7 @@ fn robot(
     let import = if parameters { "{Model, Parameters}" } else { "Model" };
     for (trigonometry, chosen) in modules {
         writeln!(list, "{{ use crate::{trigonometry}::{name}::{import}; let model = std::hint::black_box({model});")?;
-        // What needs no inputs is computed once, and takes no time.
+        // A function without inputs is computed once and takes no time, so it is omitted.
         let wanted = |name: &str| chosen.is_none_or(|chosen| chosen.contains(&name));
         let functions = module.functions.iter().filter(|function| wanted(&function.name));
         for function in functions.filter(|function| !function.inputs.is_empty()) {

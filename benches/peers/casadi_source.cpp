@@ -1,8 +1,10 @@
-// Writes the C that CasADi makes of Pinocchio's algorithms: they run on casadi::SX, common
-// subexpressions are shared (casadi::cse).   casadi_source FOLDER ROBOT.txt...
+// Writes the C code that CasADi generates from Pinocchio's algorithms: they run on casadi::SX, and common
+// subexpressions are shared (casadi::cse).
 //
-// The wheels carry no pinocchio.casadi for Python; this is the same thing without Python. Rotations
-// within 1e-4 of exact ones are made exact, which is CasADi at its best.
+//   casadi_source FOLDER ROBOT.txt...
+//
+// The wheels do not contain pinocchio.casadi for Python; this program does the same without Python. Rotations
+// within 1e-4 of exact ones are made exact, which yields the fastest code with CasADi.
 #include <pinocchio/autodiff/casadi.hpp>
 #include <pinocchio/algorithm/aba.hpp>
 #include <pinocchio/algorithm/aba-derivatives.hpp>

@@ -1,7 +1,10 @@
 // Times inverse dynamics in Rust, in C by two compilers, and in CasADi's C, in turn in one process.
+//
 //   languages JOINTS ROUNDS NAME=LIBRARY:SYMBOL...
-// The first is what the others are compared with; those named casadi have CasADi's interface. Prints the least time of a call over
-// all rounds, its ratio to the first's, and whether the results have the first's bits.
+//
+// The others are compared with the first one; those named casadi have CasADi's interface. Prints the least time of
+// a call over all rounds, its ratio to that of the first, and whether the results have the same bits as those of
+// the first.
 #include <dlfcn.h>
 #include <algorithm>
 #include <chrono>

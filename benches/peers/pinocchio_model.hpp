@@ -13,7 +13,7 @@ inline pin::SE3 placement(const LinkData &link, double snap) {
   return {rotation, Eigen::Map<const Eigen::Vector3d>(link.translation)};
 }
 
-// Entries of rotations nearer than `snap` to 0, 1 or -1 become that.
+// Entries of rotations closer than `snap` to 0, 1 or -1 are replaced by that number.
 inline pin::Model pinocchio_model(const RobotData &robot, double snap) {
   pin::Model model;
   model.gravity.linear() = Eigen::Map<const Eigen::Vector3d>(robot.gravity);

@@ -1,4 +1,4 @@
-// The robots and states that every contender gets, as `generated models` writes them.
+// The robots and states that all programs of the comparison use, as written by `calls models`.
 #pragma once
 #include <fstream>
 #include <stdexcept>
@@ -10,18 +10,18 @@ struct LinkData {
   char kind;       // R, a rotation, or P, a translation
   double axis[3];  // unit vector in the link frame
   double rotation[9], translation[3]; // placement of the joint in the parent's frame, row by row
-  double mass, centre[3], inertia[6]; // about the centre of mass: xx yy zz xy xz yz
+  double mass, centre[3], inertia[6]; // about the center of mass: xx yy zz xy xz yz
 };
 
 struct State {
-  std::vector<double> q, qd, qdd, tau; // tau by the numeric solver of robot_dynamics
+  std::vector<double> q, qd, qdd, tau; // tau is computed by robot_numeric
 };
 
 struct RobotData {
   std::string name;
   double gravity[3];
   std::vector<LinkData> links;
-  LinkData tip; // parent and placement of the last frame; the rest is of no account
+  LinkData tip; // parent and placement of the last frame; the rest is not used
   std::vector<State> states;
 };
 

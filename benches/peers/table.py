@@ -1,7 +1,7 @@
 """The tables of docs/performance.md from the lines of a run.   table.py RESULTS.jsonl
 
-A figure is the median over the rounds; a ratio is the geometric mean over four robots. The ratios of
-the fastest rounds stand beside them: where others share the processor, they change less from run to run.
+A time is the median over the rounds; a ratio is the geometric mean over four robots. The ratios of the
+fastest rounds are printed beside them: on a shared processor they change less from run to run.
 """
 
 import json
@@ -56,7 +56,7 @@ def command(*words):
     return subprocess.run(words, capture_output=True, text=True).stdout.splitlines()[0]
 
 
-# What to reach: words, how many times faster than whom, or ns a state; figures of one machine, a Zen 4.
+# The goals: a description, and either the factor over another program or ns per state; measured on a Zen 4.
 LEAST = [
     ("default build, default options, inverse dynamics, four arms, over Pinocchio", "plain default", "inverse_dynamics", ROBOTS, "pinocchio", 10),
     ("the same, native", "native default", "inverse_dynamics", ROBOTS, "pinocchio", 12),

@@ -1,5 +1,5 @@
-// Timing on a machine that others share: many short batches, each a whole number of rounds over the
-// states; the figure of a run is the median over the batches.
+// Timing on a machine with other load: many short repetitions, each a whole number of rounds over the states. The
+// result of a run is the median over the repetitions.
 #pragma once
 #include <algorithm>
 #include <chrono>
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-// Keeps the compiler from leaving out stores that nobody reads.
+// Keeps the compiler from omitting stores that nothing reads.
 inline void observed() { asm volatile("" ::: "memory"); }
 
-// Nanoseconds per call of `call(state index)`: the median over 300 batches of about 0.15 ms.
+// Nanoseconds per call of `call(state index)`: the median over 300 repetitions of about 0.15 ms.
 template <class Call> double nanoseconds(size_t states, Call &&call) {
   using clock = std::chrono::steady_clock;
   auto batch = [&](long rounds) {
@@ -28,8 +28,8 @@ template <class Call> double nanoseconds(size_t states, Call &&call) {
   return figures[figures.size() / 2];
 }
 
-// One line of results: who, which robot, which function, the figure, and the worst relative difference
-// from the torques in the robot's data, where a function gives torques.
+// Prints one line of results: the program, the robot, the function, the time, and, if the function computes
+// torques, the largest relative difference from the torques in the robot's data.
 inline void report(const char *peer, const std::string &robot, const char *function, double ns,
                    double error = -1) {
   std::printf("{\"peer\": \"%s\", \"robot\": \"%s\", \"function\": \"%s\", \"ns\": %.2f", peer,

@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Notebook: gravity compensation of a small arm
 #
-# A small arm with weak drives should stay where it is put, so that one can lead it by hand. The drives then carry the weight of the links, and nothing else:
-# τ = g(q). The arm here has three joints: one turns it about the vertical, two raise it.
+# A small arm with weak drives should stay in the configuration in which it is left, so that a person can guide it by
+# hand. The drives then carry the weight of the links, and nothing else: τ = g(q). The arm in this notebook has three
+# joints: one turns it about the vertical, and two raise it.
 
 # %%
 from pathlib import Path
@@ -60,7 +61,8 @@ arm
 # %% [markdown]
 # ## The law
 #
-# The gravity terms are all that the controller needs. For a microcontroller they are a few products; `arm.source("c")` prints them as C.
+# The controller needs only the gravity terms. For a microcontroller they are a few products; `arm.source("c")` prints
+# them as C.
 
 # %%
 equations = arm.equations(form="grouped", quantities="Q")
@@ -69,9 +71,10 @@ for name, formula in equations.definitions.items():
         print(name, "=", formula)
 
 # %% [markdown]
-# The vertical axis carries no weight: g₁ is not there. The payload's terms are; it is 0 unless it is set.
+# The vertical axis carries no weight, so there is no g₁. The terms contain the parameters of the payload, which are 0
+# unless a call sets them.
 #
-# In Python the law is a call, here in the pose where the arm reaches out:
+# In Python the law is one call. This is the configuration in which the arm is stretched out horizontally:
 
 # %%
 out = np.array([0.0, 0.0, 0.0])
@@ -80,7 +83,8 @@ carried = robots.Payload(mass=0.2, center_of_mass=[0.2, 0, 0])
 print("with 0.2 kg:    ", arm.gravity(out, payload=carried).round(3), "N m")
 
 # %% [markdown]
-# How strong must the shoulder be? The largest torque over all poses, from ten thousand of them in one call:
+# How strong must the shoulder be? One call computes the torques of ten thousand random configurations, and the
+# largest of them is an estimate:
 
 # %%
 poses = np.random.default_rng(1).uniform(-np.pi, np.pi, (10_000, 3))
@@ -89,9 +93,10 @@ print("largest torques:", np.abs(arm.gravity(poses, payload=carried)).max(axis=0
 # %% [markdown]
 # ## Does it hold?
 #
-# The law as torques of a simulation: the formulas over `q1`, `q2`, `q3` and the parameters are what `simulate` takes. The arm starts raised, at rest.
-# Friction is in the arm and not in the law. Four cases: no compensation; the right law; a law that believes the forearm 20 % heavier than it is; the right
-# law with a payload that it does not know.
+# `simulate` takes torques as formulas over `q1`, `q2`, `q3` and the parameters, so it can apply the law. The arm
+# starts raised and at rest. The arm has friction, and the law does not include it. We compare four cases: no
+# compensation; the right law; a law in which the forearm is 20 % heavier than it is; and the right law with a payload
+# that is not in the law.
 
 # %%
 # The law of the arm without a payload.
@@ -125,5 +130,7 @@ axes.set(xlabel="t, s", ylabel="shoulder q₂, rad")
 figure.legend(loc="outside upper center", ncols=2)
 
 # %% [markdown]
-# With the right law the arm stays to the last digit that is shown: nothing accelerates it. A mass that is wrong by 20 % pushes it up, slowed by friction
-# alone; a load that is not in the law pulls it down. Gravity compensation is as good as the masses in it, which is why the next notebook measures them.
+# With the right law the arm stays at rest to the last digit that is shown, because nothing accelerates it. If the
+# mass of the forearm is wrong by 20 %, the law pushes the arm up, and only friction slows it. A payload that is not
+# in the law pulls the arm down. Gravity compensation is only as good as its masses, so the next notebook measures
+# them.

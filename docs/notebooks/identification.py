@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Notebook: identification from motions and torques
 #
-# The masses and inertias of a data sheet are guesses, or missing. What the joint torques depend on can be measured: move the robot, record motions and torques,
-# solve a linear system. This notebook does it for the SCARA, with noise, and asks how far to trust the result.
+# The masses and inertias of a data sheet are guesses, or they are missing. The parameters that affect the joint
+# torques can be measured: move the robot, record motions and torques, and solve a linear system. This notebook does
+# this for the SCARA, with noise, and estimates how accurate the result is.
 
 # %%
 import matplotlib.pyplot as plt
@@ -15,8 +16,8 @@ arm
 # %% [markdown]
 # ## What can be known
 #
-# A fixed base hides most of the parameters: no motion of this arm turns its first link about a horizontal axis. The joint torques determine the *base
-# parameters* and nothing beyond them; each is a sum of parameters that act together.
+# On a fixed base most parameters have no effect: no motion of this arm turns its first link about a horizontal axis.
+# The joint torques determine only the *base parameters*; each of them is a sum of parameters that act together.
 
 # %%
 for entry in arm.base_parameters()["base"]:
@@ -25,8 +26,8 @@ for entry in arm.base_parameters()["base"]:
 # %% [markdown]
 # ## A measurement
 #
-# Sums of sines in each joint, 20 seconds at 100 Hz, with the derivatives in closed form. The torques come from the arm with its nominal values, and noise
-# of the size that current sensors have is added.
+# The motion of each joint is a sum of sines, 20 seconds long at 100 Hz, with derivatives in closed form. The torques
+# are those of the arm with its nominal values, plus noise of the size that is usual for current sensors.
 
 # %%
 random = np.random.default_rng(7)
@@ -47,8 +48,9 @@ noise = np.array([0.3, 0.2, 0.5, 0.02])
 tau = arm.inverse_dynamics(q, qd, qdd) + noise * random.standard_normal((len(t), n))
 
 # %% [markdown]
-# Joints differ in their noise: the third, which slides, in newtons. With `noise`, each row weighs as it is known. Behind `identify` there is nothing but
-# the regressor Y, with τ = Y β, and a linear system; the standard errors come with it.
+# The joints differ in their noise; the third joint slides, and its noise is a force in newtons. With `noise`, each
+# row is weighted by the inverse of its noise. `identify` uses only the regressor Y, with τ = Y β, and solves a linear
+# system; it also returns the standard errors.
 
 # %%
 found = arm.identify(q, qd, qdd, tau, noise=noise)
@@ -60,7 +62,8 @@ for name, *row in zip(found.names, true, alike.values, found.values, found.error
     print(f"{name:9} {row[0]:9.4f} {row[1]:16.4f} {row[2]:10.4f} ± {row[3]:.4f}")
 
 # %% [markdown]
-# The errors are those that the noise explains: the difference from the true value, in standard errors, should be like numbers of a normal distribution.
+# The noise explains the errors: the differences from the true values, divided by the standard errors, should be like
+# numbers from a normal distribution.
 
 # %%
 print("differences in standard errors:", ((found.values - true) / found.errors).round(1))
@@ -68,7 +71,8 @@ print("differences in standard errors:", ((found.values - true) / found.errors).
 # %% [markdown]
 # ## A bad motion looks as good
 #
-# The same with a tenth of the amplitude: residuals are as small as before, since they are the noise. The standard errors tell the truth.
+# We repeat this with a tenth of the amplitude. The residuals are as small as before, because they are the noise. Only
+# the standard errors show that the motion is bad.
 
 # %%
 slow = excitation(np.array([0.2, 0.2, 0.01, 0.2]))
@@ -80,7 +84,7 @@ print("standard errors grow by", (poor.errors / found.errors).round(0))
 # %% [markdown]
 # ## The test that counts
 #
-# Torques on a motion that was not used, predicted from both results.
+# Both results predict the torques of a motion that was not used to identify them.
 
 # %%
 fresh = excitation(np.array([2.0, 2.0, 0.1, 2.0]))
@@ -96,4 +100,5 @@ axes.set(xlabel="t, s", ylabel="torque of joint 1, N m", xlim=(0, 10))
 axes.legend()
 
 # %% [markdown]
-# For logs of millions of rows and robots whose identified values must be those of a body, see [logs](../users/logs.md).
+# For logs of millions of rows, and for identified values that must be physically consistent, see
+# [logs](../users/logs.md).

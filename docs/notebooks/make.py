@@ -1,8 +1,8 @@
-"""Runs the notebooks and writes their pages: `make.py [--check]`, by docs/notebooks/make.
+"""Runs the notebooks and writes their pages: `make.py [--check]`, called by docs/notebooks/make.
 
-A notebook is a Python file in jupytext's format of percent signs, NAME.py; its page NAME.md has what each cell shows, and its pictures lie beside it as
-NAME-1.svg. With `--check` nothing is written: a page that is not as made is an error. Numbers in pictures may differ a little, as those of a solver do between
-processors.
+A notebook is a Python file in jupytext's percent format, NAME.py. Its page NAME.md contains the cells and their outputs, and its pictures are
+stored beside it as NAME-1.svg and so on. With `--check` nothing is written, and a page that is out of date is an error. Numbers in pictures may
+differ a little, because those of a solver differ between processors.
 """
 
 import base64
@@ -18,7 +18,7 @@ from nbclient import NotebookClient
 
 HERE = Path(__file__).resolve().parent
 ROBOTS = HERE.parents[1] / "robots"
-# Pictures without dates and random names, their letters as text.
+# Pictures contain no dates and no random names, and their letters are text.
 SETUP = """
 import matplotlib
 from matplotlib_inline.backend_inline import set_matplotlib_formats
@@ -34,7 +34,7 @@ NUMBER = re.compile(r"-?\d+\.?\d*(?:e-?\d+)?")
 
 
 class Page:
-    """The page of a notebook: its text in parts, and its pictures by name."""
+    """The page of a notebook: its text in parts, and its pictures by the names of their files."""
 
     def __init__(self, name):
         self.name, self.parts, self.pictures = name, [], {}
@@ -46,13 +46,13 @@ class Page:
         self.add(f"```{kind}\n{text.strip(chr(10)).rstrip()}\n```")
 
     def picture(self, svg):
-        """Keeps a picture; the name of its file."""
+        """Stores a picture and returns the name of its file."""
         file = f"{self.name}-{len(self.pictures) + 1}.svg"
         self.pictures[file] = "\n".join(line.rstrip() for line in svg.strip().splitlines()) + "\n"
         return file
 
     def latex(self, latex):
-        """Formulas, one by one, below their headings."""
+        """Adds formulas, one by one, below their headings."""
         displays = DISPLAY.findall(latex)
         for heading, display, _ in displays:
             if heading:
@@ -62,7 +62,7 @@ class Page:
             self.text("math", latex.strip().strip("$").removeprefix(r"\displaystyle").strip())
 
     def output(self, output):
-        """What a cell shows, in the richest form that the book has."""
+        """Adds an output of a cell, in the richest form that the book supports."""
         if output.output_type == "stream":
             self.text("text", output.text)
             return
@@ -78,7 +78,7 @@ class Page:
 
 
 def joined(outputs):
-    """The outputs, what is printed at once as one: a kernel sends it in parts, as it likes."""
+    """Returns the outputs with consecutive texts joined, because a kernel splits a printed text in an arbitrary way."""
     found = []
     for output in outputs:
         if found and output.output_type == "stream" == found[-1].output_type:
@@ -89,7 +89,7 @@ def joined(outputs):
 
 
 def made(source):
-    """The page of a notebook, which is run in a folder with the robots; a cell that fails is an error."""
+    """Runs a notebook in a folder with the robots and returns its page; a cell that fails is an error."""
     notebook = jupytext.read(source)
     notebook.cells.insert(0, nbformat.v4.new_code_cell(SETUP))
     with tempfile.TemporaryDirectory() as folder:
@@ -108,7 +108,7 @@ def made(source):
 
 
 def same(shown, found):
-    """Whether two pictures are the same but for the last digits of their numbers."""
+    """Returns whether two pictures differ at most in the last digits of their numbers."""
     if NUMBER.sub("", shown) != NUMBER.sub("", found):
         return False
     pairs = zip(NUMBER.findall(shown), NUMBER.findall(found))

@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Notebook: the same equations by SymPy
 #
-# A program that prints equations must be checked by one that knows nothing of it. Here SymPy derives the equations of a planar arm with three links by
-# Lagrange's method, from the positions of the centers of mass alone. Then the difference to the printed equations is simplified.
+# A program that prints equations must be checked by an independent program. Here SymPy derives the equations of a
+# planar arm with three links by Lagrange's method, using only the positions of the centers of mass. The notebook then
+# simplifies the difference from the printed equations.
 
 # %%
 import numpy as np
@@ -16,7 +17,7 @@ print(len(arm.parameters), "parameters:", ", ".join(arm.parameters))
 # %% [markdown]
 # ## Lagrange
 #
-# Positions follow from the picture: each link begins where the one before it ends.
+# The positions follow from the geometry: each link begins at the end of the link before it.
 
 # %%
 n = 3
@@ -39,7 +40,7 @@ L = T - V
 by_lagrange = sympy.Matrix([L.diff(x.diff(time)).diff(time) - L.diff(x) for x in q])
 
 # %% [markdown]
-# The derivatives by time become the symbols of the printed equations.
+# The derivatives with respect to time become the symbols of the printed equations.
 
 # %%
 names = {}
@@ -52,8 +53,9 @@ by_lagrange = by_lagrange.subs([(old, new) for old, new in names.items()])
 # %% [markdown]
 # ## The difference
 #
-# The printed equations have a wrench at the tip too, which Lagrange's method here does not: it is set to 0. What is left must be 0 for *all* values, so no number
-# is put in. SymPy multiplies out and expands sines of sums; that is enough, since both sides are polynomials in the sines and cosines of single angles.
+# The printed equations also contain a wrench at the tip, which Lagrange's method omits here, so the wrench is set
+# to 0. The difference must be 0 for *all* values, so no numbers are substituted. SymPy multiplies out and expands
+# sines of sums; that is enough, since both sides are polynomials in the sines and cosines of single angles.
 
 # %%
 wrench = {symbol: 0 for symbol in printed.free_symbols if symbol.name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")}
@@ -63,7 +65,7 @@ print("difference:", difference.applyfunc(lambda entry: sympy.trigsimp(sympy.exp
 # %% [markdown]
 # ## The length of the equations
 #
-# Both are the same function. They differ in what they cost to read and to compute.
+# Both are the same function, but they differ in the effort to read and to compute them.
 
 # %%
 grouped, compact = (arm.equations(form=form).expressions for form in ("grouped", "compact"))
@@ -77,8 +79,9 @@ arm.equations(form="compact")
 # %% [markdown]
 # ## As numbers
 #
-# `lambdify` makes a function of the expressions. It must agree with the package's own function, which is derived by another recursion, over working frames,
-# and never passes through these formulas: for the planar arm, for the PUMA 560, and for TRTTR1, which has joints of both kinds.
+# `lambdify` turns the expressions into a function. Its results must agree with those of the package's own function,
+# which is derived by another recursion, over working frames, and does not use these formulas. We compare them for the
+# planar arm, for the PUMA 560, and for TRTTR1, which has revolute and prismatic joints.
 
 
 # %%

@@ -1,8 +1,9 @@
 # %% [markdown]
 # # Notebook: two links, from the picture to energy
 #
-# A planar arm with two links is the smallest robot in which everything of robot dynamics happens: inertia that depends on the pose, velocities that act on
-# other joints, gravity. This notebook reads its equations, takes them apart, and checks on a motion what they say.
+# A planar arm with two links is the smallest robot that shows all effects of robot dynamics: inertia that depends on
+# the configuration, velocities that act on other joints, and gravity. This notebook prints its equations, takes them
+# apart, and checks them on a motion.
 
 # %%
 import matplotlib.pyplot as plt
@@ -14,8 +15,9 @@ arm = robots.load("robots/planar_2r.toml")
 arm
 
 # %% [markdown]
-# Every value of the file is a symbol, so the equations are those of a textbook. `form="grouped"` sorts them: what belongs to accelerations, to
-# velocities, to gravity. The wrench w at the tip is there too; without a load it is 0.
+# Every value of the file is a symbol, so the equations are those of a textbook. `form="grouped"` groups the terms by
+# acceleration, velocity and gravity. The equations also contain the wrench w at the tip; it is 0 unless a call sets
+# it.
 
 # %%
 equations = arm.equations(form="grouped")
@@ -24,7 +26,8 @@ equations
 # %% [markdown]
 # ## What depends on what
 #
-# `sympy` gives the torques as expressions. The entries of the mass matrix are their derivatives by the accelerations.
+# `sympy` returns the torques as expressions. The entries of the mass matrix are their derivatives with respect to the
+# accelerations.
 
 # %%
 torques = arm.equations().sympy
@@ -33,17 +36,18 @@ M = torques.jacobian([qdd1, qdd2]).applyfunc(sympy.factor_terms)
 M
 
 # %% [markdown]
-# The first joint does not occur: turning the whole arm changes no distance between its masses. The matrix is symmetric, and it is positive definite for all
-# masses that a body can have; at the values of the file its eigenvalues show how much harder it is to turn the stretched arm (q₂ = 0) than the folded
-# one (q₂ = π).
+# The position of the first joint does not occur: turning the whole arm changes no distance between its masses. The
+# matrix is symmetric, and it is positive definite for all masses that a body can have. Its eigenvalues at the values
+# of the file show how much harder it is to turn the stretched arm (q₂ = 0) than the folded one (q₂ = π).
 
 # %%
 for q in ([0, 0], [0, np.pi / 2], [0, np.pi]):
     print(f"q2 = {q[1]:.2f}: eigenvalues", np.linalg.eigvalsh(arm.mass_matrix(np.array(q))).round(3))
 
 # %% [markdown]
-# The same mass matrix determines the velocity terms. With the matrix C of the Coriolis and centrifugal terms, Ṁ − 2 C is skew-symmetric: the
-# velocity terms do no work. That is a claim for all states, so SymPy should prove it, with C from the Christoffel symbols.
+# The same mass matrix determines the velocity terms. With the matrix C of the Coriolis and centrifugal terms, Ṁ − 2 C
+# is skew-symmetric, which means that the velocity terms do no work. That is a claim about all states, so SymPy should
+# prove it, with C from the Christoffel symbols.
 
 # %%
 q, qd = sympy.Matrix([q1, q2]), sympy.Matrix([qd1, qd2])
@@ -56,7 +60,7 @@ S = (M_dot - 2 * C).applyfunc(sympy.simplify)
 print("the sum with its transpose:", (S + S.T).applyfunc(sympy.simplify))
 
 # %% [markdown]
-# The velocity terms of the printed equations are C q̇; their difference is
+# The velocity terms of the printed equations are C q̇. The difference between the two is
 
 # %%
 velocity_terms = torques - torques.subs({qd1: 0, qd2: 0})
@@ -65,7 +69,8 @@ print((C * qd - velocity_terms).applyfunc(lambda entry: sympy.simplify(sympy.exp
 # %% [markdown]
 # ## On a motion
 #
-# The arm is let go from a raised pose and swings without friction. Its energy must not change; each link's own energy does, all the time.
+# The arm is released from a raised configuration and swings without friction. Its total energy must not change,
+# although the energy of each link changes all the time.
 
 # %%
 motion = arm.simulate(4.0, q0=[1.2, 0.6], step=0.01)
@@ -85,7 +90,8 @@ for one in axes:
 # %% [markdown]
 # ## Which term matters
 #
-# Along the motion no drive acts, so inertia, velocity terms and gravity add to 0 at every instant. Their sizes say what a simplified model may leave out.
+# No drive acts during the motion, so inertia, velocity terms and gravity add up to 0 at every instant. Their sizes
+# show which terms a simplified model could omit.
 
 # %%
 inertia = np.einsum("nij,nj->ni", arm.mass_matrix(motion["q"]), motion["qdd"])
@@ -96,5 +102,6 @@ for name, part in (("inertia", inertia), ("velocity", velocity), ("gravity", gra
     print(f"{name:9}", np.sqrt(np.mean(part**2, axis=0)).round(1), "N m, root mean square of joint 1 and 2")
 
 # %% [markdown]
-# Exercises: set `m2=0.0` in a call of `arm.mass_matrix` and explain what is left of M₁₂. Show that the arm stays at rest where it hangs straight
-# down. Let the arm go from `q0=[1.2001, 0.6]` instead and plot both motions for ten seconds.
+# Exercises: Set `m2=0.0` in a call of `arm.mass_matrix` and explain what remains of M₁₂. Show that the arm stays at
+# rest if it hangs straight down. Release the arm from `q0=[1.2001, 0.6]` instead and plot both motions for ten
+# seconds.

@@ -1,4 +1,4 @@
-"""The bar chart of the README, out of the tables of docs/performance.md."""
+"""Makes the bar chart of the README from the tables of docs/performance.md."""
 
 NAMES = {
     "inverse_dynamics": "inverse dynamics",
@@ -8,12 +8,12 @@ NAMES = {
     "forward_dynamics_derivatives": "∂(forward dynamics)",
     "regressor": "regressor",
 }
-# Points for a speed-up of 1, and the colors of the peers.
+# The length of a speed-up of 1 in points, and the colors of the other programs.
 UNIT, PINOCCHIO, CASADI = 13.5, "#0b57a4", "#a84300"
 
 
 def table(page, first):
-    """The rows of the table whose header begins with these cells, by their first cell."""
+    """Returns the rows of the table whose header begins with these cells, by their first cell."""
     lines = iter(page.splitlines())
     for line in lines:
         if line.startswith(first):

@@ -1,7 +1,7 @@
-"""The pictures of the README and the book: COMMAND [--check].
+"""Makes the pictures of the README and the book: make.py COMMAND [--check].
 
-Typst draws them, with letters as outlines, so that they need no font. Each says in its metadata what it was made
-from, with the sum of that; a test of the command compares the sums.
+Typst draws them, with letters as outlines, so that they need no font. The metadata of each picture list its sources
+and their checksums; a test of the command compares the checksums.
 """
 
 import hashlib
@@ -22,13 +22,13 @@ CARD = 'box(fill: white, stroke: 0.6pt + rgb("#d0d7de"), radius: 5pt, inset: {in
 
 
 class Pictures:
-    """Pictures by name, and what the command printed for the one that is being made."""
+    """The pictures by name, and the sources of the picture that is being made."""
 
     def __init__(self, command):
         self.command, self.sources, self.made = command, [], {}
 
     def printed(self, arguments):
-        """The output of the command, which becomes a source of the next picture."""
+        """Returns the output of the command, which becomes a source of the next picture."""
         run = subprocess.run([self.command, *arguments.split()], capture_output=True, text=True, check=True)
         self.is_from(f"robot-symbolic {arguments}", run.stdout)
         return run.stdout
@@ -51,13 +51,13 @@ class Pictures:
 
 
 def scheme(document):
-    """The drawing of the robot in a document, and the function that its labels need."""
+    """Returns the drawing of the robot in a document, and the function that its labels need."""
     label, box = re.search(r"(#let label\(.*?)\n(#box\(width.*?\n\])\n", document, re.S).groups()
     return f"{label}\n#let scheme = {box[1:]}\n"
 
 
 def equations(printed, *titles):
-    """The equations of the groups with these titles, all of the same alignment."""
+    """Returns the equations of the groups with these titles; without titles, all equations."""
     groups = dict(re.findall(r"^// ([^\n]*)\n#\[\n(.*?)\n\]$", printed, re.S | re.M)) if titles else {"": printed}
     found = []
     for title in titles or [""]:
@@ -74,7 +74,7 @@ def card(inside, inset="10pt"):
 
 
 def beside(drawing, text, width, height):
-    """A robot of at most that height beside its equations."""
+    """Returns a robot, at most of this width and height, beside its equations."""
     scaled = f"#context {{ let size = measure(scheme); let by = calc.min({width} / size.width, {height} / size.height) * 100%; scale(x: by, y: by, reflow: true, scheme) }}"
     return drawing + card(f"#grid(columns: 2, column-gutter: 14pt, align: horizon, [{scaled}], [{text}])")
 
@@ -83,7 +83,7 @@ def readme(pictures):
     file = "robots/trttr1.toml"
     drawing = scheme(pictures.printed(f"document {file} --format typst"))
     found = equations(pictures.printed(f"equations {file} --form collected --quantity Q --format typst --width 11.4cm"))
-    # The first is as long as all of these.
+    # The first equation is left out because it is as long as the others together.
     body = beside(drawing, "#set text(size: 11.5pt)\n" + aligned(found[1:]), "190pt", "270pt")
     pictures.add("readme", body, "The robot TRTTR1 and four of its equations of motion")
 

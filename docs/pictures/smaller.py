@@ -1,4 +1,4 @@
-"""An SVG of Typst's in fewer bytes, looking the same."""
+"""Rewrites an SVG by Typst in fewer bytes, without a visible change."""
 
 import re
 
@@ -11,7 +11,7 @@ NUMBER = re.compile(r"-?\d+\.\d{4,}")
 
 
 def path(found):
-    """The data of a path without the signs that it does not need."""
+    """Returns the data of a path without unnecessary characters."""
     data = re.sub(r"^M 0 0m ", "M", found[1])
     data = re.sub(r" ?([a-zA-Z]) ?", r"\1", data)
     data = re.sub(r"(?<![\d.])(-?)0\.(?=\d)", r"\1.", data)

@@ -1,7 +1,7 @@
 """Counts and runs the programs of inverse dynamics beside this file:   python3 docs/records/check.py [FOLDER]
 
-It uses nothing of this project. For each NAME.program it counts multiplications, additions, sines and cosines, and computes
-the joint torques at the states of NAME.states, whose torques come from a numeric solver. Fails if a torque differs by more
+It does not use this project's code. For each NAME.program it counts multiplications, additions, sines and cosines, and computes
+the joint torques at the states of NAME.states, whose torques come from a numeric solver. It fails if a torque differs by more
 than 1e-13 of the largest.
 """
 
@@ -14,7 +14,7 @@ ASSIGNMENT = re.compile(r"(v\d+) = (.+?)(  ; constant)?$")
 
 
 def section(lines, head):
-    """The lines below `head:`, to the next empty line."""
+    """Returns the lines below `head:`, to the next empty line."""
     if f"{head}:" not in lines:
         return []
     below = lines[lines.index(f"{head}:") + 1:]
@@ -22,7 +22,7 @@ def section(lines, head):
 
 
 def run(lines, loads, count):
-    """The results of a section, with the arrays that it loads from."""
+    """Computes the results of a section from the arrays that it loads from, and counts its operations."""
     values, constants = {}, {}
     for line in lines:
         if line.startswith("results: "):

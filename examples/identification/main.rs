@@ -4,8 +4,8 @@
 //! cargo run --release --example identification -- [SEED] [CSV]
 //! ```
 //!
-//! Prints each base parameter as it is, as it is estimated, and its standard deviation; writes the torques
-//! that the estimate predicts along another trajectory, with what is left of those measured there.
+//! Prints the true value, the estimate and its standard deviation of each base parameter; writes the torques that
+//! the estimate predicts along another trajectory, with their differences from the torques measured there.
 
 mod report;
 mod study;

@@ -1,4 +1,4 @@
-//! The whole study, as text.
+//! Runs the whole study and returns its results as text.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -14,12 +14,13 @@ use crate::study::{self, Estimate, Measurements, NOISE, PARAMETERS};
 use crate::trajectory::{JOINTS, Joints, Trajectory};
 
 pub(crate) const SEED: u64 = 560;
-/// Trajectories of which the best conditioned is taken, and the samples they are judged by.
+/// The number of trajectories, of which the best conditioned one is used, and the number of samples at which they
+/// are compared.
 const CANDIDATES: (u32, u32) = (20, 60);
-/// Measurements along a trajectory.
+/// The number of measurements along a trajectory.
 const SAMPLES: u32 = 1000;
 
-/// What is to be printed, and the CSV of torques along another trajectory.
+/// Returns the text to print, and the CSV with the torques along another trajectory.
 pub(crate) fn report(seed: u64) -> Result<(String, String), Box<dyn Error>> {
     let mut random = Random::new(seed);
     let (candidates, samples) = CANDIDATES;
@@ -80,14 +81,14 @@ fn names() -> Result<Vec<String>, Box<dyn Error>> {
     Ok(found.base.iter().map(BaseParameter::name).collect())
 }
 
-/// The root of the mean square.
+/// The root mean square.
 fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
     (values.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
-/// A line per state: the time, then for each joint the torque as measured, as predicted, and their
-/// difference.
+/// The CSV has a line for each state: the time, then for each joint the measured torque, the predicted torque and
+/// their difference.
 fn csv(measured: &Measurements, predicted: &[[f64; JOINTS]]) -> Result<String, std::fmt::Error> {
     let mut text = "t".to_owned();
     for joint in 1..=JOINTS {

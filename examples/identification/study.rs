@@ -1,4 +1,4 @@
-//! Measure, estimate, predict: the base parameters of the PUMA 560 from its torques.
+//! Measures, estimates and predicts: the base parameters of the PUMA 560 from its torques.
 
 use nalgebra::{DMatrix, DVector};
 use robot_numeric::random::Random;
@@ -21,7 +21,7 @@ pub(crate) const LIMITS: [(f64, f64); JOINTS] =
 /// The standard deviation of each torque's noise, N m.
 pub(crate) const NOISE: Joints = [1.0, 1.0, 0.5, 0.01, 0.01, 0.01];
 
-/// The base parameters that the robot file gives, in the order of the regressor's columns.
+/// The base parameters from the robot file, in the order of the regressor's columns.
 pub(crate) fn true_parameters() -> [f64; PARAMETERS] {
     Model::NOMINAL.base_parameters()
 }
@@ -29,7 +29,7 @@ pub(crate) fn true_parameters() -> [f64; PARAMETERS] {
 /// States along a trajectory and the torques measured there.
 #[derive(Debug)]
 pub(crate) struct Measurements {
-    /// q, q̇ and q̈, which count as known.
+    /// q, q̇ and q̈, which are assumed to be exact.
     pub(crate) states: Vec<[Joints; 3]>,
     /// Torques with noise, N m.
     pub(crate) torques: Vec<Joints>,
@@ -50,13 +50,13 @@ pub(crate) fn measure(trajectory: &Trajectory, samples: u32, random: &mut Random
     Measurements { torques: torques.collect(), states }
 }
 
-/// A number of the standard normal distribution (Box and Muller 1958).
+/// A random number with the standard normal distribution (Box and Muller 1958).
 fn normal(random: &mut Random) -> f64 {
     let radius = (-2.0 * (1.0 - random.uniform(0.0, 1.0)).ln()).sqrt();
     radius * (std::f64::consts::TAU * random.uniform(0.0, 1.0)).cos()
 }
 
-/// The regressor over all states, a row per torque, each divided by its noise.
+/// The regressor over all states, with a row for each torque, divided by the standard deviation of its noise.
 pub(crate) fn weighted_regressor(states: &[[Joints; 3]]) -> DMatrix<f64> {
     let mut stacked = DMatrix::zeros(states.len() * JOINTS, PARAMETERS);
     for (sample, [q, qd, qdd]) in states.iter().enumerate() {
@@ -70,8 +70,8 @@ pub(crate) fn weighted_regressor(states: &[[Joints; 3]]) -> DMatrix<f64> {
     stacked
 }
 
-/// The ratio of the largest to the smallest singular value, columns brought to length 1: how much
-/// errors grow at worst. Infinite where a parameter does not act.
+/// The ratio of the largest to the smallest singular value, with columns scaled to length 1: the largest factor by
+/// which errors grow. It is infinite if a parameter has no effect.
 pub(crate) fn condition(regressor: &DMatrix<f64>) -> f64 {
     let mut scaled = regressor.clone();
     for mut column in scaled.column_iter_mut() {
@@ -82,7 +82,7 @@ pub(crate) fn condition(regressor: &DMatrix<f64>) -> f64 {
     values.max() / values.min()
 }
 
-/// The best conditioned of so many random trajectories, and its condition.
+/// The best conditioned of this number of random trajectories, and its condition number.
 pub(crate) fn exciting(
     candidates: u32,
     samples: u32,
@@ -98,30 +98,30 @@ pub(crate) fn exciting(
     tried.min_by(|(_, a), (_, b)| a.total_cmp(b))
 }
 
-/// What least squares give.
+/// The result of least squares.
 #[derive(Debug)]
 pub(crate) struct Estimate {
     /// The base parameters.
     pub(crate) parameters: DVector<f64>,
-    /// Their standard deviations.
+    /// The standard deviations of the base parameters.
     pub(crate) deviations: DVector<f64>,
-    /// WᵀW of the weighted regressor W: the inverse of the parameters' covariance.
+    /// WᵀW of the weighted regressor W, the inverse of the parameters' covariance.
     information: DMatrix<f64>,
-    /// The sum of squares of what is left, each torque in units of its noise.
+    /// The sum of the squared residuals, each in units of its noise.
     pub(crate) residual: f64,
 }
 
 impl Estimate {
-    /// How far the estimate is from parameters, in units of its covariance: where these are the true
-    /// ones a χ² of as many degrees as there are parameters.
+    /// The distance of the estimate from parameters, in units of its covariance. For the true parameters it has a
+    /// χ² distribution with as many degrees of freedom as there are parameters.
     pub(crate) fn distance(&self, parameters: &[f64]) -> f64 {
         let error = &self.parameters - DVector::from_column_slice(parameters);
         (&self.information * &error).dot(&error)
     }
 }
 
-/// Weighted least squares by the QR decomposition W = Q R of the weighted regressor: R β = Qᵀ τ, and
-/// the covariance R⁻¹ R⁻ᵀ. `None` if a parameter cannot be told.
+/// Weighted least squares by the QR decomposition W = Q R of the weighted regressor: R β = Qᵀ τ, and the covariance
+/// R⁻¹ R⁻ᵀ. `None` if a parameter is not identifiable.
 pub(crate) fn estimate(measured: &Measurements) -> Option<Estimate> {
     let regressor = weighted_regressor(&measured.states);
     let entries = measured.torques.iter().flat_map(|tau| tau.iter().zip(NOISE));
@@ -139,7 +139,7 @@ pub(crate) fn estimate(measured: &Measurements) -> Option<Estimate> {
     })
 }
 
-/// The torques that parameters predict at a state, N m.
+/// The torques that the parameters predict at a state, N m.
 pub(crate) fn predict(parameters: &DVector<f64>, [q, qd, qdd]: &[Joints; 3]) -> Joints {
     let rows = Model::NOMINAL.regressor_base(q, qd, qdd);
     rows.map(|row| row.iter().zip(parameters.iter()).map(|(entry, value)| entry * value).sum())

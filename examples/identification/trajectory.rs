@@ -7,13 +7,13 @@ use robot_numeric::random::Random;
 
 /// The number of joints.
 pub(crate) const JOINTS: usize = 6;
-/// Sines and cosines of so many multiples of the base frequency.
+/// The number of harmonics: multiples of the base frequency.
 const HARMONICS: usize = 5;
-/// The base frequency, Hz: the trajectory lasts its inverse.
+/// The base frequency, Hz; its inverse is the duration of the trajectory.
 const FREQUENCY: f64 = 0.1;
 /// The largest speed of each joint, rad/s.
 const MAX_SPEED: f64 = 2.0;
-/// How much of a joint's range is used.
+/// The fraction of a joint's range that is used.
 const RANGE: f64 = 0.9;
 
 /// A position, velocity or acceleration of every joint, rad, rad/s, rad/s².
@@ -28,14 +28,14 @@ pub(crate) struct Trajectory {
 }
 
 impl Trajectory {
-    /// A random one that keeps to the limits of positions, rad, and to the speed.
+    /// Returns a random trajectory within the limits of positions, rad, and of the speed.
     pub(crate) fn random(limits: &[(f64, f64); JOINTS], random: &mut Random) -> Trajectory {
         let mut coefficients = [[(0.0, 0.0); HARMONICS]; JOINTS];
         for (of_joint, (lower, upper)) in coefficients.iter_mut().zip(limits) {
             for pair in of_joint.iter_mut() {
                 *pair = (random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
             }
-            // Bounds of the series and of its derivative.
+            // These are bounds of the series and of its derivative.
             let sizes = of_joint.map(|(a, b)| f64::hypot(a, b));
             let reach: f64 = sizes.iter().sum();
             let rates = sizes.iter().zip(1..).map(|(size, h)| size * angular(h));

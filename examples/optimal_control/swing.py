@@ -1,7 +1,8 @@
-"""A swing of the UR5 between two configurations that costs the least torque, by CasADi and IPOPT.
+"""Finds the swing of the UR5 between two configurations that needs the least torque, with CasADi and IPOPT.
 
-The accelerations of 20 steps are the unknowns, with the positions and velocities that they lead to; the cost is the sum
-of the squares of the joint torques, by generated inverse dynamics with its exact Jacobian, and of the accelerations. To run it:
+The unknowns are the accelerations of 20 steps, and the positions and velocities that follow from them. The cost is the
+sum of the squares of the joint torques, computed by generated inverse dynamics with its exact Jacobian, and of the
+accelerations. To run it:
 
     robot-symbolic crate robots/ur5.toml --language c --function all -o ur5_c
     cc -std=c99 -O2 -ffp-contract=off -shared -fPIC ur5_c/ur5_casadi.c -o libur5_casadi.so -lm
@@ -17,14 +18,14 @@ import casadi
 STEPS, DURATION = 20, 1.0
 START = [0.0, -1.2, 1.0, -0.5, 0.3, 0.0]
 END = [1.0, -0.6, 0.4, 0.5, -0.3, 0.5]
-# N m, of the UR5's three large and three small joints.
+# The largest torques of the UR5's three large and three small joints, N m.
 LIMITS = [150.0, 150.0, 150.0, 28.0, 28.0, 28.0]
-# rad/s
+# The largest speed of the joints, rad/s.
 SPEED = 3.14
 
 
 def problem(inverse_dynamics):
-    """The problem, with its positions and torques."""
+    """Returns the problem, its positions and its torques."""
     opti = casadi.Opti()
     step = DURATION / STEPS
     q, qd = opti.variable(6, STEPS + 1), opti.variable(6, STEPS + 1)
@@ -43,11 +44,11 @@ def problem(inverse_dynamics):
         part = k / STEPS
         opti.set_initial(q[:, k], [(1 - part) * a + part * b for a, b in zip(START, END)])
     torques = casadi.horzcat(*torques)
-    # A little of the accelerations makes the Hessian regular.
+    # The accelerations are part of the cost so that the Hessian is regular.
     residuals = casadi.vertcat(casadi.vec(torques), casadi.vec(qdd))
     opti.subject_to(opti.bounded(-SPEED, casadi.vec(qd), SPEED))
     opti.minimize(step * casadi.sumsqr(residuals))
-    # The functions have no second derivatives: Gauss and Newton's Hessian, from the exact Jacobian.
+    # The functions have no second derivatives, so the Hessian is that of Gauss and Newton, from the exact Jacobian.
     jacobian = casadi.jacobian(residuals, opti.x)
     factor, multipliers = casadi.MX.sym("factor"), casadi.MX.sym("multipliers", opti.ng)
     hessian = casadi.triu(2 * step * factor * (jacobian.T @ jacobian))
@@ -75,7 +76,7 @@ def solve(name, inverse_dynamics):
 
 
 def pinocchio_dynamics(path):
-    """Inverse dynamics of a URDF by Pinocchio's expressions of CasADi, if its build has them."""
+    """Returns the inverse dynamics of a URDF file as CasADi expressions by Pinocchio, if its build has them."""
     try:
         import pinocchio
         import pinocchio.casadi

@@ -1,4 +1,4 @@
-//! Any text as an expression: read, put into a graph, printed, read again.
+//! Any text as an expression: it is read, put into a graph, printed, and read again.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -6,7 +6,7 @@ use robot_document::{SymbolTable, Trigonometry, latex};
 use robot_symbolic::polynomial::{Polynomial, PolynomialOptions};
 use robot_symbolic::{Formula, Graph, print};
 
-/// Nodes of an expression that is printed or expanded.
+/// The maximum number of nodes of an expression that is printed or expanded.
 const MAX_NODES: usize = 80;
 const MAX_SIZE: u64 = 500;
 
@@ -22,7 +22,7 @@ fuzz_target!(|text: &str| {
     if graph.len() > MAX_NODES {
         return;
     }
-    // Long powers and deep sums print as text that is beyond the limits of what is read.
+    // Long powers and deep sums can print as text that exceeds the limits of the reader.
     if let Ok(printed) = print::to_text_limited(expr, MAX_SIZE)
         && let Ok(again) = graph.parse(&printed)
     {
@@ -33,7 +33,7 @@ fuzz_target!(|text: &str| {
     {
         robot_fuzz::harmless_latex(&latex::formula(&formula));
     }
-    // Expansions take long where they are long.
+    // Expansions can take long, so only some inputs are expanded.
     if !robot_fuzz::chosen(text.as_bytes(), 8) {
         return;
     }

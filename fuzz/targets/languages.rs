@@ -1,6 +1,6 @@
-//! Any names and texts of a robot, in every language: names that a robot can have are printed, and no text is code.
-//! The input is eight names and three texts with the control character 1F between them; what is missing, or a name that no
-//! robot file can have, is plain.
+//! Any names and texts of a robot, in every language: all names that a robot can have are printed, and no text
+//! becomes code. The input is eight names and three texts, separated by the control character 1F. A plain name
+//! replaces a missing name and a name that no robot file can have.
 #![no_main]
 
 #[path = "../../crates/robot_build/tests/languages/harmless.rs"]

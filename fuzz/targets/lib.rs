@@ -1,4 +1,4 @@
-//! What the targets share: how far an accepted robot is followed, and what must hold of it there.
+//! Functions that the targets share: how far an accepted robot is processed, and what is checked there.
 
 use robot_codegen::backend::rust::{self, RustOptions};
 use robot_model::description::{Described, Options, import, read_toml};
@@ -10,19 +10,19 @@ use robot_dynamics::newton_euler::newton_euler;
 use robot_model::functions::Effects;
 use robot_symbolic::{Graph, print};
 
-/// Robots of more moving links than this are read, but not derived.
+/// The maximum number of moving links of a robot that is derived; larger robots are only read.
 const MAX_LINKS: usize = 3;
-/// Equations of more terms than this are not written.
+/// The maximum number of terms of an equation that is printed.
 const MAX_TERMS: u64 = 20_000;
 
-/// Whether an input is one of the few that are followed further: one in `every`, always the same ones.
+/// Whether an input is one of the few that are processed further: one in `every`, always the same ones.
 pub fn chosen(data: &[u8], every: u64) -> bool {
     // FNV-1a
     let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
     (data.iter().fold(0xcbf2_9ce4_8422_2325, step) >> 20).is_multiple_of(every)
 }
 
-/// Some messages are shown: they can be, whatever the text they point at.
+/// Renders some of the messages, which must be possible for any text that they refer to.
 pub fn show(found: &Diagnostics) {
     assert!(!found.is_empty());
     if chosen(found.source().text.as_bytes(), 32) {
@@ -30,9 +30,8 @@ pub fn show(found: &Diagnostics) {
     }
 }
 
-/// Has every accepted robot examined, and takes some on: into symbols, through the paper's iterations,
-/// to text and LaTeX;
-/// few of them to generated Rust, which is parsed again.
+/// Examines every accepted robot. Some robots are derived by the paper's iterations and printed as text and LaTeX,
+/// and few of them as Rust, which is parsed again.
 pub fn follow(text: &str, described: &Described) {
     let Examination { found, choices } = examine(described);
     for told in [&found, &choices].into_iter().filter(|told| !told.is_empty()) {
@@ -60,7 +59,7 @@ pub fn follow(text: &str, described: &Described) {
     }
 }
 
-/// Down to Rust, which the backend parses again before it gives it away.
+/// Generates Rust, which the backend parses again before it returns it.
 fn generate(described: &Described) {
     let options = robot_build::Options::default();
     let robot = described.robot.clone();
@@ -69,8 +68,8 @@ fn generate(described: &Described) {
     assert!(code.is_ok_and(|code| !code.to_text().is_empty()));
 }
 
-/// An accepted description can be imported; the import is a robot file of the same coordinates, and
-/// importing it again changes nothing.
+/// Checks that an accepted description can be imported, that the import is a robot file with the same coordinates,
+/// and that importing it again changes nothing.
 pub fn imports(name: &str, text: &str, described: &Described) {
     if !chosen(text.as_bytes(), 4) {
         return;

@@ -1,4 +1,4 @@
-//! Any text for a name or a LaTeX symbol: what passes prints and compiles, and nothing else.
+//! Any text as a name or a LaTeX symbol: accepted texts can be printed and compiled, and cannot do anything else.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -21,7 +21,7 @@ fuzz_target!(|text: &str| {
     }
 });
 
-/// As the name of a parameter, a link and a frame, with the LaTeX of the parameter.
+/// Uses the text as the name of a parameter, a link and a frame, with the LaTeX of the parameter.
 fn in_toml(name: &str, latex: &str) {
     let (quoted, latex) = (quoted(name), quoted(latex));
     let file = format!(
@@ -42,7 +42,7 @@ fn in_toml(name: &str, latex: &str) {
     }
 }
 
-/// As the name of a robot, a link and a joint of URDF.
+/// Uses the text as the name of a robot, a link and a joint of URDF.
 fn in_urdf(name: &str) {
     let escaped: String = name.chars().map(|letter| format!("&#{};", letter as u32)).collect();
     let file = format!(

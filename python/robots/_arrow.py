@@ -15,11 +15,12 @@ OUTPUTS = ("fixed_lists", "lists", "columns")
 
 
 class BatchFunction:
-    """A function over record batches, or tables of any library with Arrow's PyCapsule interface.
+    """A function over record batches, or over tables of any library with Arrow's PyCapsule interface.
 
-    A batch has a column with the name of each input (`q`, `qd`, …): a list of constant length, or columns `q1` … of numbers. The result has the columns of
-    the batch that `keep` names, then for each output, as `output` says, a column of lists of fixed length ("fixed_lists"), a column of lists of any length
-    ("lists", which Spark needs), or columns of numbers `tau1` … ("columns"). It can be pickled: another process reads the robot file again.
+    For each input (`q`, `qd`, …), a batch has a column of that name with lists of constant length, or columns `q1` … of numbers. The result has the
+    columns of the batch that `keep` names, and then the outputs. For each output, `output` selects a column of lists of fixed length ("fixed_lists"), a
+    column of lists of any length ("lists", which Spark needs), or columns of numbers `tau1` … ("columns"). The function can be pickled: another process
+    reads the robot file again.
     """
 
     def __init__(self, path: str, names: tuple[str, ...], options: dict[str, bool], output: str, keep: tuple[str, ...]) -> None:
@@ -35,7 +36,7 @@ class BatchFunction:
         return (BatchFunction, self._given)
 
     def __call__(self, batch: Any) -> Any:
-        """The outputs at the rows of a batch."""
+        """Computes the outputs at the rows of a batch."""
         import pyarrow as pa
 
         if not isinstance(batch, (pa.RecordBatch, pa.Table)):
@@ -71,12 +72,12 @@ class BatchFunction:
         return {name: pa.ListArray.from_arrays(np.arange(0, (len(table) + 1) * size, size, dtype=np.int32), flat)}
 
     def batches(self, batches: Iterator[Any]) -> Iterator[Any]:
-        """Over an iterator, as Spark's `mapInArrow` calls it."""
+        """Computes the outputs for each batch of an iterator, as Spark's `mapInArrow` needs it."""
         return map(self, batches)
 
 
 def _column(batch: Any, name: str, size: int) -> Any:
-    """A column of lists as a table, or columns of numbers."""
+    """Returns an input as a table, from a column of lists or from columns of numbers."""
     import pyarrow as pa
 
     known = batch.schema.names

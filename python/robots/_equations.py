@@ -10,7 +10,7 @@ from ._command import run
 
 
 class Equations:
-    """The equations of a robot in one form; each notation is made when it is first asked for.
+    """The equations of a robot in one form; each notation is printed when it is first needed.
 
     A notebook shows them as formulas.
 
@@ -45,7 +45,7 @@ class Equations:
 
     @property
     def definitions(self) -> dict[str, str]:
-        """The named expressions of the form, such as the entries of the mass matrix, as infix text; each may contain earlier ones."""
+        """The named expressions of the form, such as the entries of the mass matrix, as infix text; each can contain earlier ones."""
         found: dict[str, str] = json.loads(self._as("json")).get("definitions", {})
         return found
 
@@ -53,7 +53,7 @@ class Equations:
     def formulas(self) -> dict[str, str]:
         """The quantities, usually the joint torques Q1, Q2, …, as infix text by name: exact, and readable by other programs."""
         quantities: dict[str, str] = json.loads(self._as("json"))["quantities"]
-        # A form may define a joint torque by the one behind it; their order here is that of the joints.
+        # A form can define a joint torque by a later one. Here the torques are in the order of the joints.
         numbers = {name: re.fullmatch(r"(\D+)(\d+)", name) for name in quantities}
         order = {name: int(found[2]) for name, found in numbers.items() if found}
         stems = {found and found[1] for found in numbers.values()}
@@ -66,7 +66,7 @@ class Equations:
 
     @property
     def sympy(self) -> Any:
-        """A column of SymPy expressions for the entries of `formulas`; the form's named expressions are substituted.
+        """The entries of `formulas` as a column of SymPy expressions, with the form's named expressions substituted.
 
         >>> torques = robots.load("planar_2r.toml").equations().sympy
         >>> torques.shape
@@ -99,7 +99,7 @@ _FUNCTIONS = {"sin", "cos", "tan", "sqrt", "exp", "tanh", "sign", "abs", "pi"}
 
 
 def _sympy(text: str, defined: dict[str, Any]) -> Any:
-    """Infix text as an expression; decimals stay exact. Symbols stand under names of our own while the text is read, so that no name has
+    """Returns infix text as an expression with exact decimals. While SymPy reads the text, symbols have other names, so that no name has
     another meaning (`I`, `E`, `lambda`)."""
     import sympy
     from sympy.parsing.sympy_parser import parse_expr, rationalize, standard_transformations
@@ -116,6 +116,6 @@ def _sympy(text: str, defined: dict[str, Any]) -> Any:
         known[stand] = defined[name] if name in defined else sympy.Symbol(name)
         return stand
 
-    # The exponent of a decimal, 1e-3, is not a name: a name begins after what is neither a letter nor a digit.
+    # A name begins after a character that is neither a letter nor a digit, so the exponent of a decimal, 1e-3, is not a name.
     safe_text = re.sub(r"(?<![\w.])" + _NAME.pattern, safe, text).replace("^", "**")
     return parse_expr(safe_text, local_dict=known, transformations=(*standard_transformations, rationalize))

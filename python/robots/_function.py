@@ -12,16 +12,16 @@ import numpy as np
 from ._native import Engine, Program, RobotError, RobotSource
 from ._payload import Payload
 
-# Compiled forms for other parameters that a function keeps.
+# The number of sets of parameters for which a function keeps its compiled code.
 _KEPT = 16
 
 
 class Function:
     """A function of a robot, or several in one call.
 
-    Inputs are arrays of the shape ``(entries,)`` for one state or ``(N, entries)`` for N states, of any layout, in f64 or f32; an input of one
-    state is combined with each of the N states. The number 0 stands for an array of zeros; a wrench that is left out is 0. The result has the type f32 if
-    all arrays are f32; the calculation is in f64.
+    Inputs are arrays of the shape ``(entries,)`` for one state or ``(N, entries)`` for N states, of any layout, in f64 or f32. An input of one state is
+    combined with each of the N states. The number 0 is used as an array of zeros, and a wrench that is omitted is 0. The calculation is in f64; the result
+    has the type f32 if all arrays are f32.
 
     Parameters of the robot file are set for a call by name, ``m2=3.0``, or with ``parameters={"m2": 3.0}``; ``payload`` is the body that the robot
     carries, if its file has a `[payload]` table.
@@ -70,7 +70,7 @@ class Function:
         **named: Any,
     ) -> Any:
         """Computes the outputs at the states: an array, or a tuple of arrays if there are several outputs."""
-        # One state of f64, which is what control loops have, is checked and computed at once.
+        # A single state of f64, as in a control loop, is checked and computed in one native call.
         if self._nominal is not None and payload is None and parameters is None and out is None and not named and threads == 1:
             found = self._nominal.state(given)
             if found is not None:
@@ -85,7 +85,7 @@ class Function:
             fits = result.dtype == np.float64 and result.flags.aligned and (len(shape) == 1 or result.flags.c_contiguous)
             tables.append(result.reshape(states, size) if fits else np.empty((states, size)))
         if out is not None:
-            # What is written must not be read after it, as in NumPy's own functions.
+            # As in NumPy's own functions, an input must not change when an output in the same memory is written.
             arrays = [array.copy() if any(np.may_share_memory(array, table) for table in tables) else array for array in arrays]
         engine.call(arrays, tables, _count(threads))
         for result, table in zip(results, tables):
@@ -100,7 +100,7 @@ class Function:
         return tuple(results)
 
     def _values(self, payload: Payload | None, parameters: Mapping[str, float] | None, named: dict[str, Any]) -> dict[str, float]:
-        """The parameters that are not at their nominal values; those among the named arguments are taken out."""
+        """Returns the parameters that are set for a call, and removes parameters from the named arguments."""
         inputs = {name for name, _ in self.inputs}
         by_name = {name: named.pop(name) for name in list(named) if name in self._parameters and name not in inputs}
         if not by_name and payload is None and parameters is None:
@@ -176,7 +176,7 @@ class Function:
 
 
 def _array(name: str, given: Any, size: int) -> Any:
-    """An input as an array of one or two dimensions; none for the number 0."""
+    """Returns an input as an array of one or two dimensions, or None for the number 0."""
     try:
         array = np.asarray(given)
     except ValueError as error:
@@ -213,7 +213,7 @@ def _count(threads: Any) -> int:
 
 
 def _documentation(doc: str, inputs: list[tuple[str, int, str, str]], outputs: list[tuple[str, list[int], str, str]]) -> str:
-    """The function's own documentation, with the shapes of its arrays."""
+    """Returns the function's own documentation, followed by the shapes of its arrays."""
     lines = [doc, "", "Inputs, for one state or (N, …) for N:"]
     lines += [_quantity(name, (size,), meaning, unit) for name, size, meaning, unit in inputs]
     lines += ["", "Outputs:"]
@@ -228,7 +228,7 @@ def _quantity(name: str, shape: tuple[int, ...], meaning: str, unit: str) -> str
 
 
 def _signature(inputs: list[tuple[str, int]]) -> inspect.Signature:
-    """What an editor shows."""
+    """Returns the signature that editors show."""
     kind = inspect.Parameter
     can_be_left = [name.startswith("wrench") for name, _ in inputs]
     known = [

@@ -16,8 +16,8 @@ _AXES = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "xz": (0, 2), "
 class Payload:
     """A body that a robot carries: `arm.gravity(q, payload=robots.Payload(2.0, [0, 0, 0.1]))`.
 
-    `mass` is in kg, `center_of_mass` in m, in the frame that the `[payload]` table of the robot file names. `inertia` is the tensor about the center of
-    mass in the axes of that frame, kg m²: xx, yy, zz, xy, xz, yz, or three rows of three. A body without it is a point mass.
+    `mass` is in kg; `center_of_mass` is in m, in the frame that the `[payload]` table of the robot file names. `inertia` is the tensor about the center of
+    mass in the axes of that frame, in kg m²: xx, yy, zz, xy, xz, yz, or three rows of three numbers. By default the body is a point mass.
     """
 
     mass: float
@@ -25,7 +25,7 @@ class Payload:
     inertia: Any = (0.0,) * 6
 
     def values(self) -> list[float]:
-        """Mass, center of mass and inertia as ten numbers."""
+        """Returns mass, center of mass and inertia as ten numbers."""
         parts = [_numbers("mass", self.mass, ()), _numbers("center_of_mass", self.center_of_mass, (3,))]
         if np.shape(self.inertia) == (3, 3):
             tensor = _numbers("inertia", self.inertia, (3, 3))

@@ -1,4 +1,4 @@
-"""Documents as PDF, by Typst or LaTeX, whichever is installed."""
+"""Typesets documents as PDF, with Typst or LaTeX, whichever is installed."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from pathlib import Path
 
 from ._native import RobotError
 
-# The notation of a document and what typesets it.
+# The notation of a document, and the function that typesets it.
 Typesetter = tuple[str, Callable[[Path, Path], None]]
 
 
 def typesetter(by: str | None) -> Typesetter:
-    """The first that is installed of the package and the program `typst` and `pdflatex`; `by` is "typst" or "latex" to have that."""
+    """Returns the first typesetter that is installed: the package `typst`, the program `typst`, or `pdflatex`; `by`, "typst" or "latex", allows only that one."""
     if by not in (None, "typst", "latex"):
         raise RobotError(f'by must be "typst" or "latex", not {by!r}')
     if by != "latex":
@@ -46,7 +46,7 @@ def _by_typst_program(source: Path, target: Path) -> None:
 
 
 def _by_pdflatex(source: Path, target: Path) -> None:
-    # References need a second run. Nothing outside of the folder is read or written by the document's own words.
+    # References need a second run. The variables keep the document from reading or writing files outside of the folder.
     arguments = ["pdflatex", "-no-shell-escape", "-interaction=nonstopmode", "-halt-on-error", source.name]
     for _ in range(2):
         _run(arguments, source.parent, openin_any="p", openout_any="p")
@@ -61,7 +61,7 @@ def _run(arguments: list[str], folder: Path, **variables: str) -> None:
 
 
 def typeset(write: Callable[[str, Path], None], target: Path, by: str | None) -> None:
-    """Writes a PDF; `write` makes the source of it in a notation."""
+    """Writes a PDF; `write` writes its source in a notation."""
     notation, run = typesetter(by)
     with tempfile.TemporaryDirectory() as folder:
         source = Path(folder) / ("document.typ" if notation == "typst" else "document.tex")

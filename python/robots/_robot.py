@@ -23,9 +23,9 @@ def load(
 ) -> Robot:
     """Reads a robot file, TOML or URDF, and the plan pinned beside it, if there is one.
 
-    If no plan is pinned, `search` looks for the form of the recursion with the fewest operations, for about a second. `allow_massless` accepts moving links
-    without mass, `allow_unphysical` physically impossible inertias. One RobotError reports everything that is wrong with the file; `arm.check()` returns the
-    warnings.
+    If no plan is pinned, `search` searches for the plan with the fewest operations, which takes about a second. `allow_massless` accepts moving links
+    without mass, and `allow_unphysical` accepts physically impossible inertias. A single RobotError reports all errors of the file; `arm.check()` returns
+    the warnings.
 
     >>> arm = robots.load("planar_2r.toml")
     >>> arm
@@ -78,7 +78,7 @@ class Robot:
         return found
 
     def function(self, *names: str) -> Function:
-        """A function, or several in one call that share their work; derived on first use."""
+        """Returns a function, or one that computes several functions in one call and shares their work; it is derived on first use."""
         if not names:
             raise RobotError("name at least one function")
         if names not in self._made:
@@ -86,7 +86,7 @@ class Robot:
         return self._made[names]
 
     def call(self, *names: str, **inputs: Any) -> Any:
-        """Several functions in one call, which share their work.
+        """Computes several functions in one call, which shares their work.
 
         >>> arm = robots.load("planar_2r.toml")
         >>> M, h = arm.call("mass_matrix", "bias", q=[0.0, 0.0], qd=[1.0, 0.0])
@@ -96,11 +96,11 @@ class Robot:
         return self.function(*names)(**inputs)
 
     def _run(self, name: str, *arguments: str, allowed: tuple[int, ...] = (0,)) -> str:
-        """A command on the robot's file."""
+        """Runs a command on the robot's file."""
         return run([name, self._path, *self._flags, *arguments], allowed)
 
     def equations(self, *, form: str = "expanded", quantities: str = "Q", **options: Any) -> Equations:
-        """The equations of motion in a form: expanded, collected, grouped, compact, recursive or regrouped.
+        """Returns the equations of motion in a form: expanded, collected, grouped, compact, recursive or regrouped.
 
         `options` are those of the command `equations`: `friction=True`, `letters="tau,M,C,g"`, `digits=4`, ….
 
@@ -113,7 +113,7 @@ class Robot:
         return found
 
     def base_parameters(self) -> dict[str, Any]:
-        """The base parameters: names, formulas in the standard parameters, values.
+        """Returns the base parameters: names, formulas in the standard parameters, and values.
 
         >>> arm = robots.load("planar_2r.toml")
         >>> [entry["name"] for entry in arm.base_parameters()["base"]]
@@ -142,7 +142,7 @@ class Robot:
     def document(self, path: str | os.PathLike[str], *, force: bool = False, by: str | None = None, **options: Any) -> Path:
         """Writes a document in the format of the path's extension: .pdf, .tex, .typ, .md, or .html for a page in which the robot moves.
 
-        Typst (`pip install typst`, or the program) or else pdflatex typesets a PDF; `by="typst"` or `by="latex"` chooses one. `options` are those of the
+        A PDF is typeset by Typst (`pip install typst`, or the program) or, without it, by pdflatex; `by="typst"` or `by="latex"` chooses one. `options` are those of the
         command `document`, or `report` for a page: `form="grouped,recursive"`, `title="…"`, …. An existing file that this package did
         not write is replaced only with `force`.
         """
@@ -167,7 +167,7 @@ class Robot:
         self._run("document", "--format", notation, "-o", str(target), *flags)
 
     def source(self, language: str = "rust", **options: Any) -> str:
-        """Returns code of the robot's usual functions in a language that needs only one file: rust, c, cuda, python or wgsl; `package` writes the others.
+        """Returns code of the robot's usual functions in a language that needs only one file: rust, c, cuda, python or wgsl. `package` writes other languages.
 
         `options` are those of the command `generate`: `function="gravity"`, `scalar="f32"`, ….
 
@@ -195,9 +195,9 @@ class Robot:
         friction: bool = False,
         parameters: Mapping[str, float] | None = None,
     ) -> dict[str, Any]:
-        """Simulates the motion from a state: arrays `t`, `q`, `qd`, `qdd`, `tau` and energies, with a row for each time.
+        """Simulates the motion from a state; returns arrays `t`, `q`, `qd`, `qdd`, `tau` and energies, with a row for each time.
 
-        `torques` has an expression in t, q1 …, qd1 … and the parameters for each driven joint, by number or name.
+        `torques` contains an expression in t, q1 …, qd1 … and the parameters for each driven joint, by number or name.
 
         >>> motion = robots.load("planar_2r.toml").simulate(1.0, q0=[0.5, 0.1], step=0.1)
         >>> motion["t"].shape, motion["q"].shape
@@ -226,7 +226,7 @@ class Robot:
     ) -> Identification:
         """Estimates the base parameters from joint torques, by least squares over all rows.
 
-        `noise` is the standard deviation of each joint's torques, (n,): rows are then weighted by their precision. Without it all rows have the same weight.
+        `noise` is the standard deviation of each joint's torques, (n,); each row is then divided by it. Without `noise` all rows have the same weight.
 
         >>> arm = robots.load("planar_2r.toml")
         >>> q, qd, qdd = np.random.default_rng(1).uniform(-1, 1, (3, 50, 2))
@@ -263,7 +263,7 @@ class Robot:
         return BatchFunction(os.path.abspath(self._path), names, self._options, output, tuple(keep))
 
     def __reduce__(self) -> Any:
-        """Another process reads the file again."""
+        """Pickles the path and the options; another process reads the file again."""
         return (_of_file, (os.path.abspath(self._path), self._options))
 
     def __repr__(self) -> str:
@@ -280,7 +280,7 @@ def _of_file(path: str, options: dict[str, bool]) -> Robot:
 
 
 def _flags(options: Mapping[str, Any]) -> list[str]:
-    """Options of a command: True is an option without a value, False and None are none."""
+    """Returns the options of a command: True adds an option without a value, False and None add nothing."""
     flags: list[str] = []
     for name, value in options.items():
         option = f"--{name.replace('_', '-')}"
@@ -301,7 +301,7 @@ def _noise(given: Any, joints: int) -> Any:
 
 
 def _standard_errors(matrix: Any) -> Any:
-    """The roots of the diagonal of (Aᵀ A)⁻¹, by a triangle R with Rᵀ R = Aᵀ A, which is not formed."""
+    """Returns the square roots of the diagonal of (Aᵀ A)⁻¹, from a triangle R with Rᵀ R = Aᵀ A; Aᵀ A is not formed."""
     triangle = np.linalg.qr(matrix, mode="r")
     return np.linalg.norm(np.linalg.inv(triangle), axis=1)
 
@@ -313,18 +313,18 @@ class Identification:
         self.names = names
         self.values = values
         self.errors = errors
-        """The standard errors of the values: of the noise that was given, else of one that is the same in all rows, as large as what is left."""
+        """The standard errors of the values, for the given noise; without it, for noise of the size of the residuals, the same in all rows."""
         self.rank = rank
         self.singular_values = singular_values
         self.residual = residual
-        """The root of the mean square of what is left of the torques."""
+        """The root mean square of the residuals of the torques."""
 
     @property
     def condition(self) -> float:
-        """The largest singular value of the regressor by the smallest."""
+        """The ratio of the largest to the smallest singular value of the regressor."""
         smallest = self.singular_values[-1]
         return float(self.singular_values[0] / smallest) if smallest else float("inf")
 
     def as_dict(self) -> dict[str, float]:
-        """Values by name."""
+        """Returns the values by name."""
         return dict(zip(self.names, map(float, self.values)))

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 
 
 def picture(svg: str, described: str) -> str:
-    """A picture as an image: its style and its names then hold for itself alone, not for the page."""
+    """Returns a picture as an image element, so that its styles and names do not affect the page."""
     data = base64.b64encode(svg.encode()).decode()
     return f'<img alt="{html.escape(described)}" src="data:image/svg+xml;base64,{data}">'
 
 
 def table(rows: Sequence[Sequence[str]]) -> str:
-    """A table whose first row is its title, without columns that are empty below it; nothing if there are no rows."""
+    """Returns a table whose first row is its title, without columns that are empty below the title; an empty text if there are no rows."""
     kept = [column for column in range(len(rows[0])) if any(row[column] for row in rows[1:])]
     lines = []
     for index, row in enumerate(rows):
@@ -25,6 +25,6 @@ def table(rows: Sequence[Sequence[str]]) -> str:
 
 
 def block(title: str, remark: str | None, parts: Sequence[str]) -> str:
-    """A title, a remark and parts below each other."""
+    """Returns a title, a remark and parts, one below the other."""
     said = f"<p>{html.escape(remark)}</p>" if remark else ""
     return f"<div><p><b>{html.escape(title)}</b></p>{said}{''.join(parts)}</div>"

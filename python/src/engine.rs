@@ -10,10 +10,10 @@ use robot_jit::{Executable, Handle};
 use crate::strided::Table;
 use crate::wrong;
 
-/// States that are put into columns at once: they stay in the nearest cache.
+/// The number of states that are copied into columns at once; they stay in the cache of level 1.
 const BLOCK: usize = 64;
 
-/// A function as machine code, or interpreted where there is none for the machine.
+/// A function as machine code, or interpreted if there is no machine code for the processor.
 #[pyclass(frozen)]
 pub(crate) struct Engine {
     executable: Executable<'static>,
@@ -22,7 +22,7 @@ pub(crate) struct Engine {
 }
 
 impl Engine {
-    /// The first function of a module with parameters given.
+    /// Makes the first function of a module, with the given parameters.
     pub(crate) fn new(module: &Module, given: &[(String, f64)]) -> Result<Engine, String> {
         let given: Vec<(&str, f64)> =
             given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
@@ -46,8 +46,9 @@ impl Engine {
         Ok(self.handle()?.is_native())
     }
 
-    /// Computes one state, from an array of one dimension of doubles for each input: the output, or a tuple of all. None if
-    /// that is not what is given: then Python looks closer.
+    /// Computes one state from a tuple of one-dimensional arrays of doubles, one for each input; returns the
+    /// output, or a tuple of all outputs. Returns None if the arguments have another form: Python then checks them
+    /// in detail.
     fn state<'py>(
         &self,
         py: Python<'py>,
@@ -82,7 +83,7 @@ impl Engine {
         }))
     }
 
-    /// Computes all states: tables (states, entries) of every input and output, in their order.
+    /// Computes all states, from tables (states, entries) of the inputs into tables of the outputs, in their order.
     fn call(
         &self,
         py: Python<'_>,
@@ -114,7 +115,7 @@ impl Engine {
     }
 }
 
-/// An array of that shape; a number of NumPy for none.
+/// Returns an array of that shape, or a NumPy number if the shape is empty.
 fn array_of<'py>(py: Python<'py>, values: &[f64], shape: &[usize]) -> PyResult<Bound<'py, PyAny>> {
     let flat = PyArray1::from_slice(py, values);
     match *shape {
@@ -133,7 +134,7 @@ struct Task<'t> {
 }
 
 impl Task<'_> {
-    /// One state.
+    /// Computes one state.
     fn single(&self) -> Result<(), Errors> {
         let read = |table: &Table| {
             let table = *table;
@@ -151,7 +152,7 @@ impl Task<'_> {
         Ok(())
     }
 
-    /// So many states, in so many threads, which are never more than there are blocks.
+    /// Computes that many states in up to that many threads, but never in more threads than there are blocks.
     fn all(&self, states: usize, threads: usize) -> Result<(), Errors> {
         let blocks = states.div_ceil(BLOCK);
         let length = blocks.div_ceil(threads.clamp(1, blocks)) * BLOCK;
@@ -169,7 +170,7 @@ impl Task<'_> {
         })
     }
 
-    /// The states from `start` to `end`, a block at a time.
+    /// Computes the states from `start` to `end`, a block at a time.
     fn range(&self, start: usize, end: usize) -> Result<(), Errors> {
         let [mut given, mut found] = self.sizes.map(|size| vec![0.0; size * BLOCK]);
         for first in (start..end).step_by(BLOCK) {

@@ -1,5 +1,5 @@
-//! The native part of the Python package `robots`: programs of robot files as callables over arrays, and the command
-//! with its streams as texts. Everything else of the package is Python.
+//! The native part of the Python package `robots`: the programs of robot files as functions over arrays, and the
+//! command with its streams as bytes. The rest of the package is written in Python.
 
 mod engine;
 mod strided;
@@ -18,7 +18,7 @@ use robot_model::robot::{JointKind, Payload};
 
 use engine::Engine;
 
-/// Name, number of entries or shape, meaning and unit of an input or output.
+/// The name, the number of entries or the shape, the meaning and the unit of an input or output.
 type Described<T> = (String, T, String, String);
 
 create_exception!(
@@ -28,12 +28,12 @@ create_exception!(
     "What is wrong with a robot file, an option or an input."
 );
 
-/// An error for Python, with its whole text.
+/// Makes a Python exception with the whole text of an error.
 fn wrong(error: impl std::fmt::Display) -> PyErr {
     RobotError::new_err(error.to_string())
 }
 
-/// A robot file that has been read.
+/// A robot file after reading.
 #[pyclass(frozen)]
 struct RobotSource {
     robot: Robot,
@@ -43,8 +43,8 @@ struct RobotSource {
 
 #[pymethods]
 impl RobotSource {
-    /// Reads a robot file and the plan that is pinned beside it; the last two take with a warning what is an
-    /// error otherwise.
+    /// Reads a robot file and the plan that is pinned beside it. The last two arguments turn the errors about
+    /// missing masses and physically impossible inertias into warnings.
     #[new]
     fn new(
         py: Python<'_>,
@@ -91,7 +91,7 @@ impl RobotSource {
         Some([mass].into_iter().chain(center_of_mass).chain(inertia).cloned().collect())
     }
 
-    /// Rows of a table of the links and their joints, a title first.
+    /// The rows of a table of the links and their joints; the first row is the title.
     fn links(&self) -> Vec<[String; 6]> {
         let title = ["link", "parent", "joint", "type", "coordinate", "limits"];
         let rows = rows::links(&self.robot).map(|row| {
@@ -111,7 +111,7 @@ impl RobotSource {
         std::iter::once(title.map(str::to_owned)).chain(rows).collect()
     }
 
-    /// Rows of a table of the parameters, a title first.
+    /// The rows of a table of the parameters; the first row is the title.
     fn parameter_rows(&self) -> Vec<[String; 4]> {
         let title = ["parameter", "value", "unit", "meaning"].map(str::to_owned);
         let rows = rows::parameters(&self.robot).map(|row| {
@@ -122,7 +122,7 @@ impl RobotSource {
         std::iter::once(title).chain(rows).collect()
     }
 
-    /// The names of the functions that the robot has, those of single frames among them.
+    /// The names of the functions that the robot has, including the functions of single frames.
     fn functions(&self) -> Vec<String> {
         let kinds = FunctionKind::of_robot(&self.robot).into_iter().flat_map(|kind| {
             let parts = kind.parts(&self.robot);
@@ -131,7 +131,7 @@ impl RobotSource {
         kinds.map(|kind| kind.full_name(&self.robot)).collect()
     }
 
-    /// The programs of functions, as one if there are several.
+    /// Derives the program of a function, or of one function that computes several.
     fn program(&self, py: Python<'_>, names: Vec<String>) -> PyResult<Program> {
         py.detach(|| {
             let kinds = kinds_named(&names, &self.robot).map_err(wrong)?;
@@ -149,7 +149,8 @@ impl RobotSource {
     }
 }
 
-/// Reads a robot file, with the plan that is pinned beside it or, if that is wanted, one that is searched.
+/// Reads a robot file, with the plan that is pinned beside it or, if `options` say so, with a plan that is searched
+/// for.
 fn read(path: &Path, options: &Options) -> PyResult<RobotSource> {
     let file = RobotFile::read(path).map_err(wrong)?;
     let options = file.with_pin(options).map_err(wrong)?;
@@ -191,13 +192,13 @@ impl Program {
         described.collect()
     }
 
-    /// What can be called, with parameters at other values than the nominal ones.
+    /// Compiles the program with other values for these parameters than the nominal ones.
     fn compile(&self, py: Python<'_>, parameters: Vec<(String, f64)>) -> PyResult<Engine> {
         py.detach(|| Engine::new(&self.module, &parameters).map_err(wrong))
     }
 }
 
-/// Runs the command; gives the exit code, standard output and standard error.
+/// Runs the command; returns the exit code, standard output and standard error.
 #[pyfunction]
 fn command(py: Python<'_>, arguments: Vec<String>, input: Vec<u8>) -> (u8, Vec<u8>, Vec<u8>) {
     py.detach(|| {

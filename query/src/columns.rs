@@ -1,4 +1,4 @@
-//! Columns of a log as columns of doubles, one for each entry of a function's inputs.
+//! The columns of a log as columns of doubles, one for each entry of a function's inputs.
 
 use datafusion::arrow::array::{Array, ArrayRef, AsArray, StructArray};
 use datafusion::arrow::buffer::{NullBuffer, ScalarBuffer};
@@ -8,21 +8,21 @@ use std::sync::Arc;
 
 use crate::error::Error;
 
-/// The rows that are put into columns at once: they stay in the nearest cache.
+/// The number of rows that are copied into columns at once; they stay in the cache of level 1.
 pub(crate) const BLOCK: usize = 128;
 
-/// The inputs of a function over a batch of rows. A list gives as many columns as it has entries, a struct those of
-/// its fields, a number one.
+/// The inputs of a function over a batch of rows. A list is as many columns as it has entries, a struct is the
+/// columns of its fields, and a number is one column.
 #[derive(Debug)]
 pub(crate) struct Columns {
     parts: Vec<Part>,
-    /// The rows in which nothing is null.
+    /// The rows without nulls.
     valid: Option<NullBuffer>,
     rows: usize,
     entries: usize,
 }
 
-/// Columns that lie in one buffer.
+/// Columns that are stored in one buffer.
 #[derive(Debug)]
 struct Part {
     values: Values,
@@ -30,24 +30,25 @@ struct Part {
     entries: usize,
 }
 
-/// Numbers as a log has them, in double or single precision.
+/// The numbers of a log, in double or single precision.
 #[derive(Debug)]
 enum Values {
     Double(ScalarBuffer<f64>),
     Single(ScalarBuffer<f32>),
 }
 
-/// Where the entries of a row begin.
+/// The positions in the buffer at which the entries of each row begin.
 #[derive(Debug)]
 enum Starts {
-    /// At equal distances.
+    /// At equal distances, with this number of entries in each row.
     Every(usize),
-    /// Where offsets say.
+    /// At these offsets.
     At(ScalarBuffer<i32>),
 }
 
 impl Columns {
-    /// The columns of arguments, of which there must be one of these numbers; `wanted` says what they are in messages.
+    /// Makes the columns of arguments, whose total number of entries must be one of `entries`; `wanted` names the
+    /// function in messages.
     ///
     /// # Errors
     ///
@@ -67,7 +68,7 @@ impl Columns {
         if entries.contains(&found) {
             return Ok(Columns { entries: found, ..columns });
         }
-        // Lists of rows that are all null have no length.
+        // If all rows are null, the length of their lists is unknown.
         if rows == 0 || columns.valid.as_ref().is_some_and(|valid| valid.null_count() == rows) {
             return Ok(columns);
         }
@@ -76,7 +77,7 @@ impl Columns {
         Err(Error::Columns(format!("{found} entries are given, but {wanted} needs {entries}")))
     }
 
-    /// The columns of arguments, however many.
+    /// Makes the columns of arguments with any number of entries.
     ///
     /// # Errors
     ///
@@ -88,7 +89,7 @@ impl Columns {
         Ok(columns)
     }
 
-    /// The rows in which nothing is null; all if `None`.
+    /// The rows without nulls; `None` if no row has a null.
     pub(crate) fn valid(&self) -> Option<&NullBuffer> {
         self.valid.as_ref()
     }
@@ -162,13 +163,13 @@ impl Columns {
         Ok(())
     }
 
-    /// Only rows that are valid there, too, stay valid.
+    /// Marks the rows that are null there as invalid here, too.
     fn restrict(&mut self, valid: Option<&NullBuffer>) {
         self.valid = NullBuffer::union(self.valid.as_ref(), valid);
     }
 
-    /// Copies rows from `start` on into columns of [`BLOCK`] rows each, one after the other, and gives how many
-    /// there were. What it copies of rows with nulls means nothing.
+    /// Copies rows from `start` on into columns of [`BLOCK`] rows each, one column after the other, and returns the
+    /// number of rows. The values of rows with nulls are arbitrary.
     pub(crate) fn read(&self, start: usize, columns: &mut [f64]) -> usize {
         let rows = BLOCK.min(self.rows - start);
         let mut columns = columns.chunks_exact_mut(BLOCK);
@@ -180,8 +181,9 @@ impl Columns {
         rows
     }
 
-    /// Rows from `start` on, a slice for each column, at most [`BLOCK`] of them: those of the log where it has columns of
-    /// doubles, else in `room`, which has [`BLOCK`] places for each column. What rows with nulls have means nothing.
+    /// Returns the rows from `start` on, at most [`BLOCK`] of them, as a slice for each column. Columns of doubles
+    /// are slices of the log itself; other columns are copied into `room`, which has [`BLOCK`] places for each
+    /// column. The values of rows with nulls are arbitrary.
     pub(crate) fn block<'a>(&'a self, start: usize, room: &'a mut [f64]) -> Vec<&'a [f64]> {
         let rows = BLOCK.min(self.rows - start);
         let mut room = room.chunks_exact_mut(BLOCK);
@@ -211,7 +213,7 @@ impl Columns {
 }
 
 impl Part {
-    /// An entry of rows from `start` on. A row that is null may have no entries: it reads as 0.
+    /// Reads an entry of the rows from `start` on. A null row may have no entries: its value is 0.
     fn read(&self, start: usize, entry: usize, column: &mut [f64]) {
         match &self.values {
             Values::Double(values) => self.starts.read(values, start, entry, column),
@@ -246,7 +248,7 @@ impl Starts {
 }
 
 impl Values {
-    /// Of an array that is of either precision.
+    /// The values of an array of either precision.
     fn of(numbers: &ArrayRef) -> Values {
         match numbers.as_primitive_opt::<Float32Type>() {
             Some(numbers) => Values::Single(numbers.values().clone()),
@@ -255,12 +257,12 @@ impl Values {
     }
 }
 
-/// In which precision numbers of a type are taken.
+/// The precision in which numbers of a type are read.
 fn precision(kind: &DataType) -> DataType {
     if *kind == DataType::Float32 { DataType::Float32 } else { DataType::Float64 }
 }
 
-/// The entries of lists as they are taken.
+/// The field of the entries of lists, in the precision in which they are read.
 fn item(lists: &ArrayRef) -> Arc<Field> {
     let kind = match lists.data_type() {
         DataType::FixedSizeList(item, _)
@@ -272,7 +274,7 @@ fn item(lists: &ArrayRef) -> Arc<Field> {
     Arc::new(Field::new_list_field(kind, true))
 }
 
-/// The entries of lists.
+/// The field of the entries of lists of doubles.
 pub(crate) fn doubles() -> Arc<Field> {
     Arc::new(Field::new_list_field(DataType::Float64, true))
 }

@@ -1,14 +1,14 @@
-//! What may go wrong, with its place and a remedy.
+//! Errors, with their places and remedies.
 
 use std::path::{Path, PathBuf};
 
 use datafusion::error::DataFusionError;
 
-/// Why a query has no answer.
+/// The reason why a query has no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A robot that cannot be read or has not what is asked for.
+    /// A robot that cannot be read, or that lacks something that the query needs.
     #[error("robot `{robot}`: {reason}")]
     Robot {
         /// The robot as the query names it.
@@ -29,31 +29,31 @@ pub enum Error {
         /// The reason and the remedy.
         reason: String,
     },
-    /// Measurements that determine nothing.
+    /// Measurements that do not determine any parameter.
     #[error("{0}")]
     Identification(String),
-    /// A query that cannot be answered.
+    /// A query that cannot be computed.
     #[error("{0}")]
     Query(String),
-    /// What the engine says of a query that it refuses, or that failed while it ran.
+    /// The engine's message about a query that it refuses, or that failed during its execution.
     #[error("{0}")]
     Engine(String),
 }
 
-/// A path with its row group.
+/// The text of a path and its row group.
 fn shown(path: &Path, row_group: Option<usize>) -> String {
     let path = path.display();
     row_group.map_or_else(|| path.to_string(), |group| format!("{path}, row group {group}"))
 }
 
 impl Error {
-    /// A file with the reason.
+    /// An error about a file, with the reason.
     pub(crate) fn file(path: &Path, reason: impl std::fmt::Display) -> Error {
         Error::File { path: path.to_owned(), row_group: None, reason: reason.to_string() }
     }
 }
 
-/// A worker that does not answer any more.
+/// The error about a worker that no longer responds.
 fn lost(reason: &str) -> Error {
     Error::Query(format!(
         "a worker was lost while it computed ({reason}), so the query has no result; start the worker again, or \

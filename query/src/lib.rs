@@ -1,7 +1,7 @@
 //! Torques, residuals and identification over logs of robots.
 //!
-//! A log is a table: rows are states at times, columns are q, q̇, q̈ and τ. [`functions`] computes the dynamics over
-//! its columns; [`identify`] folds them into parameters.
+//! A log is a table with a row for each time and columns for q, q̇, q̈ and τ. [`functions`] computes the dynamics
+//! over its columns; [`identify`] identifies parameters from them.
 
 pub mod cluster;
 mod columns;

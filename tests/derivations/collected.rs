@@ -1,4 +1,5 @@
-//! Equations as people write them: those of the textbooks, as short as they can be, and equal to what was derived.
+//! Checks that equations are printed in the form that people write: like those of the textbooks, as short as possible,
+//! and equal to the derived ones.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +16,7 @@ fn usual() -> EquationOptions {
     EquationOptions { form: Form::Grouped, references: false, ..EquationOptions::default() }
 }
 
-/// Definitions and quantities of a robot by name.
+/// The definitions and quantities of a robot by name.
 fn printed(robot: &Robot, options: &EquationOptions) -> BTreeMap<String, String> {
     let kinds = EquationOptions::default().kinds;
     let printed = equations(robot, &EquationOptions { kinds, ..options.clone() }).unwrap();
@@ -39,8 +40,8 @@ fn assert_prints(robot: &Robot, expected: &[(&str, &str)]) {
     assert!(others.is_empty(), "{}: {others:?}", robot.name);
 }
 
-/// M. W. Spong, S. Hutchinson, M. Vidyasagar, "Robot Modeling and Control", Wiley 2006, section 7.4, with r for the
-/// distances of the centers of mass and the terms link by link.
+/// M. W. Spong, S. Hutchinson, M. Vidyasagar, "Robot Modeling and Control", Wiley 2006, section 7.4, with the symbol r
+/// for the distances of the centers of mass and with the terms ordered link by link.
 #[test]
 fn the_planar_elbow_arm_prints_as_in_the_textbook() {
     assert_prints(
@@ -97,8 +98,9 @@ fn a_scara_prints_as_in_textbooks() {
     );
 }
 
-/// The planar arm with three revolute joints, by hand: link by link, r the distances of the centers of mass. All entries but
-/// one are these symbol for symbol; that one is a symbol shorter than by hand, for it has l2 and r3 in front of brackets.
+/// The equations of the planar arm with three revolute joints, derived by hand link by link, with the symbol r for the
+/// distances of the centers of mass. All entries except one equal these symbol for symbol; that one is a symbol
+/// shorter, because l2 and r3 are factored out.
 #[test]
 fn the_planar_arm_of_three_joints_prints_as_in_textbooks() {
     let robot = robot_testing::robot("planar_3r");
@@ -150,7 +152,8 @@ fn the_planar_arm_of_three_joints_prints_as_in_textbooks() {
     assert!(others.is_empty(), "{others:?}");
 }
 
-/// The mass matrix and the gravity terms; the textbooks have no coefficients of velocities for this arm: those are by hand.
+/// The mass matrix and the gravity terms. The textbooks do not give the coefficients of velocities for this arm; they
+/// were derived by hand.
 #[test]
 fn the_first_three_joints_of_a_puma_print_as_in_textbooks() {
     let found = printed(&fixture("elbow"), &usual());
@@ -177,8 +180,8 @@ fn the_first_three_joints_of_a_puma_print_as_in_textbooks() {
     assert!(length(&found["b_1_1_2"]) <= length(by_hand), "{}", found["b_1_1_2"]);
 }
 
-/// The printed symbols of text: each name, number, sign, exponent and pair of brackets counts one, and so does the sine
-/// or cosine of a sum of joint positions.
+/// The number of printed symbols in a text: each name, number, sign, exponent and pair of brackets counts as one, as
+/// does the sine or cosine of a sum of joint positions.
 fn length(text: &str) -> usize {
     let mut count = 0;
     let mut rest = text;
@@ -208,8 +211,8 @@ fn a_length_counts_symbols() {
     }
 }
 
-/// The bounds are those of a search by hand and by program over all entries of the mass matrix, the coefficients of
-/// velocities, gravity and the wrenches, and over whole joint torques, plus a few percent.
+/// The bounds are the results of searches by hand and by program over all entries of the mass matrix, the coefficients
+/// of velocities, gravity and the wrenches, and over whole joint torques, plus a few percent.
 #[test]
 fn equations_are_short() {
     for (name, bound, by_others, whole) in [
@@ -236,8 +239,9 @@ fn equations_are_short() {
     }
 }
 
-/// The bounds are the lengths when all coefficients were written by named parts, with a tip and without. Now the short
-/// ones are written out, and so are the mass matrix's last rows and, in arms with a tip, the gravity terms.
+/// The bounds are the lengths of the equations when all coefficients were written in terms of named parts, with a tip and
+/// without. Now the short coefficients are written out, as are the last rows of the mass matrix and, in arms with a tip,
+/// the gravity terms.
 #[test]
 fn short_coefficients_of_seven_joints_cost_no_symbols() {
     for (name, has_tip, bound) in
@@ -260,7 +264,7 @@ fn short_coefficients_of_seven_joints_cost_no_symbols() {
     }
 }
 
-/// The joint torques by what is printed, definitions replaced by what they stand for.
+/// The joint torques according to the printed equations, with definitions substituted.
 fn torques<'g>(graph: &'g Graph, robot: &Robot, options: &EquationOptions) -> Vec<Expr<'g>> {
     let kinds = EquationOptions::default().kinds;
     let printed = equations(robot, &EquationOptions { kinds, ..options.clone() }).unwrap();
@@ -273,7 +277,7 @@ fn torques<'g>(graph: &'g Graph, robot: &Robot, options: &EquationOptions) -> Ve
     (1..=robot.degrees_of_freedom()).map(|number| values[&format!("Q{number}")]).collect()
 }
 
-/// The robot with each joint from place `first` on parallel to its parent's.
+/// The robot with the axis of each joint from index `first` on parallel to that of its parent.
 fn with_parallel_axes(mut robot: Robot, first: usize) -> Robot {
     for index in first..robot.links.len() {
         let Some(parent) = robot.links[index].parent else { continue };
@@ -285,7 +289,7 @@ fn with_parallel_axes(mut robot: Robot, first: usize) -> Robot {
     robot
 }
 
-/// Compares two expressions at three states, relative to the sum of their values there.
+/// Compares two expressions in three states, relative to the sum of their values.
 fn assert_equal_at_states(
     what: &str,
     graph: &Graph,
@@ -323,14 +327,14 @@ fn equations_of_a_hundred_random_robots_are_those_derived() {
             (Form::Collected, None),
             (Form::Expanded, Some(AngleSums::Keep)),
         ] {
-            // Whole torques of arms with tilted axes would fill pages.
+            // Whole joint torques of arms with tilted axes would fill pages.
             if form != Form::Grouped && first > 1 && joints > 1 {
                 continue;
             }
             let options = EquationOptions { form, angle_sums, references: true, ..usual() };
             let found = torques(&graph, &robot, &options);
             for (found, derived) in found.iter().zip(&derived) {
-                // Equal terms prove equality; roots in the directions of tilted axes may hide it.
+                // Equal terms prove equality, but roots in the directions of tilted axes may hide it.
                 if equal(*found, *derived).unwrap() {
                     proved += 1;
                 } else {

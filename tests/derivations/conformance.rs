@@ -1,5 +1,5 @@
-//! The rows of `conformance/`: URDF texts with a state and the torques that are derived by hand, or with
-//! the errors that they must end in; and the page that sets other programs beside them.
+//! Checks the rows of `conformance/`, which are URDF texts with a state and joint torques derived by hand, or with the
+//! errors that they must cause; and the page that compares other programs with them.
 
 use robot_build::{Effects, FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
@@ -40,7 +40,7 @@ fn numbers(row: &Table, key: &str) -> Vec<f64> {
     row[key].as_array().unwrap().iter().map(|one| one.as_float().unwrap()).collect()
 }
 
-/// The codes of what was found, each once, in their order.
+/// The codes of the diagnostics with the given severity, sorted and without repetitions.
 fn codes(found: &Diagnostics, severity: Severity) -> Vec<String> {
     let of_it = found.iter().filter(|one| one.severity == severity);
     let mut codes: Vec<String> = of_it.map(|one| one.code.to_owned()).collect();
@@ -49,7 +49,7 @@ fn codes(found: &Diagnostics, severity: Severity) -> Vec<String> {
     codes
 }
 
-/// The torques of the program that code is printed from, and those of the numeric solver.
+/// The joint torques by the program from which code is printed, and by the numeric solver.
 fn torques(robot: &Robot, row: &Table) -> [Vec<f64>; 2] {
     let [q, qd, qdd] = ["q", "qd", "qdd"].map(|key| numbers(row, key));
     let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]);
@@ -63,7 +63,7 @@ fn torques(robot: &Robot, row: &Table) -> [Vec<f64>; 2] {
     [outputs[0].values.clone(), solved.as_slice().to_vec()]
 }
 
-/// Reads a row and holds what comes of it against the row.
+/// Reads a row and compares the results with the row.
 fn check(row: &Table) {
     let (name, urdf) = (text(row, "name"), text(row, "urdf"));
     let refused = texts(row, "refused");
@@ -89,7 +89,7 @@ fn check(row: &Table) {
             "{name}: {tau:?}"
         );
     }
-    // An import gives the same torques to the last bit, and importing it changes nothing.
+    // An import gives exactly the same torques, and importing its result again changes nothing.
     let import = |name: &str, text: &str| {
         let taken = description::Options::default();
         description::import(name, text, &taken).unwrap_or_else(|found| panic!("{name}\n{found}"))
@@ -115,7 +115,7 @@ fn every_row_is_as_its_text_says() {
     assert_eq!(names.len(), rows.len());
 }
 
-/// A number with six digits, without zeros at its end, as the page has it.
+/// A number with six digits and without trailing zeros, as on the page.
 fn six(value: f64) -> String {
     if value.abs() < 5e-13 {
         return "0".to_owned();
@@ -126,7 +126,7 @@ fn six(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// What the column *here* says of a row.
+/// The text of the column *here* for a row.
 fn here(row: &Table) -> String {
     let refused = texts(row, "refused");
     if !refused.is_empty() {

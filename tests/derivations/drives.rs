@@ -1,5 +1,5 @@
-//! Gyroscopic rotors, derived a second time: the rotor as a body of its own, a link on the carrier that
-//! turns with its joint's coordinate, and the equations of Lagrange for that.
+//! A second derivation of gyroscopic rotors: the rotor is a separate link on the carrier that turns with the coordinate
+//! of its joint, and Lagrange's equations are derived for this mechanism.
 
 use robot_dynamics::economical::{
     Plan, Recursion,
@@ -18,7 +18,7 @@ use robot_testing::energy::{Motion, energies};
 
 const PLAIN: Effects = Effects { wrench: false, friction: false };
 
-/// An arm of three joints about and along coordinate axes, its rotors symbols: `J2`, `N2`, `J3`, `N3`.
+/// An arm with three joints about or along coordinate axes, whose rotors have the symbols `J2`, `N2`, `J3`, `N3`.
 fn arm(axes: [&str; 3], kinds: [&str; 3]) -> Robot {
     let link = |number: usize| {
         let (axis, kind) = (axes[number - 1], kinds[number - 1]);
@@ -48,7 +48,7 @@ fn arm(axes: [&str; 3], kinds: [&str; 3]) -> Robot {
     robot_testing::read("arm.toml", &text)
 }
 
-/// The robot with every gyroscopic rotor as a link of its own, its inertia taken out of its carrier's.
+/// The robot with every gyroscopic rotor as a separate link, whose inertia is subtracted from that of its carrier.
 fn with_rotors_as_links(robot: &Robot) -> Robot {
     let mut explicit = robot.clone();
     for index in 0..robot.links.len() {
@@ -76,7 +76,7 @@ fn with_rotors_as_links(robot: &Robot) -> Robot {
     explicit
 }
 
-/// A body without mass that has inertia about the joint axis, a coordinate axis, alone.
+/// A body without mass that only has an inertia about the joint axis, which is a coordinate axis.
 fn rotor(link: &Link, inertia: &str, placement: Placement) -> Body {
     let moment = |axis: usize| {
         let along = link.joint.axis[axis].as_number().unwrap();
@@ -92,12 +92,12 @@ fn formula(text: &str) -> Formula {
     Formula::parse(text).unwrap()
 }
 
-/// Both recursions on the robot against Lagrange's equations for its rotors as links.
+/// Compares both recursions for the robot with Lagrange's equations for the mechanism in which the rotors are links.
 fn check(robot: &Robot, name: &str) {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::EXACT);
     assert!(mechanism.links.iter().any(|link| !link.rotor_coupling.is_zero()), "{name}");
-    // Working frames in the file's axes, so that no sine of an odd angle comes in.
+    // The working frames are in the file's axes, so that no sines of additional angles occur.
     let link = LinkPlan { turn: Turn::File, ..LinkPlan::BASIC };
     let recursion = Recursion::new(&mechanism, &Plan::uniform(robot.links.len(), &link)).unwrap();
     let forces =
@@ -133,7 +133,7 @@ fn branched_robots_with_joints_that_follow_agree_with_lagrange() {
     for seed in 0..60 {
         let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(3) };
         let mut robot = robots::robot(&mut Random::new(seed), &recipe);
-        // Exact sines of any angles expand to long sums: right angles alone, and no friction.
+        // Exact sines of arbitrary angles would expand to long sums, so only right angles are used, and no friction.
         for link in &mut robot.links {
             link.placement = Placement::default();
             link.bodies.iter_mut().for_each(|body| body.placement.0.truncate(1));
@@ -150,20 +150,21 @@ fn branched_robots_with_joints_that_follow_agree_with_lagrange() {
     assert!(checked >= 4, "{checked}");
 }
 
-/// The expression with every rotor's inertia 0.
+/// The expression with the inertia of every rotor set to 0.
 fn without_rotors(expr: Expr<'_>) -> Expr<'_> {
     expr.substitute(|name| name.starts_with('J').then(|| expr.graph().zero()))
 }
 
-/// Joint 2 about the axis of joint 1: T = ½ I₁ q̇₁² + ½ I₂ (q̇₁ + q̇₂)² + ½ J (q̇₁ + N q̇₂)² − ½ J q̇₁²,
-/// the last for the locked rotor, which is a part of I₁. Hence J N q̈₂ in Q₁, J N q̈₁ + J N² q̈₂ in Q₂.
+/// Joint 2 is about the axis of joint 1: T = ½ I₁ q̇₁² + ½ I₂ (q̇₁ + q̇₂)² + ½ J (q̇₁ + N q̇₂)² − ½ J q̇₁². The last
+/// term belongs to the locked rotor, which is part of I₁. Q₁ therefore contains J N q̈₂, and Q₂ contains J N q̈₁ + J N²
+/// q̈₂.
 #[test]
 fn a_rotor_about_its_carriers_axis_in_closed_form() {
     let robot = arm(["z", "z", "z"], ["revolute"; 3]);
     let graph = Graph::new();
     let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
     let forces = newton_euler(&mechanism, PLAIN).generalized_forces;
-    // Joint 3 is carried by link 2, which turns with q1 + q2.
+    // Link 2, which turns with q1 + q2, carries the rotor of joint 3.
     let expected = [
         "J2*N2*qdd2 + J3*N3*qdd3",
         "J2*N2*qdd1 + J2*N2^2*qdd2 + J3*N3*qdd3",
@@ -175,8 +176,8 @@ fn a_rotor_about_its_carriers_axis_in_closed_form() {
     }
 }
 
-/// A rotor across its carrier's axis: its moment J N q̇₂ q̇₁ z × x = J N q̇₁ q̇₂ y on the carrier is one
-/// that the first joint's bearing takes, and no torque.
+/// The axis of the rotor is perpendicular to its carrier's: its moment J N q̇₂ q̇₁ z × x = J N q̇₁ q̇₂ y on the carrier
+/// is supported by the bearing of the first joint and contributes no torque.
 #[test]
 fn a_rotor_across_its_carriers_axis_in_closed_form() {
     let robot = arm(["z", "x", "x"], ["revolute"; 3]);
@@ -206,7 +207,8 @@ fn a_rotor_across_its_carriers_axis_in_closed_form() {
     }
 }
 
-/// On the base, and where the file does not ask for it, the reflected inertia stands alone.
+/// If the base carries the rotor, or if the file does not request gyroscopic moments, only the reflected inertia
+/// remains.
 #[test]
 fn a_rotor_on_the_base_is_its_reflected_inertia() {
     let text = |gyroscopic: bool| {
@@ -225,6 +227,6 @@ fn a_rotor_on_the_base_is_its_reflected_inertia() {
     };
     let force = forces(&text(true));
     assert_eq!(force, forces(&text(false)));
-    // 1 + m r² + N² J = 2.01
+    // The expected value is 1 + m r² + N² J = 2.01.
     assert!((force[0].derivative(graph.symbol("qdd1")).evaluate(|_| 0.0) - 2.01).abs() < 1e-15);
 }

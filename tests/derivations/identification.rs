@@ -1,4 +1,4 @@
-//! The example `identification`, small: estimates are off by what the noise allows, and no more.
+//! A small version of the example `identification`: the errors of the estimates must be consistent with the noise.
 
 use nalgebra::DVector;
 use robot_numeric::random::Random;
@@ -10,8 +10,8 @@ use crate::trajectory::{JOINTS, Trajectory};
 const SEED: u64 = 7;
 const SAMPLES: u32 = 300;
 
-/// A sum of n squares of standard normal numbers is n, give or take the root of 2n; beyond six times
-/// that one has better reasons than chance.
+/// The sum of n squared standard normal numbers is n with a standard deviation of √(2n). A deviation of more than six
+/// times this value cannot be due to chance.
 fn assert_chi_square(sum: f64, degrees: usize, what: &str) {
     let degrees = degrees as f64;
     let deviations = (sum - degrees).abs() / (2.0 * degrees).sqrt();
@@ -27,7 +27,7 @@ fn estimates_are_off_by_what_the_noise_allows() {
     let estimate = study::estimate(&measured).unwrap();
     let truth = DVector::from_column_slice(&study::true_parameters());
     let error = &estimate.parameters - &truth;
-    // The errors in units of their covariance, all together and each alone.
+    // The errors in units of their covariance, for all parameters together and for each one.
     let distance = estimate.distance(&study::true_parameters());
     assert_chi_square(distance, PARAMETERS, "the parameters");
     let rows = SAMPLES as usize * JOINTS;
@@ -35,7 +35,7 @@ fn estimates_are_off_by_what_the_noise_allows() {
     for (error, deviation) in error.iter().zip(estimate.deviations.iter()) {
         assert!(error.abs() < 6.0 * deviation, "seed {SEED}: {error} with {deviation}");
     }
-    // The parameters that are large are known to a few per cent.
+    // Large parameters are estimated to within a few percent.
     for (value, deviation) in truth.iter().zip(estimate.deviations.iter()) {
         assert!(value.abs() < 0.5 || deviation / value.abs() < 0.1, "{value} with {deviation}");
     }
@@ -54,14 +54,13 @@ fn torques_of_another_trajectory_are_predicted_to_the_noise() {
             let residual = tau[joint] - study::predict(&estimate.parameters, state)[joint];
             (residual / NOISE[joint]).powi(2)
         });
-        // Noise there, and what the estimate's own error adds.
+        // The noise of this trajectory, plus the contribution of the error of the estimate.
         let mean = squares.sum::<f64>() / f64::from(SAMPLES);
         assert!(mean > 0.5 && mean < 2.0, "seed {SEED}, joint {}: {mean}", joint + 1);
     }
 }
 
-/// Without noise the true parameters give the torques: the regressor's columns are those of the
-/// parameters.
+/// Without noise, the true parameters give the torques: the columns of the regressor belong to the parameters.
 #[test]
 fn the_regressor_times_the_true_parameters_is_the_torque() {
     let mut random = Random::new(SEED);

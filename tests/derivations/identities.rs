@@ -1,4 +1,4 @@
-//! What must hold exactly between the functions of a robot, by whatever way each was derived:
+//! Identities that must hold exactly between the functions of a robot, independently of how each function was derived:
 //!
 //! | identity | check |
 //! |---|---|
@@ -10,8 +10,8 @@
 //! | J from the rates of poses, J̇ q̇ from the rate of J | `jacobians` |
 //! | ∂τ/∂q, ∂τ/∂q̇, ∂q̈/∂q, ∂q̈/∂q̇ from τ and q̈ | `derivatives` |
 //!
-//! Rates are taken by the complex step. Y π = τ is in `regressor.rs`, power with wrenches at the tips,
-//! from poses alone, in `power.rs`, Lagrange's equations as polynomials in `lagrange.rs`.
+//! Time derivatives are computed by the complex step. Y π = τ is tested in `regressor.rs`, the power balance with
+//! wrenches at the tips from poses alone in `power.rs`, and Lagrange's equations as polynomials in `lagrange.rs`.
 
 use std::collections::BTreeMap;
 
@@ -31,7 +31,7 @@ use robot_testing::{evaluate, magnitude, robot_files, with_free_axes};
 const STATES: usize = 3;
 const TOLERANCE: f64 = 1e-11;
 
-/// The functions that take part.
+/// The functions that are compared.
 const KINDS: [FunctionKind; 12] = [
     FunctionKind::MassMatrix,
     FunctionKind::CoriolisMatrix,
@@ -47,10 +47,11 @@ const KINDS: [FunctionKind; 12] = [
     FunctionKind::ForwardDynamicsDerivatives,
 ];
 
-/// A derivative, its values, its expressions and the entries of the state that it is by.
+/// The name of a derivative, its expressions, the expressions that are differentiated, and the entries of the state
+/// with respect to which they are.
 type Way<'v, 'g> = (&'v str, &'v [Expr<'g>], &'v [Expr<'g>], fn(&mut State) -> &mut Vec<f64>);
 
-/// The functions of a robot at a state.
+/// The functions of a robot in a state.
 struct Subject<'r, 'g> {
     name: String,
     robot: &'r Robot,
@@ -83,7 +84,7 @@ impl<'g> Subject<'_, 'g> {
         DMatrix::from_row_slice(values.len() / order, order, &values)
     }
 
-    /// The state's rate of which all entries are 0 but those that `set` gives.
+    /// The rates of the state in which all entries are 0 except those that `set` changes.
     fn rate(&self, set: impl FnOnce(&mut State)) -> State {
         let mut rate = self.state.clone();
         for entries in [&mut rate.q, &mut rate.qd, &mut rate.qdd, &mut rate.tau] {
@@ -94,13 +95,13 @@ impl<'g> Subject<'_, 'g> {
         rate
     }
 
-    /// The rates of values where q changes with q̇.
+    /// The time derivatives of values if q changes with the velocity q̇.
     fn in_motion(&self, roots: &[Expr<'g>]) -> Vec<f64> {
         let rate = self.rate(|rate| rate.q.clone_from(&self.state.qd));
         derivative(self.robot, roots, &self.state, &rate)
     }
 
-    /// The derivatives of values by entries of the state, a column for each.
+    /// The derivatives of values with respect to entries of the state, one column for each entry.
     fn slopes(&self, roots: &[Expr<'g>], entries: fn(&mut State) -> &mut Vec<f64>) -> DMatrix<f64> {
         let columns: Vec<DVector<f64>> = (0..self.state.q.len())
             .map(|k| {
@@ -111,8 +112,8 @@ impl<'g> Subject<'_, 'g> {
         DMatrix::from_columns(&columns)
     }
 
-    /// Holds a value, or one per coordinate, or a matrix column by column, a row per coordinate, to a
-    /// fraction of `size`, or of the largest where that is more.
+    /// Compares a value, one value for each coordinate, or a matrix stored column by column with one row for each
+    /// coordinate. The tolerance is relative to `size` or, if that is larger, to the largest value.
     fn hold(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
         let rows = self.state.q.len();
         if found.len() < rows {
@@ -128,7 +129,7 @@ impl<'g> Subject<'_, 'g> {
         self.hold_as(&layout, &by_rows(found), &by_rows(expected), size);
     }
 
-    /// Holds values whose rows are not coordinates.
+    /// Compares values whose rows are not coordinates.
     fn hold_rows(&self, what: &str, found: &[f64], expected: &[f64], size: f64) {
         self.hold_as(&Layout::new(self.robot, what, &[1, found.len()]), found, expected, size);
     }
@@ -215,7 +216,7 @@ impl<'g> Subject<'_, 'g> {
         let driven = State { tau: torques.as_slice().to_vec(), ..self.state.clone() };
         let found =
             evaluate(self.robot, self.root(FunctionKind::ForwardDynamics(Effects::NONE)), &driven);
-        // What M⁻¹ makes of the rounding of torques is a matter of the condition of M.
+        // The effect of M⁻¹ on rounding errors of torques depends on the condition number of M.
         let inverse = mass.clone().try_inverse().unwrap();
         let size = inverse.norm() * torques.amax().max(bias.amax());
         self.hold("q̈ after τ", &found, &self.state.qdd, size);

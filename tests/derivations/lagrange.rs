@@ -1,5 +1,5 @@
-//! A second derivation, from energy: Lagrange's equations by symbolic differentiation of T − V
-//! agree with the Newton–Euler iterations exactly, the difference zero after expansion.
+//! A second derivation from the energies: Lagrange's equations, by symbolic differentiation of T − V, agree exactly
+//! with the Newton–Euler iterations: the difference expands to zero.
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -13,7 +13,7 @@ use robot_symbolic::polynomial::expands_to_zero;
 
 use robot_testing::energy::{Motion, energies};
 
-/// Checks each coordinate's equation; the number of recursions that were compared.
+/// Checks the equation of each coordinate; returns the number of recursions that were compared.
 fn check(robot: &Robot, name: &str) -> usize {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::EXACT);
@@ -22,8 +22,8 @@ fn check(robot: &Robot, name: &str) -> usize {
     let lagrangian = kinetic - potential;
     let effects = Effects { wrench: false, friction: false };
     let mut torques = vec![("iterations", newton_euler(&mechanism, effects).generalized_forces)];
-    // With a skew axis of irrational exact components there are no working frames; the numeric
-    // tests cover those.
+    // With a skew axis whose exact components are irrational, there are no working frames; the numeric tests cover this
+    // case.
     if let Some(recursion) = Recursion::new(&mechanism, &Plan::default_for(robot)) {
         torques.push(("economical recursion", recursion.inverse_dynamics(false)));
     }
@@ -50,7 +50,7 @@ fn trttr1_and_the_planar_arms() {
 
 #[test]
 fn random_robots_of_up_to_three_joints() {
-    // Three joints about skew axes take seconds: their expansions have 10⁵ terms.
+    // Three joints with skew axes take seconds, because their expansions have 10⁵ terms.
     let robots = [(0, 1), (1, 2), (2, 3), (3, 1), (4, 2), (6, 1), (7, 2), (10, 2), (13, 2)];
     for (seed, joints) in robots {
         let robot = robots::robot(&mut Random::new(seed), &Recipe::serial(joints));

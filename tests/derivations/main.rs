@@ -1,5 +1,5 @@
-//! What is derived against a second derivation, against what must hold between functions, and against values and
-//! equations from elsewhere.
+//! Compares what is derived with a second derivation, with identities between the functions, and with values and
+//! equations from other sources.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod collected;
@@ -12,7 +12,7 @@ mod pinocchio;
 mod power;
 mod textbook;
 
-// The example `identification`, whose parts name each other from the root of its program.
+// The example `identification`, whose modules refer to each other from the root of its program.
 #[path = "../../examples/identification/report.rs"]
 mod report;
 #[path = "../../examples/identification/study.rs"]

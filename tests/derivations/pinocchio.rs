@@ -1,5 +1,5 @@
-//! The generated programs against values computed by Pinocchio (see `tests/fixtures/oracle`): every
-//! function that it has, for six arms.
+//! Compares the generated programs with values of Pinocchio (see `tests/fixtures/oracle`) for six arms, including every
+//! function that Pinocchio has.
 
 use std::collections::BTreeMap;
 
@@ -14,13 +14,13 @@ use robot_testing::{largest_difference, magnitude};
 
 const ARMS: [&str; 6] = ["ur5", "panda", "iiwa", "puma560", "stanford", "scara"];
 
-/// The files of the project hold angles as multiples of π/2 where the URDF prints eleven digits.
+/// The project's files contain angles as multiples of π/2, while the URDF files have eleven digits.
 const TOLERANCE: f64 = 1e-9;
 
-/// A function, the oracle's values of its inputs but q and q̇, and of its outputs.
+/// A function, the names of the fixture's values for its inputs other than q and q̇, and those for its outputs.
 type Held = (FunctionKind, &'static [(&'static str, &'static str)], &'static [&'static str]);
 
-/// The functions whose outputs are values of the oracle.
+/// The functions whose outputs are values in the fixture.
 const FUNCTIONS: [Held; 9] = [
     (FunctionKind::InverseDynamics(Effects::NONE), &[("qdd", "a")], &["tau"]),
     (FunctionKind::Gravity, &[], &["g"]),
@@ -33,18 +33,18 @@ const FUNCTIONS: [Held; 9] = [
     (FunctionKind::ForwardDynamicsDerivatives, &[("tau", "aba_tau")], &["da_dq", "da_dv", "Minv"]),
 ];
 
-/// The numbers of a value: of a list, or of one.
+/// The numbers of a value that is a list or a single number.
 fn numbers(value: &Value) -> Vec<f64> {
     let number = |value: &Value| value.as_f64().unwrap();
     value.as_array().map_or_else(|| vec![number(value)], |list| list.iter().map(number).collect())
 }
 
-/// The frame at a link that [`with_frames`] adds.
+/// The name of the frame that [`with_frames`] adds to a link.
 fn frame_at(link: &str) -> String {
     format!("at_{link}")
 }
 
-/// An arm of the project with a frame at each of these bodies that has none.
+/// An arm of the project, with an additional frame on each of the given bodies that has none.
 fn with_frames<'n>(name: &str, bodies: impl Iterator<Item = &'n String>) -> Robot {
     let known = robot_testing::robot(name).frames;
     let (_, mut text) =
@@ -56,12 +56,12 @@ fn with_frames<'n>(name: &str, bodies: impl Iterator<Item = &'n String>) -> Robo
     robot_testing::read(name, &text)
 }
 
-/// An arm's programs and the states of its fixture.
+/// The programs of an arm and the states of its fixture.
 struct Arm {
     name: &'static str,
     programs: Programs,
     fixture: Value,
-    /// The worst error of each value.
+    /// The largest error of each quantity.
     worst: BTreeMap<String, f64>,
 }
 
@@ -77,7 +77,7 @@ impl Arm {
         Arm { name, programs, fixture, worst: BTreeMap::new() }
     }
 
-    /// The outputs of a function at a state, `more` its inputs beside q and q̇.
+    /// The outputs of a function in a state; `more` are its inputs other than q and q̇.
     fn call(&self, function: &str, state: &Value, more: &[(&str, &str)]) -> Vec<Vec<f64>> {
         let interpreter = Interpreter::new(&self.programs.module, &[]).unwrap();
         let inputs = &self.programs.module.function(function).unwrap().inputs;
@@ -94,7 +94,7 @@ impl Arm {
         outputs.into_iter().map(|output| output.values).collect()
     }
 
-    /// Holds values against the oracle's, to a fraction of the largest.
+    /// Compares values with those of the fixture; the error is relative to the largest value, or to `least`.
     fn hold(&mut self, what: &str, found: &[f64], expected: &[f64], least: f64) {
         let error = largest_difference(found, expected) / magnitude(expected).max(least);
         assert!(error <= TOLERANCE, "{}: {what} is off by {error:e}", self.name);
@@ -110,7 +110,7 @@ impl Arm {
                 self.hold(key, output, &numbers(&state[*key]), 1e-3);
             }
         }
-        // Columns of drives stand behind those of the links.
+        // The columns of drives follow those of the links.
         let found = self.call("regressor", state, &[("qdd", "a")]).remove(0);
         let columns = LINK_PARAMETERS * self.programs.robot.links.len();
         let rows = self.programs.robot.degrees_of_freedom();
@@ -118,7 +118,7 @@ impl Arm {
         self.hold("Y", &of_links.collect::<Vec<_>>(), &numbers(&state["Y"]), 1e-3);
     }
 
-    /// Poses of links and frames, and Jacobians.
+    /// Compares the poses of links and frames, and the Jacobians.
     fn kinematics(&mut self, state: &Value) {
         let robot = &self.programs.robot;
         let links: Vec<String> = robot.links.iter().map(|link| link.name.clone()).collect();

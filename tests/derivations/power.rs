@@ -1,4 +1,4 @@
-//! Power balance: what the drives put in is what the energy gains and what the tip gives away.
+//! Power balance: the power of the drives equals the increase of the energy plus the power that the tips transmit.
 
 use nalgebra::DVector;
 use robot_dynamics::functions::Derivation;
@@ -12,7 +12,7 @@ use robot_symbolic::Graph;
 use robot_testing::energy::{Motion, energies};
 use robot_testing::{evaluate, robot_files};
 
-/// The power that the tips give to their surroundings, by the numeric solver's Jacobians.
+/// The power that the tips transmit to their surroundings, by the Jacobians of the numeric solver.
 fn tip_power(robot: &Robot, solver: &robot_numeric::Mechanism, state: &State) -> f64 {
     let poses = solver.forward_kinematics(&state.q).unwrap();
     let tips = robot.frames.iter().enumerate().filter(|(_, frame)| frame.wrench.is_some());

@@ -1,5 +1,5 @@
-//! Planar arms against formulas of the textbooks, derived by hand: M, C, g and the tip's Jacobian as
-//! polynomials, whose differences from the functions' are zero after expansion.
+//! Compares planar arms with formulas of the textbooks, derived by hand: the differences of M, C, g and the tip's
+//! Jacobian from those of the functions expand to zero.
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::LinkPlan;
@@ -9,10 +9,10 @@ use robot_model::functions::FunctionKind;
 use robot_symbolic::polynomial::equal;
 use robot_symbolic::{Expr, Formula, Graph};
 
-/// The textbook's entries of a function.
+/// The entries of a function according to the textbook.
 type Entries = (FunctionKind, Vec<String>);
 
-/// Holds functions against formulas, under the default plan of the recursion and in the file's frames.
+/// Compares functions with formulas, for the default plan of the recursion and for a uniform basic plan.
 fn hold(name: &str, textbook: &[Entries]) {
     let robot = robot_testing::robot(name);
     let graph = Graph::new();
@@ -88,12 +88,12 @@ fn the_planar_elbow_arm() {
     );
 }
 
-/// A chain of n links in a plane, in the absolute angles θ of its links, θᵢ = q₁ + … + qᵢ. With the
-/// mass mⱼ, the lever rⱼ, the length lⱼ and what a link carries Lᵢ = lᵢ Σ mₖ over k > i, the kinetic
-/// energy is ½ Σ aᵢⱼ cos(θᵢ − θⱼ) θ̇ᵢ θ̇ⱼ with aᵢᵢ = Iᵢ + mᵢ rᵢ² + lᵢ Lᵢ and aᵢⱼ = lᵢ (mⱼ rⱼ + Lⱼ) for
-/// i < j. Its Christoffel symbols leave Cᵢⱼ = aᵢⱼ sin(θᵢ − θⱼ) θ̇ⱼ, and the weight's share is
-/// (mᵢ rᵢ + Lᵢ) g cos θᵢ. What q does, θ does to all links from its own outward: entries of q's
-/// matrices are sums over those.
+/// A chain of n links in a plane, described by the absolute angles θᵢ = q₁ + … + qᵢ of its links. Link j has the mass
+/// mⱼ, the distance rⱼ of the center of mass and the length lⱼ, and Lᵢ = lᵢ Σ mₖ over k > i is the first moment of what
+/// link i carries. The kinetic energy is ½ Σ aᵢⱼ cos(θᵢ − θⱼ) θ̇ᵢ θ̇ⱼ with aᵢᵢ = Iᵢ + mᵢ rᵢ² + lᵢ Lᵢ and aᵢⱼ = lᵢ (mⱼ
+/// rⱼ + Lⱼ) for i < j. The Christoffel symbols give Cᵢⱼ = aᵢⱼ sin(θᵢ − θⱼ) θ̇ⱼ, and gravity contributes (mᵢ rᵢ + Lᵢ) g
+/// cos θᵢ. A change of qᵢ changes θ of link i and all links farther outward, so the entries of the matrices for q are
+/// sums over these links.
 struct PlanarChain {
     links: usize,
 }
@@ -105,7 +105,7 @@ impl PlanarChain {
         if masses.is_empty() { "0".to_owned() } else { format!("l{link}*({})", masses.join(" + ")) }
     }
 
-    /// aᵢⱼ
+    /// The coefficient aᵢⱼ.
     fn inertia(&self, i: usize, j: usize) -> String {
         let (inner, outer) = (i.min(j), i.max(j));
         match inner == outer {
@@ -115,7 +115,7 @@ impl PlanarChain {
         }
     }
 
-    /// A sum over all links from those two outward.
+    /// The sum of entries over all links from `row` and from `column` outward.
     fn sum(&self, row: usize, column: usize, entry: impl Fn(usize, usize) -> String) -> String {
         let pairs = (row..=self.links).flat_map(|i| (column..=self.links).map(move |j| (i, j)));
         pairs.map(|(i, j)| entry(i, j)).collect::<Vec<_>>().join(" + ")
@@ -152,7 +152,7 @@ impl PlanarChain {
         ]
     }
 
-    /// The tip is at Σ lᵢ (cos θᵢ, sin θᵢ).
+    /// The Jacobian of the tip, whose position is Σ lᵢ (cos θᵢ, sin θᵢ).
     fn jacobian(&self) -> Vec<String> {
         let sum = |joint: usize, function: &str| -> String {
             let term = |i: usize| format!("l{i}*{function}({})", added("q", i));
@@ -170,7 +170,7 @@ impl PlanarChain {
     }
 }
 
-/// q1 + q2 + …
+/// The sum q1 + q2 + … up to the given link.
 fn added(prefix: &str, link: usize) -> String {
     (1..=link).map(|number| format!("{prefix}{number}")).collect::<Vec<_>>().join(" + ")
 }

@@ -1,4 +1,4 @@
-//! The package of the book's page for Rust developers.
+//! The package on the book's page for Rust developers.
 
 use robot_testing::pages::blocks;
 

@@ -31,7 +31,7 @@ fn package(name: &str) -> Package {
 fn a_build_script_generates_what_an_edited_file_says() {
     let package = package("by_build_script");
     assert_eq!(package.run(&["run"]), reference::torques(reference::ROBOT));
-    // Another process, another profile of the generator: the same bytes.
+    // Another process and another profile of the generator give the same bytes.
     assert_eq!(package.run(&["run", "--example", "code"]), reference::code(reference::ROBOT));
     let edited = reference::edited();
     package.write("robots/trttr1.toml", &edited);
@@ -40,7 +40,8 @@ fn a_build_script_generates_what_an_edited_file_says() {
     assert_ne!(torques, reference::torques(reference::ROBOT));
 }
 
-/// The robot file is not called as its robot, and the program includes the file that it expects.
+/// The robot file does not have the name of its robot, and the program includes the generated file under the expected
+/// name.
 #[test]
 fn a_plan_that_comes_or_goes_is_noticed() {
     let package = package("by_pinned_build_script");
@@ -52,7 +53,8 @@ fn a_plan_that_comes_or_goes_is_noticed() {
     assert_eq!(package.run(&["run"]), reference::torques(reference::ROBOT));
 }
 
-/// The standard library's sines without the feature: the compiler says what is missing, not that a name is.
+/// Without the feature for the standard library's sines, the compiler reports the missing feature instead of a missing
+/// name.
 #[test]
 fn a_missing_feature_is_named() {
     let package = package("by_featureless_build_script");

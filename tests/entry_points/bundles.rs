@@ -1,4 +1,4 @@
-//! Bundles as compiled code: the values of the functions that they are of, for fewer operations.
+//! Bundles as compiled code: they give the values of their functions with fewer operations.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -7,7 +7,7 @@ use robot_build::{Bundle, Effects, FunctionKind, Functions, Options, RobotFile, 
 
 use crate::package::{Package, dependency};
 
-/// Two ways through the same sums differ by roundings.
+/// The same sums computed in different ways differ by rounding errors.
 const TOLERANCE: f64 = 1e-12;
 
 const KINDS: [FunctionKind; 5] = [
@@ -18,7 +18,7 @@ const KINDS: [FunctionKind; 5] = [
     FunctionKind::Energies,
 ];
 
-/// Prints the largest difference between a bundle and its functions, in units of the largest value.
+/// A program that prints the largest difference between a bundle and its functions, relative to the largest value.
 const HARNESS: &str = r#"
 /// Numbers between -2 and 2, by the golden ratio.
 fn entries<const N: usize>(from: usize) -> [f64; N] {

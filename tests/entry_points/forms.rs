@@ -1,4 +1,4 @@
-//! The further forms of functions, compiled: generic ones at every scalar, batches, multiply-adds.
+//! Additional forms of functions as compiled code: generic functions with every scalar, batches, and multiply-adds.
 
 use std::fmt::Write as _;
 
@@ -9,16 +9,18 @@ use robot_numeric::random::Random;
 
 use crate::package::{Package, dependency};
 
-/// More than two blocks of eight, and a rest.
+/// More than two blocks of eight states, with a remainder.
 const STATES: usize = 19;
-/// Of the largest torque: what roundings in another order may do.
+/// The maximum error caused by a different order of operations, relative to the largest torque.
 const TOLERANCE: f64 = 1e-12;
 const SINGLE_TOLERANCE: f64 = 1e-4;
 
 const UR5: &str = include_str!("../../robots/ur5.toml");
 const TRTTR1: &str = include_str!("../../robots/trttr1.toml");
+const PANDA: &str = include_str!("../../robots/panda.toml");
 
-/// Every form of inverse dynamics, and a batch of the mass matrix, whose velocities are unused.
+/// The options for every form of inverse dynamics, and for a batch of the mass matrix, which does not use the
+/// velocities.
 fn options(trigonometry: Trigonometry, fused: bool) -> Options {
     let functions = vec![FunctionKind::InverseDynamics(Effects::NONE), FunctionKind::MassMatrix];
     Options {
@@ -44,7 +46,7 @@ fn states(dof: usize) -> [Vec<Vec<f64>>; 3] {
     })
 }
 
-/// The torques by the interpreter.
+/// The torques by the interpreter, in all states.
 fn expected(robot: &str, dof: usize) -> Vec<Vec<f64>> {
     let programs = programs(&source(robot), &options(Trigonometry::Standard, false)).unwrap();
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
@@ -56,7 +58,8 @@ fn expected(robot: &str, dof: usize) -> Vec<Vec<f64>> {
     (0..STATES).map(torques).collect()
 }
 
-/// The same states in columns, some of them short, and in a block: they have the bits of the batch.
+/// Code that computes the same states stored in columns, some of which are short, and in a block. The results are
+/// bitwise equal to those of the batch.
 fn columns_text(dof: usize) -> String {
     format!(
         "let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));\n\
@@ -85,7 +88,8 @@ fn columns_text(dof: usize) -> String {
     )
 }
 
-/// The mass matrices of the same states: by a batch near those of single calls, in columns with the bits of the batch.
+/// Code that computes the mass matrices in the same states: a batch agrees with single calls to within rounding errors,
+/// and columns are bitwise equal to the batch.
 fn masses_text(dof: usize) -> String {
     format!(
         "let mut masses = [[[0.0; {dof}]; {dof}]; {STATES}];\n\
@@ -106,7 +110,7 @@ fn masses_text(dof: usize) -> String {
     )
 }
 
-/// A program that prints the torques at all states by each form, a state a line.
+/// A program that prints the torques in all states by each form, one line for each state.
 fn main_text() -> String {
     let mut text = "#![deny(warnings)]\nmod cases;\nuse robot_runtime::{F32x8, F64x4, Scalar};\n\
         fn show<const N: usize>(form: &str, tau: &[[f64; N]]) {\n    \
@@ -158,7 +162,7 @@ fn main_text() -> String {
     text
 }
 
-/// The code of both robots with both sources of sines.
+/// The code of both robots, with both implementations of sines.
 fn cases_text(fused: bool) -> String {
     let mut text = String::new();
     for (case, trigonometry) in
@@ -170,13 +174,13 @@ fn cases_text(fused: bool) -> String {
     text
 }
 
-/// Holds what the program prints against the interpreter; gives whether it fused.
+/// Compares the printed values with those of the interpreter; returns whether the program used fused operations.
 fn hold(printed: &str) -> bool {
     let mut lines = printed.lines();
     for (robot, dof) in [(UR5, 6), (TRTTR1, 5)] {
         let expected = expected(robot, dof);
         let size = expected.iter().flatten().fold(0.0_f64, |size, tau| size.max(tau.abs()));
-        // Two sources of sines, seven forms each.
+        // Two implementations of sines with seven forms each.
         for _ in 0..2 * 7 {
             for expected in &expected {
                 let (form, values) = lines.next().unwrap().split_once(' ').unwrap();
@@ -192,7 +196,7 @@ fn hold(printed: &str) -> bool {
     lines.next() == Some("fused true")
 }
 
-/// Flags for the compiler that this machine can run, and whether multiply-adds are one instruction.
+/// Compiler flags that this machine supports, each with whether multiply-add is a single instruction.
 fn builds() -> Vec<(&'static str, bool)> {
     let mut builds = vec![("", cfg!(target_arch = "aarch64"))];
     #[cfg(target_arch = "x86_64")]
@@ -215,4 +219,60 @@ fn every_form_agrees_with_or_without_fused_instructions() {
             assert_eq!(hold(&package.run_with(&["run"], flags)), fuses, "{flags}");
         }
     }
+}
+
+/// A function with more entries than one loop stores: columns have the bits of the slices.
+#[test]
+fn entries_of_large_matrices_are_stored_by_several_loops() {
+    let functions = Functions::Chosen(vec![FunctionKind::Regressor]);
+    let options = Options { functions, batch: Some(8), ..Options::default() };
+    let generated = generate(&source(PANDA), &options).unwrap().code;
+    let lanes = generated.split("fn regressor_lanes_with").nth(1).unwrap();
+    let body = lanes.split("fn ").next().unwrap();
+    assert_eq!(body.matches("for lane in 0..8").count(), 2, "{body}");
+    let package = Package::new(
+        "several_loops",
+        &format!("[dependencies]\n{}", dependency("robot_runtime", ", features = [\"std\"]")),
+    );
+    package.write("src/cases.rs", &generated);
+    let [q, qd, qdd] = states(7);
+    let main = format!(
+        "mod cases;
+        type Regressor<const N: usize> = [[f64; N]; 7];
+        fn columns(states: &[[f64; 7]]) -> [Vec<f64>; 7] {{
+            core::array::from_fn(|d| states.iter().map(|state| state[d]).collect())
+        }}
+        fn check<const N: usize>(
+            batch: impl Fn(&mut [Regressor<N>]) -> usize,
+            by_columns: impl Fn([[&mut [f64]; N]; 7]) -> usize,
+        ) {{
+            let mut states = vec![[[0.0; N]; 7]; {STATES}];
+            assert_eq!(batch(&mut states), {STATES});
+            let mut found: [[Vec<f64>; N]; 7] =
+                core::array::from_fn(|_| core::array::from_fn(|_| vec![0.0; {STATES}]));
+            let slices = found.each_mut().map(|row| row.each_mut().map(|column| &mut column[..]));
+            assert_eq!(by_columns(slices), {STATES});
+            for (state, regressor) in states.iter().enumerate() {{
+                for (row, columns) in regressor.iter().zip(&found) {{
+                    for (entry, column) in row.iter().zip(columns) {{
+                        assert_eq!(entry.to_bits(), column[state].to_bits());
+                    }}
+                }}
+            }}
+            println!(\"{{}} entries\", 7 * N);
+        }}
+        fn main() {{
+            let m = cases::panda::Model::NOMINAL;
+            let (q, qd, qdd) = ({q:?}, {qd:?}, {qdd:?});
+            let (cq, cqd, cqdd) = (columns(&q), columns(&qd), columns(&qdd));
+            fn slices(columns: &[Vec<f64>; 7]) -> [&[f64]; 7] {{ columns.each_ref().map(|column| &column[..]) }}
+            check(
+                |states| m.regressor_batch(&q, &qd, &qdd, states),
+                |regressor| m.regressor_columns(slices(&cq), slices(&cqd), slices(&cqdd), regressor),
+            );
+        }}"
+    );
+    package.write("src/main.rs", &main);
+    let printed = package.run_with(&["run"], "");
+    assert!(printed.contains("entries"), "{printed}");
 }

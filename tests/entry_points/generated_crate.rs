@@ -1,4 +1,4 @@
-//! Generated crates: one that another package depends on, and one for every robot.
+//! Generated crates: one on which another package depends, and one for every robot.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::package::Package;
 use crate::reference;
 
-/// Runs `robot-symbolic`; gives the exit code and the messages.
+/// Runs `robot-symbolic`; returns the exit code and the messages.
 fn command(arguments: &[&str]) -> (u8, String) {
     let (mut output, mut errors) = (vec![], vec![]);
     let mut terminal = robot_cli::Terminal {
@@ -53,7 +53,7 @@ fn a_package_depends_on_a_generated_crate() {
     assert_eq!(package.run(&["run"]), reference::searched_torques(&edited));
 }
 
-/// Dev and release builds, with every function; the crates' own tests compare their check values.
+/// Builds every function in the dev and release profiles; the crates' own tests compare their check values.
 #[test]
 fn every_robot_builds_in_both_profiles() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("robots");
@@ -80,12 +80,12 @@ fn every_robot_builds_in_both_profiles() {
     }
     let shown = package.run(&["test", "--workspace", "--tests"]);
     assert!(shown.matches("inverse_dynamics_gives_its_check_value ... ok").count() >= files.len());
-    // Without the standard library the check values are the same.
+    // The check values are the same without the standard library.
     let shown = package.run(&["test", "--package", "trttr1", "--features", "trttr1/std"]);
     assert!(shown.contains("link_wrenches_gives_its_check_value ... ok"), "{shown}");
 }
 
-/// A test of the crate below: two robots in the lanes of one model.
+/// A test in the generated crate of the next test: a model with two sets of parameters in lanes.
 const PARAMETERS_IN_LANES: &str = "\
     use match_::{Model, Parameters};\n\
     use match_::runtime::Lanes;\n\
@@ -101,8 +101,8 @@ const PARAMETERS_IN_LANES: &str = "\
         }\n\
     }\n";
 
-/// Names of the robot, its parameters and its bundles that Rust reserves, or that a module has for itself; the crate's
-/// own tests compare the check values.
+/// Names of the robot, of parameters and of bundles that Rust reserves or that the generated module uses itself. The
+/// crate's own tests compare the check values.
 #[test]
 fn a_robot_with_words_of_rust_for_names_builds() {
     let package = Package::new("reserved", "[dependencies]\nmatch_ = { path = \"generated\" }\n");

@@ -1,4 +1,4 @@
-//! A package with the macro.
+//! A package that uses the macro.
 
 use crate::package::{Package, dependency};
 use crate::reference;
@@ -26,7 +26,7 @@ fn a_macro_follows_its_file() {
     package.write("robots/trttr1.toml", &edited);
     assert_eq!(package.run(&["run"]), reference::torques(&edited));
 
-    // A wrong option is an error at its place in the source.
+    // A wrong option causes an error at its place in the source.
     let module = "robot_macros::include_robot!(\n    \"robots/trttr1.toml\",\n    snapp = 1e-8\n);";
     package.write("src/main.rs", &reference::main_text(module));
     let messages = package.failure(&["build"]);

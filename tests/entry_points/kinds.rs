@@ -1,7 +1,7 @@
-//! Every function of every robot as compiled code: `f64` against the numeric solver, `f32` and lanes
-//! of `f64` and `f32` against `f64`.
+//! Every function of every robot as compiled code: `f64` is compared with the numeric solver, and `f32` and lanes of
+//! `f64` and `f32` are compared with `f64`.
 //!
-//! `cargo test -p robots --test entry_points kinds -- --nocapture` prints the worst errors.
+//! `cargo test -p robots --test entry_points kinds -- --nocapture` prints the largest errors.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -23,17 +23,17 @@ use robot_testing::{largest_difference, magnitude, robot_files};
 use crate::package::{Package, dependency};
 
 const STATES: usize = 4;
-/// Of the largest value over the states.
+/// The tolerance relative to the largest value over the states.
 const TOLERANCE: f64 = 1e-11;
-/// Lanes do what the plain code does, operation by operation.
+/// The tolerance for lanes, which compute the same operations as plain code.
 const LANES: f64 = 1e-15;
-/// `f32` and lanes of it, in numbers whose last place is 1.2·10⁻⁷ of them.
+/// The tolerance for `f32` and its lanes, whose relative precision is 1.2·10⁻⁷.
 const SINGLE: f64 = 1e-6;
-/// Where M is solved for, its condition takes digits.
+/// The tolerance for functions that solve with M, which lose digits because of its condition number.
 const SINGLE_SOLVED: f64 = 1e-5;
 
-/// What runs a function's forms at the states and prints the values of `f64`, then the worst errors of
-/// `f32`, lanes of `f64` and lanes of `f32`, in units of the largest value.
+/// Code that runs the forms of a function in the states and prints the values of `f64`, followed by the largest errors
+/// of `f32`, lanes of `f64` and lanes of `f32`, relative to the largest value.
 const HARNESS: &str = r#"
 use robot_runtime::{Lanes, lanes_from_states};
 
@@ -76,7 +76,7 @@ fn narrow<const N: usize>(entries: &[f64; N]) -> [f32; N] { entries.map(|x| x as
 /// A robot whose functions are called.
 struct Case {
     robot: Robot,
-    /// The functions by their kinds.
+    /// The functions for each kind.
     kinds: Vec<(FunctionKind, Vec<Function>)>,
     code: String,
     states: Vec<State>,
@@ -86,7 +86,7 @@ impl Case {
     fn new(name: &str, text: &str) -> Case {
         let robot = robot_testing::read(name, text);
         let all = FunctionKind::of_robot(&robot);
-        // Without inputs there is nothing to compute once more: it has a test of its own.
+        // The function for the base parameters has no inputs; it has a separate test.
         let called = |kind: &FunctionKind| *kind != FunctionKind::BaseParameters;
         let called: Vec<FunctionKind> = all.into_iter().filter(called).collect();
         let functions = Functions::Chosen(called.clone());
@@ -106,7 +106,7 @@ impl Case {
         let mut random = Random::new(17);
         let states = (0..STATES).map(|_| {
             let mut state = state(&mut random, &solver, &robot);
-            // Numbers of f32, so that an error is the computation's alone.
+            // The inputs are exact in f32, so that errors are only those of the computation.
             let narrow = |x: &mut f64| *x = f64::from(*x as f32);
             let State { q, qd, qdd, tau, wrenches } = &mut state;
             [q, qd, qdd, tau].into_iter().flatten().for_each(narrow);
@@ -168,7 +168,7 @@ impl Case {
         writeln!(text, "show(&{plain}, [&{single}, &{lanes}, &{single_lanes}]);").unwrap();
     }
 
-    /// The columns of links' parameters in the full regressor that a regressor has.
+    /// The columns of the full regressor, for parameters of links, that a regressor contains.
     fn columns(&self, kind: FunctionKind) -> Option<Vec<usize>> {
         let inertial = 0..LINK_PARAMETERS * self.robot.links.len();
         match kind {
@@ -185,7 +185,7 @@ impl Case {
         }
     }
 
-    /// Holds the printed lines of this robot.
+    /// Compares the printed lines of this robot with the solver.
     fn hold<'l>(&self, lines: &mut impl Iterator<Item = &'l str>, worst: &mut Worst) {
         let solver = robot_numeric::Mechanism::nominal(&self.robot).unwrap();
         for (kind, functions) in &self.kinds {
@@ -204,7 +204,7 @@ impl Case {
             }
             let columns = self.columns(*kind);
             if let Some(columns) = &columns {
-                // Columns of drives stand behind those of the links.
+                // The columns of drives follow those of the links.
                 let inertial: Vec<usize> = match kind {
                     FunctionKind::Regressor => columns.clone(),
                     _ => (0..columns.len()).collect(),
@@ -229,7 +229,7 @@ impl Case {
     }
 }
 
-/// Whether the function solves for the mass matrix.
+/// Whether the function solves with the mass matrix.
 fn solves(kind: FunctionKind) -> bool {
     matches!(
         kind,
@@ -241,7 +241,7 @@ fn solves(kind: FunctionKind) -> bool {
     )
 }
 
-/// Columns of a matrix, row by row.
+/// The given columns of a matrix, row by row.
 fn chosen(matrix: &[f64], rows: usize, columns: &[usize]) -> Vec<f64> {
     let rows = matrix.chunks(matrix.len() / rows);
     rows.flat_map(|row| columns.iter().map(|column| row[*column])).collect()
@@ -252,7 +252,7 @@ fn numbers(line: &str) -> Vec<f64> {
     entries.map(|entry| entry.parse().unwrap()).collect()
 }
 
-/// The worst errors of each kind.
+/// The largest errors of each kind.
 #[derive(Default)]
 struct Worst(BTreeMap<FunctionKind, [f64; 3]>);
 
@@ -267,7 +267,7 @@ impl Worst {
 #[test]
 fn every_function_of_every_robot() {
     let runtime = dependency("robot_runtime", "");
-    // The build is what takes the time.
+    // The build takes most of the time.
     let profile = "[profile.dev]\ndebug = false\nincremental = false\n";
     let package = Package::new("kinds", &format!("{profile}[dependencies]\n{runtime}"));
     let files = robot_files().into_iter();
@@ -279,7 +279,7 @@ fn every_function_of_every_robot() {
         writeln!(text, "mod {module}_case {{\n{}\n}}\n{}", case.code, case.block()).unwrap();
         writeln!(main, "{module}_calls();").unwrap();
     }
-    // A thread has 2 MB of stack, which must do for unoptimized code too.
+    // A thread has 2 MB of stack, which must suffice for unoptimized code as well.
     let main = format!(
         "std::thread::Builder::new().stack_size(1 << 21).spawn(|| {{\n{main}}}).unwrap().join().unwrap();"
     );
@@ -294,7 +294,7 @@ fn every_function_of_every_robot() {
     println!("| function | f32 | lanes of f64 | lanes of f32 |\n|---|---|---|---|");
     for (kind, [single, lanes, single_lanes]) in &worst.0 {
         println!("| `{}` | {single:.1e} | {lanes:.1e} | {single_lanes:.1e} |", kind.name());
-        // An error of 0 would be that of f64.
+        // An error of 0 would indicate that the computation was in f64.
         assert!(*single > 1e-9, "{}", kind.name());
     }
 }

@@ -1,4 +1,5 @@
-//! Limbs that are alike, compiled to the lanes of one call: the values of the interpreter, which computes them apart.
+//! Similar limbs, compiled to the lanes of one call: the values must equal those of the interpreter, which computes the
+//! limbs separately.
 
 use std::fmt::Write as _;
 
@@ -30,7 +31,7 @@ fn source() -> Source {
     Source { name: "quadruped.toml".to_owned(), text: QUADRUPED.to_owned() }
 }
 
-/// The inputs of a function at each state.
+/// The inputs of a function in each state.
 fn inputs(programs: &Programs, function: &str) -> Vec<Vec<(String, Vec<f64>)>> {
     let mut random = Random::new(11);
     let function = programs.module.function(function).unwrap();
@@ -45,7 +46,7 @@ fn inputs(programs: &Programs, function: &str) -> Vec<Vec<(String, Vec<f64>)>> {
     (0..STATES).map(|_| state()).collect()
 }
 
-/// A program that prints all results at all states, a state a line.
+/// A program that prints all results in all states, one line for each state.
 fn main_text(programs: &Programs) -> String {
     let mut text = "#![deny(warnings)]\nmod robot;\nuse robot::quadruped::Model;\n\
         trait Flat { fn flat(&self) -> Vec<f64>; }\n\
@@ -74,7 +75,7 @@ fn main_text(programs: &Programs) -> String {
     text
 }
 
-/// Holds what the program prints against the interpreter.
+/// Compares the printed values with those of the interpreter.
 fn hold(programs: &Programs, trigonometry: Trigonometry, printed: &str) {
     let interpreter = Interpreter::new(&programs.module, &[]).unwrap();
     let interpreter = interpreter.with_trigonometry(trigonometry);

@@ -1,6 +1,5 @@
-//! The three ways in, from outside: a crate with a build script, one with the macro, one that
-//! depends on a generated crate. Each is a package of its own, built by Cargo with its default
-//! profiles.
+//! Tests of the three entry points from outside: a crate with a build script, one with the macro, and one that depends
+//! on a generated crate. Each is a separate package that Cargo builds with its default profiles.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 

@@ -1,18 +1,18 @@
-//! Packages outside of the workspace.
+//! Packages outside the workspace.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// A package in a folder of its own.
+/// A package in a separate folder.
 pub(crate) struct Package {
     folder: PathBuf,
 }
 
 impl Package {
-    /// An empty package `name` with the `[…]` tables of a manifest that follow its name.
+    /// Creates an empty package `name`; `tables` are the `[…]` tables that follow its name in the manifest.
     ///
-    /// The packages share a target folder, which keeps their dependencies between runs, and the
-    /// versions of this workspace's lock file, so that nothing is downloaded.
+    /// The packages share a target folder, which keeps their dependencies between runs, and use the versions in this
+    /// workspace's lock file, so that nothing is downloaded.
     pub(crate) fn new(name: &str, tables: &str) -> Package {
         let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("entry-points").join(name);
         let _ = std::fs::remove_dir_all(&folder);
@@ -36,11 +36,11 @@ impl Package {
         std::fs::write(path, text).unwrap();
     }
 
-    /// Runs Cargo in the package, with flags for the compiler.
+    /// Runs Cargo in the package with the given compiler flags.
     fn cargo(&self, arguments: &[&str], flags: &str) -> Output {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap());
         command.current_dir(&self.folder).args(arguments).arg("--offline");
-        // What the test itself was built with does not concern the package.
+        // The environment variables with which the test itself was built must not affect the package.
         for (variable, _) in std::env::vars_os() {
             let name = variable.to_string_lossy();
             if name.starts_with("CARGO") && !["CARGO", "CARGO_HOME"].contains(&&*name) {
@@ -51,12 +51,12 @@ impl Package {
         command.env("CARGO_TARGET_DIR", target).env("RUSTFLAGS", flags).output().unwrap()
     }
 
-    /// What the package's program prints.
+    /// Runs the package's program and returns its output.
     pub(crate) fn run(&self, arguments: &[&str]) -> String {
         self.run_with(arguments, "")
     }
 
-    /// The same, built with flags for the compiler.
+    /// Runs the program like [`Package::run`], built with compiler flags.
     pub(crate) fn run_with(&self, arguments: &[&str], flags: &str) -> String {
         let output = self.cargo(arguments, flags);
         let errors = String::from_utf8_lossy(&output.stderr);
@@ -64,25 +64,25 @@ impl Package {
         String::from_utf8(output.stdout).unwrap()
     }
 
-    /// Whether a build finds nothing to do.
+    /// Whether a build has nothing to do.
     pub(crate) fn is_fresh(&self) -> bool {
         let output = self.cargo(&["build"], "");
         assert!(output.status.success());
         !String::from_utf8_lossy(&output.stderr).contains("Compiling")
     }
 
-    /// Sets the time of a file to now, as `robot-symbolic search` does with the robot file.
+    /// Sets the time of a file to the current time, as `robot-symbolic search` does with the robot file.
     pub(crate) fn touch(&self, file: &str) {
         let file = std::fs::OpenOptions::new().append(true).open(self.path(file)).unwrap();
         file.set_modified(std::time::SystemTime::now()).unwrap();
     }
 
-    /// Asserts that a plan beside `robots/arm.toml` is noticed when it comes after the first build, and when it
-    /// goes, and that nothing is built again meanwhile.
+    /// Asserts that a plan beside `robots/arm.toml` is noticed when it is created after the first build and when it is
+    /// removed, and that nothing is rebuilt in between.
     pub(crate) fn assert_notices_plans(&self) {
         self.run(&["build"]);
         assert!(self.is_fresh());
-        // A plan that stops the build shows that it was read.
+        // An invalid plan stops the build, which shows that the plan was read.
         self.write("robots/arm.plan", "no plan");
         self.touch("robots/arm.toml");
         let messages = self.failure(&["build"]);
@@ -92,7 +92,7 @@ impl Package {
         assert!(self.is_fresh());
     }
 
-    /// What Cargo says where it fails.
+    /// Runs Cargo, which must fail, and returns its messages.
     pub(crate) fn failure(&self, arguments: &[&str]) -> String {
         let output = self.cargo(arguments, "");
         assert!(!output.status.success());
@@ -100,7 +100,7 @@ impl Package {
     }
 }
 
-/// `name = { path = "…" … }` for a crate of this workspace.
+/// The line `name = { path = "…" … }` for a crate of this workspace.
 pub(crate) fn dependency(name: &str, more: &str) -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates").join(name);
     format!("{name} = {{ path = {folder:?}{more} }}\n")

@@ -1,4 +1,4 @@
-//! A body carried, set at run time, against the numeric solver with that body as a link of its own.
+//! A payload that is set at run time, compared with the numeric solver for the body as a separate link.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -18,12 +18,12 @@ use crate::package::{Package, dependency};
 
 const STATES: usize = 20;
 const TOLERANCE: f64 = 1e-12;
-/// Of numbers of 24 bits, after some hundred roundings.
+/// The tolerance for numbers with 24 bits after some hundred operations.
 const SINGLE_TOLERANCE: f64 = 2e-5;
 
 const MASS: f64 = 2.7;
 const CENTER: [f64; 3] = [0.03, -0.08, 0.11];
-/// xx, yy, zz, xy, xz, yz.
+/// The inertia tensor: xx, yy, zz, xy, xz, yz.
 const INERTIA: [f64; 6] = [0.021, 0.017, 0.013, 0.004, -0.002, 0.003];
 const NAMES: [&str; 10] = ["mass", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz"];
 
@@ -32,14 +32,14 @@ fn robot_file(name: &str) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
-/// A robot file with a payload on a link or frame, or on the last link.
+/// A robot file with a payload on the given link or frame, or by default on the last link.
 fn source(name: &str, parent: Option<&str>) -> Source {
     let parent = parent.map(|parent| format!("parent = \"{parent}\"\n")).unwrap_or_default();
     let text = format!("{}\n[payload]\n{parent}", robot_file(&format!("{name}.toml")));
     Source { name: format!("{name}.toml"), text }
 }
 
-/// The solver with the body as a fixed link.
+/// The solver for the robot with the body as a fixed link.
 fn solver(robot: &Robot, carrier: usize, placement: Pose) -> robot_numeric::Mechanism {
     let [xx, yy, zz, xy, xz, yz] = INERTIA;
     let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
@@ -50,7 +50,7 @@ fn solver(robot: &Robot, carrier: usize, placement: Pose) -> robot_numeric::Mech
     robot_numeric::Mechanism::new(*alone.gravity(), links, alone.frames().to_vec()).unwrap()
 }
 
-/// States and the torques at them.
+/// States and the torques in them.
 fn expected(solver: &robot_numeric::Mechanism) -> Vec<([Vec<f64>; 3], Vec<f64>)> {
     let mut random = Random::new(17);
     let state = |_| {
@@ -76,7 +76,8 @@ fn options() -> Options {
     Options { functions, ..Options::default() }
 }
 
-/// The interpreter's torques under the default plan and under that pinned for the robot alone.
+/// Compares the interpreter's torques for the default plan and for the plan that is pinned for the robot without the
+/// payload.
 #[test]
 fn every_plan_carries_a_payload() {
     for (name, parent) in [
@@ -117,7 +118,7 @@ fn every_plan_carries_a_payload() {
     }
 }
 
-/// Where all ten parameters of the link are parameters already, a payload costs nothing at a call.
+/// If all ten values of the link are parameters anyway, a payload adds no operations to a call.
 #[test]
 fn a_payload_costs_no_operation_at_a_call() {
     for name in ["puma560", "ur5", "iiwa", "panda"] {
@@ -129,7 +130,7 @@ fn a_payload_costs_no_operation_at_a_call() {
             module.counts(&module.functions[0]).call
         };
         let text = robot_file(&format!("{name}.toml"));
-        // A center of mass at the origin is taken for that, not for a value.
+        // A center of mass at the origin would be treated as the constant 0, so it is replaced.
         let text = text.replace("center_of_mass = [0, 0, 0]", "center_of_mass = [0.1, 0.2, 0.3]");
         let with = count(format!("{text}\n[payload]\n"));
         assert_eq!(with.operations(), count(text).operations(), "{name}");
@@ -147,7 +148,7 @@ fn a_pin_made_without_the_payload_is_stale() {
     assert!(error.contains("stale") && error.contains("search for a plan again"), "{error}");
 }
 
-/// Models with the body, and calls at the states, in `f64` and `f32`.
+/// Models with the payload, and calls in the states, in `f64` and `f32`.
 #[test]
 fn compiled_models_carry_a_payload() {
     let runtime = dependency("robot_runtime", "");

@@ -1,26 +1,26 @@
-//! The robot file of the packages, and what its functions give by the interpreter.
+//! The robot file of the packages, and the results of its functions by the interpreter.
 
 use robot_build::{Options, Source, Trigonometry, generate, programs};
 use robot_codegen::Interpreter;
 
-/// TRTTR1's file.
+/// The robot file of TRTTR1.
 pub(crate) const ROBOT: &str = include_str!("../../robots/trttr1.toml");
 
 pub(crate) const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
 pub(crate) const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
 pub(crate) const QDD: [f64; 5] = [-1.0, 0.5, 0.8, -0.2, 2.0];
 
-/// The file with another mass of link 5.
+/// The file with another value of the mass of link 5.
 pub(crate) fn edited() -> String {
     changed("M5 = { value = 3.2,", "M5 = { value = 4.7,")
 }
 
-/// The file with a misspelt key.
+/// The file with a misspelled key.
 pub(crate) fn broken() -> String {
     changed("mass = \"M5\"", "mss = \"M5\"")
 }
 
-/// Asserts that a build's messages show what is wrong with [`broken`], at its place.
+/// Asserts that the messages of a build show the error in [`broken`] at its place.
 pub(crate) fn assert_shows_what_is_broken(messages: &str) {
     let line = broken().lines().position(|line| line.starts_with("mss =")).unwrap() + 1;
     for part in
@@ -39,18 +39,18 @@ fn source(text: &str) -> Source {
     Source { name: "robots/trttr1.toml".to_owned(), text: text.to_owned() }
 }
 
-/// The module's text.
+/// The text of the generated module.
 pub(crate) fn code(text: &str) -> String {
     generate(&source(text), &Options::default()).unwrap().code
 }
 
-/// The torques of a robot file at the state above, as [`MAIN`] prints them.
+/// The torques for a robot file in the state above, as [`MAIN`] prints them.
 pub(crate) fn torques(text: &str) -> String {
     torques_under(text, &Options::default())
 }
 
-/// The same by the command, which searches the cheapest form if none is pinned, with the standard
-/// library's sines.
+/// The torques like those of [`torques`], computed as by the command, which searches for the cheapest form if none is
+/// pinned and uses the standard library's sines.
 pub(crate) fn searched_torques(text: &str) -> String {
     let trigonometry = Trigonometry::Standard;
     torques_under(text, &Options { search: true, trigonometry, ..Options::default() })
@@ -65,8 +65,8 @@ fn torques_under(text: &str, options: &Options) -> String {
     format!("{:?}\n", outputs[0].values)
 }
 
-/// A program that prints the torques of the module `trttr1` at the state above; `module` brings it
-/// into scope. Warnings are errors: generated code has none.
+/// A program that prints the torques of the module `trttr1` in the state above; `module` brings the module into scope.
+/// Warnings are errors, because generated code must not cause any.
 pub(crate) fn main_text(module: &str) -> String {
     format!(
         "//! Prints torques.\n\

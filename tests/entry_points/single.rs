@@ -1,4 +1,4 @@
-//! The accuracy of inverse dynamics in `f32`: plain code and lanes against `f64`, for every robot.
+//! The accuracy of inverse dynamics in `f32`: plain code and lanes are compared with `f64` for every robot.
 //!
 //! `cargo test -p robots --test entry_points single -- --nocapture` prints the table of
 //! docs/performance.md.
@@ -10,10 +10,10 @@ use robot_build::{Effects, FunctionKind, Functions, Options, RobotFile, Scalar, 
 
 use crate::package::{Package, dependency};
 
-/// Of the largest torque over the states, in numbers whose last place is 1.2·10⁻⁷ of them.
+/// The maximum error relative to the largest torque over the states; the relative precision of `f32` is 1.2·10⁻⁷.
 const BOUND: f64 = 1e-6;
 
-/// What is printed for each robot: the worst errors of `f32` code and of lanes of `f32`.
+/// Code that prints, for each robot, the largest errors of `f32` code and of lanes of `f32`.
 const HARNESS: &str = r#"
 /// The worst error of plain code and of lanes, in units of the largest torque.
 macro_rules! measure {
@@ -101,7 +101,7 @@ fn single_precision_keeps_its_digits() {
         let (robot, errors) = line.split_once(' ').unwrap();
         let errors: Vec<f64> = errors.split(' ').map(|error| error.parse().unwrap()).collect();
         println!("| {robot} | {:.1e} | {:.1e} |", errors[0], errors[1]);
-        // An error of 0 would be that of f64.
+        // An error of 0 would indicate that the computation was in f64.
         assert!(errors.iter().all(|error| (1e-9..BOUND).contains(error)), "{line}");
     }
     assert_eq!(shown.lines().count(), files.len());

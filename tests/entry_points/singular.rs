@@ -1,5 +1,5 @@
-//! Forward dynamics as compiled code where the mass matrix is singular: NaN in every form, and no number of
-//! the wrong sign.
+//! Forward dynamics as compiled code if the mass matrix is singular: all forms must give NaN instead of finite numbers
+//! with the wrong sign.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use robot_build::{Effects, FunctionKind, Functions, Options, Scalar, Source, gen
 use crate::package::{Package, dependency};
 
 const WRIST: &str = include_str!("../fixtures/gimbals/wrist.toml");
-/// Its inertia is a parameter, which may be wrong.
+/// A pendulum whose inertia is a parameter, so that it can be set to an impossible value.
 const PENDULUM: &str = "format = 1
 [robot]
 name = \"pendulum\"

@@ -1,4 +1,4 @@
-//! What files can ask for at most, what code costs, and what is pinned.
+//! The limits on input files, the operations of generated code, and pinned plans.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod operation_counts;

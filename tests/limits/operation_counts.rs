@@ -1,18 +1,18 @@
-//! The operations that the documents state are those of the code.
+//! Checks that the numbers of operations in the documents are those of the code.
 
 use robot_build::{Bundle, Effects, FunctionKind, Functions, Options, RobotFile, programs};
 use robot_codegen::Counts;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// The cells of the rows of a document's tables.
+/// The cells of the rows in a document's tables.
 pub(crate) fn rows(document: &str) -> Vec<Vec<String>> {
     let text = std::fs::read_to_string(format!("{ROOT}/docs/{document}")).unwrap();
     let rows = text.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |"));
     rows.map(|row| row.split(" | ").map(str::to_owned).collect()).collect()
 }
 
-/// What a call of each function of a robot costs, under its pinned plan.
+/// The operations of a call of each function of a robot, with its pinned plan.
 fn costs(robot: &str, functions: Vec<FunctionKind>, bundles: Vec<Bundle>) -> Vec<Counts> {
     let file = RobotFile::read(format!("{ROOT}/robots/{robot}.toml").as_ref()).unwrap();
     let functions = Functions::Chosen(functions);
@@ -44,7 +44,8 @@ fn other_functions_of_the_page_about_performance() {
         FunctionKind::ForwardDynamicsDerivatives,
     ];
     for robot in ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"] {
-        // One by one: in one derivation the order of operands depends on the functions before.
+        // The functions are derived one by one, because in a common derivation the order of operands depends on the
+        // preceding functions.
         let counts = kinds.map(|kind| {
             let counts = costs(robot, vec![kind], vec![])[0];
             (counts.mul + counts.add + counts.div).to_string()

@@ -1,4 +1,5 @@
-//! The table of options in the book is that of the program, and robot files know the keys that it names.
+//! Checks that the table of options in the book agrees with the program, and that robot files accept the keys that it
+//! contains.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +11,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A row of `docs/generated-code.md`: what, builder, macro, command, robot file.
+/// A row of `docs/generated-code.md`: the option, builder, macro, command and robot file.
 fn row(option: &OptionSpec) -> String {
     let OptionSpec { name, example, .. } = option;
     let builder = match option.kind {

@@ -1,11 +1,11 @@
-//! The plans that are pinned beside the robot files are those that a search finds.
+//! Checks that the plans that are pinned beside the robot files are those that a search finds.
 
 use robot_build::{Source, pin_text, read};
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_testing::robot_files;
 
-/// A change of the recursion or of the search shows here: `robot-symbolic search` writes the pins anew.
+/// This test fails after a change of the recursion or of the search; `robot-symbolic search` then rewrites the pins.
 #[test]
 fn pins_are_what_a_search_finds() {
     let differ: Vec<String> = std::thread::scope(|scope| {
@@ -17,7 +17,7 @@ fn pins_are_what_a_search_finds() {
     assert!(differ.is_empty(), "robots/NAME.plan is out of date for {}", differ.join(", "));
 }
 
-/// What a pin says and what a search finds, if they differ.
+/// The difference between a pin and the result of a search, if there is one.
 fn differs(name: &str, text: String) -> Option<String> {
     let source = Source { name: format!("robots/{name}.toml"), text };
     let robot = read(&source).unwrap().robot;

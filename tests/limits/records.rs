@@ -1,7 +1,8 @@
-//! The programs of `docs/records` are those that are generated, and need the operations that the page states.
+//! Checks that the programs in `docs/records` are those that are generated, and that they need the operations that the
+//! page states.
 //!
-//! `UPDATE_SNAPSHOTS=1` writes the programs and the states anew; `docs/records/check.py` counts and runs them without
-//! anything of this project.
+//! `UPDATE_SNAPSHOTS=1` rewrites the programs and the states; `docs/records/check.py` counts operations and runs the
+//! programs without using anything of this project.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -17,7 +18,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const ROBOTS: [&str; 6] = ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"];
 const STATES: usize = 8;
 
-/// The program of a robot's inverse dynamics, and states with the joint torques of the numeric solver.
+/// The program of a robot's inverse dynamics, and states with the joint torques by the numeric solver.
 fn record(robot: &str) -> [(String, String); 2] {
     let file = RobotFile::read(format!("{ROOT}/robots/{robot}.toml").as_ref()).unwrap();
     let functions = Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]);
@@ -40,10 +41,10 @@ fn record(robot: &str) -> [(String, String); 2] {
     [(format!("{robot}.program"), program), (format!("{robot}.states"), states)]
 }
 
-/// Multiplications, additions, and sines and cosines, by the text alone.
+/// The multiplications, the additions, and the sines and cosines, counted in the text alone.
 fn counts(program: &str) -> [usize; 3] {
     let mut counts = [0; 3];
-    // 2 a is a + a.
+    // A product 2 a counts as the sum a + a.
     let mut twos = BTreeSet::new();
     for line in program.lines() {
         if line.ends_with(':') {

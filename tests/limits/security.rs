@@ -1,5 +1,5 @@
-//! Files that mean harm, all the way to equations and code: each ends in an answer or a message, soon and
-//! within bounds, and nothing of them gets out of its place. What is promised is in docs/security.md.
+//! Malicious files, processed up to equations and code: each must give a result or a message within limited time and
+//! memory, and no text from it may take effect outside its place. docs/security.md describes what is promised.
 
 use std::fmt::Write as _;
 use std::time::Instant;
@@ -15,7 +15,7 @@ fn source(text: String) -> Source {
     Source { name: "robot.toml".to_owned(), text }
 }
 
-/// Runs it on a stack as small as that of a thread, and prints what it took.
+/// Runs a function on a stack as small as that of a thread, and prints the time that it took.
 fn timed<T: Send>(what: &str, run: impl FnOnce() -> T + Send) -> T {
     let start = Instant::now();
     let result = std::thread::scope(|scope| {
@@ -26,7 +26,7 @@ fn timed<T: Send>(what: &str, run: impl FnOnce() -> T + Send) -> T {
     result
 }
 
-/// A chain of joints about skew axes, with everything that a link can have.
+/// A chain of joints with skew axes, in which links have all possible properties.
 fn chain(joints: usize) -> String {
     let mut text = "format = 1\n[robot]\nname = \"chain\"\n".to_owned();
     for number in 1..=joints {
@@ -56,7 +56,7 @@ fn sixty_four_joints_end_in_code() {
     assert!(found.contains("at most 64"), "{found}");
 }
 
-/// Each function alone ends in code or in the message that it is too long.
+/// Each function by itself gives either code or the message that it is too long.
 #[test]
 fn every_function_of_sixty_four_joints_ends() {
     let file = source(chain(64));
@@ -70,7 +70,7 @@ fn every_function_of_sixty_four_joints_ends() {
     }
 }
 
-/// Where nothing is pinned commands search a plan: for a long chain not to the end.
+/// If no plan is pinned, commands search for one; for a long chain, the search ends early.
 #[test]
 fn a_search_over_sixty_four_joints_ends_early() {
     let robot = robot_build::read(&source(chain(64))).unwrap().robot;
@@ -83,7 +83,7 @@ fn a_search_over_sixty_four_joints_ends_early() {
     assert!(!search(&short, &options, Measure::Operations).unwrap().cut_short);
 }
 
-/// All functions of 64 joints are millions of expressions: that is said, without making them.
+/// All functions of 64 joints together would have millions of expressions; they are refused before these are created.
 #[test]
 fn all_functions_of_sixty_four_joints_are_refused() {
     let file = source(chain(64));
@@ -100,7 +100,7 @@ fn all_functions_of_sixty_four_joints_are_refused() {
     }
 }
 
-/// 1 MiB of expressions: a mass of as many products as a file holds.
+/// 1 MiB of expressions: a mass that is a product of as many factors as a file can contain.
 #[test]
 fn a_mebibyte_of_expressions_ends_in_code_or_a_message() {
     let head = "format = 1\n[robot]\nname = \"wide\"\n[parameters]\na = 1\nb = 2\n[[link]]\n\
@@ -142,7 +142,7 @@ fn nesting_of_a_hundred_thousand_ends_in_a_message() {
     }
 }
 
-/// Words that would do something where they must only be read.
+/// Texts that would have an effect if they were not only read.
 const HOSTILE: [&str; 9] = [
     "*/ } fn harm() {} /*",
     "```rust panic!() ```",
@@ -164,7 +164,7 @@ fn one_link(name: &str, doc: &str, latex: &str) -> String {
     )
 }
 
-/// Code without its comments.
+/// The code without its comments.
 fn bare(code: &str) -> String {
     let lines = code.lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.collect::<Vec<_>>().join("\n")
@@ -178,11 +178,11 @@ fn texts_of_a_file_stay_in_comments() {
     };
     let plain = code("a mass");
     assert!(plain.contains("a mass"));
-    // Both texts are made harmless: the description of the robot and that of the parameter.
+    // Both texts are escaped: the description of the robot and the documentation of the parameter.
     assert_eq!(code("see `x`").matches(r"see \`x\`").count(), 2);
     for hostile in HOSTILE {
         let code = code(hostile);
-        // Nothing but comments changes, and in them nothing ends a comment or begins an example.
+        // Only comments differ, and nothing in them ends a comment or begins an example.
         assert_eq!(bare(&code), bare(&plain), "{hostile}");
         let unescaped = code.replace(r"\`", "").replace(r"\<", "").replace(r"\]", "");
         let marks = ["```", "<script", "<img", "](javascript"];
@@ -207,8 +207,8 @@ fn hostile_names_and_latex_are_refused() {
     }
 }
 
-/// A build of a robot file starts no program and asks no network: the crates behind the builder and the
-/// macro do not even name what could.
+/// Building from a robot file starts no program and uses no network: the crates that the builder and the macro use do
+/// not even contain the names of such functions.
 #[test]
 fn the_crates_behind_a_build_start_no_process() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/crates");
@@ -228,7 +228,7 @@ fn the_crates_behind_a_build_start_no_process() {
             for word in ["process::Command", "Command::new", "std::net", "TcpStream"] {
                 assert!(!text.contains(word), "{word} in {}", path.display());
             }
-            // The instructions of vector registers, for a processor that has them.
+            // Instructions for vector registers, used if the processor has them.
             let instructions = [
                 "registers/x86.rs",
                 "registers/neon.rs",
@@ -253,7 +253,7 @@ fn equations_that_nobody_can_read_end_in_a_message() {
     let found = timed("equations of 64 joints", || equations(&robot, &options));
     let message = found.err().unwrap().to_string();
     assert!(message.contains("more than") && message.contains("grouped"), "{message}");
-    // The other forms are for this.
+    // The other forms exist for such robots.
     for form in [Form::Recursive, Form::Compact] {
         let options = EquationOptions { form, ..options.clone() };
         let found = timed(form.name(), || equations(&robot, &options));

@@ -1,4 +1,4 @@
-//! Base parameters: as many as stacked regressors have rank, and the same joint torques.
+//! Checks the base parameters: their number is the rank of stacked regressors, and they give the same joint torques.
 
 use nalgebra::DMatrix;
 use robot_dynamics::base_parameters::{BaseParameters, base_parameters};
@@ -16,7 +16,7 @@ use robot_testing::{evaluate, magnitude, read, robot_files, with_free_axes};
 
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-11;
-/// Singular values below this part of the largest are those of dependent columns.
+/// Singular values below this fraction of the largest one indicate dependent columns.
 const RANK: f64 = 1e-9;
 const OPTIONS: MechanismOptions = MechanismOptions::ROUNDED;
 
@@ -27,7 +27,7 @@ fn output<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'
     output.values.clone()
 }
 
-/// States of all speeds, those of rest among them.
+/// States with different speeds, including states at rest.
 fn states(random: &mut Random, solver: &robot_numeric::Mechanism, count: usize) -> Vec<State> {
     let slow = |(index, mut state): (usize, State)| {
         let factor = [1.0, 1.0, 0.1, 0.01, 0.0][index % 5];
@@ -37,7 +37,7 @@ fn states(random: &mut Random, solver: &robot_numeric::Mechanism, count: usize) 
     (0..count).map(|_| random.state(solver)).enumerate().map(slow).collect()
 }
 
-/// The rank of a regressor's columns over many states, each column scaled to length 1.
+/// The rank of a regressor's columns over many states, after each column is scaled to length 1.
 fn rank(robot: &Robot, regressor: &[Expr<'_>], states: &[State], label: &str) -> usize {
     let rows = robot.degrees_of_freedom();
     let columns = regressor.len() / rows;
@@ -60,22 +60,22 @@ fn rank(robot: &Robot, regressor: &[Expr<'_>], states: &[State], label: &str) ->
     rank
 }
 
-/// Everything that base parameters promise, over either parameters of links.
+/// Checks all properties of the base parameters, in both choices of frames.
 fn check(robot: &Robot, seed: u64, name: &str) -> usize {
     let [count, others] = BaseFrames::ALL.map(|base_frames| {
         let robot = Robot { base_frames, ..robot.clone() };
-        // Where an axis is a parameter, there are base parameters in the file's frames alone.
+        // If a joint axis is a parameter, there are base parameters only in the file's frames.
         out_of_reach(&robot).is_none().then(|| check_set(&robot, seed, name))
     });
     assert!(others.is_none() || others == count, "{name}, seed {seed}: {others:?} in other frames");
     count.unwrap()
 }
 
-/// Everything that base parameters promise.
+/// Checks all properties of one set of base parameters.
 fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
     let mut robot = robot.clone();
     for link in &mut robot.links {
-        // What grows with the contact force is not linear in the parameters.
+        // Friction that depends on the contact force is not linear in the parameters.
         link.friction.coulomb = Formula::number(&Rational::ZERO);
     }
     let label = format!("{name}, seed {seed}, {}", robot.base_frames.name());
@@ -116,7 +116,8 @@ fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
     count
 }
 
-/// Each column of the full regressor is the kept ones times the coefficients of its parameter.
+/// Checks that each column of the full regressor is the product of the kept columns and the coefficients of its
+/// parameter.
 fn check_columns(
     robot: &Robot,
     found: &BaseParameters<'_>,

@@ -1,5 +1,5 @@
-//! Every dynamic function against the numeric solver: for every robot file, for random chains and
-//! trees, under plans drawn at random.
+//! Compares every dynamic function with the numeric solver, for every robot file and for random chains and trees, with
+//! random plans.
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::functions::{Derivation, Output, search_plan};
@@ -20,7 +20,7 @@ use robot_testing::{evaluate, magnitude, robot_files, with_free_axes};
 const STATES: usize = 12;
 const TOLERANCE: f64 = 1e-11;
 
-/// The functions that other files hold against the solver: `recursions.rs`, `regressor.rs`, `base_parameters.rs`.
+/// The functions that other files compare with the solver: `recursions.rs`, `regressor.rs`, `base_parameters.rs`.
 const ELSEWHERE: [FunctionKind; 8] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
@@ -32,7 +32,7 @@ const ELSEWHERE: [FunctionKind; 8] = [
     FunctionKind::BaseParameters,
 ];
 
-/// The functions that are held against the solver here: all others.
+/// The functions that are compared with the solver here: all others.
 fn kinds() -> Vec<FunctionKind> {
     let kinds = FunctionKind::ALL.iter().copied();
     kinds.filter(|kind| !ELSEWHERE.contains(kind)).collect()
@@ -51,7 +51,7 @@ fn values<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'
     outputs(derivation, kind).into_iter().flat_map(|output| output.values).collect()
 }
 
-/// The worst error of each function, relative to its largest value over the states.
+/// Updates the largest error of each function, relative to its largest value over the states.
 fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64]) {
     let mut random = Random::new(seed);
     let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
@@ -68,7 +68,7 @@ fn check(robot: &Robot, seed: u64, name: &str, worst: &mut [f64]) {
         let expected: Vec<_> =
             states.iter().map(|state| expected(robot, &solver, kind, state)).collect();
         let size = magnitude(expected.iter().flatten()).max(1e-3);
-        // The several ways to the derivatives have a test of their own.
+        // The different ways of computing the derivatives have a separate test.
         let slow = kind == FunctionKind::InverseDynamicsDerivatives;
         let derivations = derivations.iter().take(if slow { 1 } else { usize::MAX });
         for (number, derivation) in derivations.enumerate() {
@@ -104,8 +104,8 @@ fn functions_of_every_robot_file_agree_with_the_numeric_solver() {
     }
 }
 
-/// The Jacobians of the links of a robot, and those that the kind alone gives if there are no frames,
-/// against the solver.
+/// Compares with the solver the Jacobians of a robot's links, and those that the kind alone stands for if there are no
+/// frames.
 fn check_links(mut robot: Robot, name: &str) {
     let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
     let mut random = Random::new(5);
@@ -127,7 +127,7 @@ fn check_links(mut robot: Robot, name: &str) {
         }
     };
     of_links.for_each(|kind| hold(&robot, kind));
-    // Without named frames the kind alone is of the last link of each branch.
+    // Without named frames, the kind alone stands for the last link of each branch.
     robot.frames.clear();
     let last = FrameRef::usual(&robot);
     assert!(!last.is_empty(), "{name}");
@@ -145,7 +145,7 @@ fn jacobians_of_links_agree_with_the_numeric_solver() {
         let robot = robots::robot(&mut Random::new(seed), &recipe);
         check_links(robot, &format!("tree {seed}"));
     }
-    // Without the economical recursion.
+    // Robots for which the economical recursion cannot be set up.
     (0..3).for_each(|seed| check_links(with_free_axes(seed), "free axes"));
 }
 
@@ -202,8 +202,8 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
     report("parameters", &worst);
 }
 
-/// The derivatives by composite quantities, and by differentiating the torques forward and in
-/// reverse; [`FunctionKind::InverseDynamicsDerivatives`] is the cheapest of them.
+/// Compares the derivatives by composite quantities, and by forward and reverse differentiation of the torques;
+/// [`FunctionKind::InverseDynamicsDerivatives`] is the one with the fewest operations.
 #[test]
 fn every_way_to_the_derivatives_agrees_with_the_numeric_solver() {
     for seed in 4000..4024 {
@@ -243,8 +243,8 @@ fn every_way_to_the_derivatives_agrees_with_the_numeric_solver() {
     }
 }
 
-/// Joint axes that depend on parameters leave no working frames to choose: every function then
-/// comes from the links' own frames.
+/// If joint axes depend on parameters, working frames cannot be chosen, and every function is derived from the links'
+/// own frames.
 #[test]
 fn functions_of_robots_with_free_axes_agree_with_the_numeric_solver() {
     let mut worst = vec![0.0; kinds().len()];
@@ -258,7 +258,7 @@ fn functions_of_robots_with_free_axes_agree_with_the_numeric_solver() {
     report("free axes", &worst);
 }
 
-/// Operation counts that must not be exceeded: multiplications and additions, and divisions.
+/// The maximum numbers of operations: multiplications and additions, and divisions.
 #[test]
 fn searched_plans_keep_the_operations_of_functions_low() {
     let budgets = [

@@ -1,6 +1,5 @@
-//! The code against the numeric solver: the straight-line programs through the interpreter for
-//! hundreds of random robots, and the Rust that they are printed as, compiled, for every robot file
-//! and twenty random ones.
+//! Compares the code with the numeric solver: the straight-line programs in the interpreter for hundreds of random
+//! robots, and the Rust code printed from them, compiled, for every robot file and twenty random robots.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -26,7 +25,7 @@ const FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::LinkWrenches,
 ];
 
-/// A robot, its programs and states with what the numeric solver says about them.
+/// A robot, its programs, and states with the numeric solver for comparison.
 struct Case {
     name: String,
     programs: Programs,
@@ -50,14 +49,15 @@ impl Case {
         Case { name: format!("{name}, seed {seed}"), programs, states, solver }
     }
 
-    /// The inputs of a function at a state, by name.
+    /// The inputs of a function in a state, by name.
     fn inputs(&self, kind: FunctionKind, state: &State) -> Vec<(String, Vec<f64>)> {
         let function = self.programs.module.function(kind.name()).unwrap();
         let names = function.inputs.iter().map(|input| input.name.clone());
         inputs(&self.programs.robot, names, state)
     }
 
-    /// Holds values (per state) against the solver; the worst error in units of the largest value.
+    /// Compares values, one list for each state, with the solver; returns the largest error relative to the largest
+    /// value.
     fn hold(&self, kind: FunctionKind, values: &[Vec<f64>]) -> f64 {
         let robot = &self.programs.robot;
         let expected: Vec<Vec<f64>> =
@@ -72,8 +72,8 @@ impl Case {
         worst
     }
 
-    /// As [`Case::hold`], by the torques that accelerations stand for: the mass matrix of dozens of joints
-    /// is far from regular, and no solver has the accelerations themselves to the last digits.
+    /// Compares values like [`Case::hold`], but by the torques that correspond to the accelerations: the mass matrix of
+    /// dozens of joints is ill-conditioned, so no solver can compute the accelerations themselves to the last digits.
     fn hold_accelerations(&self, values: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
         let mut worst = 0.0_f64;
         for ((state, values), expected) in self.states.iter().zip(values).zip(expected) {
@@ -131,7 +131,8 @@ fn the_programs_of_two_hundred_random_robots() {
     println!("200 random robots × 50 states: worst error {worst:.1e}");
 }
 
-/// Dozens of joints: what rounding may do grows with each, and passes must not mistake it for nothing.
+/// Chains with dozens of joints: rounding errors grow with every joint, and passes must not mistake small values for
+/// rounding errors.
 #[test]
 fn the_programs_of_long_chains() {
     let kinds = [
@@ -196,7 +197,7 @@ fn run(cases: &[Case]) -> String {
     std::fs::create_dir_all(folder.join("src")).unwrap();
     write(folder.join("Cargo.toml"), &manifest);
     write(folder.join("src/main.rs"), &program(cases));
-    // Cargo's own defaults, as users build.
+    // Cargo's default settings, as users build.
     let output = Command::new(env!("CARGO"))
         .args(["run", "--offline", "--quiet"])
         .current_dir(&folder)

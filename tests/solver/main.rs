@@ -1,4 +1,4 @@
-//! What is derived and generated against the numeric solver, which shares nothing with the derivations: every
+//! Compares what is derived and generated with the numeric solver, which shares no code with the derivations: every
 //! function and option, for the robot files and for random robots.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 

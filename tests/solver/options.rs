@@ -1,6 +1,6 @@
-//! Every option of the economical recursion, forced on and off alone and among all others, against
-//! the numeric solver. An option counts as in effect where it changes the expressions; the tests
-//! fail where one never does.
+//! Tests every option of the economical recursion, switched on and off both alone and together with all others, against
+//! the numeric solver. An option counts as in effect if it changes the expressions; the tests fail if an option never
+//! does.
 
 use std::collections::BTreeMap;
 
@@ -20,21 +20,21 @@ use robot_testing::{evaluate, largest_difference, magnitude, robot_files};
 const STATES: usize = 8;
 const TOLERANCE: f64 = 1e-12;
 
-/// How often each option was in effect.
+/// The number of times that each option was in effect.
 type Effects = BTreeMap<String, usize>;
 
-/// What shows an option.
+/// The quantity that shows the effect of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Shown {
     /// The torques.
     Torques,
     /// The mass matrix.
     MassMatrix,
-    /// The accelerations of each solver that applies, by the torques that they ask for.
+    /// The accelerations of each solver that applies, compared by the torques that they require.
     Accelerations,
 }
 
-/// An option, off and on; otherwise both plans are the same.
+/// An option, switched off and on; both plans are equal in everything else.
 struct Forced {
     option: String,
     shown: Shown,
@@ -42,16 +42,16 @@ struct Forced {
     on: Plan,
 }
 
-/// A change of every link's plan, and what it is called.
+/// The name of an option, and a function that changes it in a link's plan.
 type Switch = (String, fn(&mut LinkPlan, bool));
 
-/// The options that are on or off.
+/// The options that can be on or off.
 fn switches() -> Vec<Switch> {
     let named = |name: &str, switch: fn(&mut LinkPlan, bool)| (name.to_owned(), switch);
     vec![
         named("angle sum", |plan, on| plan.angle_sum = on),
         named("column", |plan, on| plan.column = on),
-        // Without the column there is nothing to double.
+        // Without the column, doubling has no effect.
         named("doubled", |plan, on| (plan.column, plan.doubled) = (true, on)),
         named("moment x", |plan, on| plan.moment[0] = on),
         named("moment y", |plan, on| plan.moment[1] = on),
@@ -60,7 +60,7 @@ fn switches() -> Vec<Switch> {
     ]
 }
 
-/// Everything at once.
+/// A plan with all options at once.
 fn all() -> LinkPlan {
     LinkPlan {
         origin: Origin::PreviousNormal,
@@ -77,7 +77,7 @@ fn all() -> LinkPlan {
     }
 }
 
-/// Every option off and on, the others as in `base`.
+/// Every option off and on; the others are as in `base`.
 fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
     let links = robot.links.len();
     let mut found = vec![];
@@ -109,7 +109,7 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
         add(format!("turn {turn:?}"), Shown::Torques, &off, &|plan| plan.turn = turn);
     }
     for (kind, entry) in (0..3).flat_map(|kind| Entry::ALL.map(|entry| (kind, entry))) {
-        // A second moment alone has no first moment that could make the parent's vanish.
+        // A second moment has no first moment that could make that of the parent vanish.
         if kind == 2 && [Entry::X, Entry::Y].contains(&entry) {
             continue;
         }
@@ -138,7 +138,7 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
     found
 }
 
-/// Each length that can be the unit, and none.
+/// Each length that can be the unit of length, compared with none.
 fn units_of_length(base: &Plan, links: usize) -> Vec<Forced> {
     let mut found = vec![];
     for unit in (0..links).map(|link| (link, link % 3)) {
@@ -151,7 +151,7 @@ fn units_of_length(base: &Plan, links: usize) -> Vec<Forced> {
     found
 }
 
-/// What the numeric solver says, and what of a recursion is held against it.
+/// The results of the numeric solver, and the recursion that is compared with them.
 struct Bench<'m, 'g> {
     robot: &'m Robot,
     solver: robot_numeric::Mechanism,
@@ -176,7 +176,7 @@ impl<'g> Bench<'_, 'g> {
         }
     }
 
-    /// The largest error over the states, in units of the largest value.
+    /// The largest error over the states, relative to the largest value.
     fn error(&self, shown: Shown, roots: &[Expr<'g>]) -> f64 {
         let (mut worst, mut size) = (0.0_f64, 0.0_f64);
         for state in &self.states {
@@ -205,7 +205,7 @@ impl<'g> Bench<'_, 'g> {
     }
 }
 
-/// The worst error of all options on and off.
+/// The largest error over all options, both on and off.
 fn check(robot: &Robot, seed: u64, name: &str, effects: &mut Effects) -> f64 {
     let mut random = Random::new(seed);
     let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
@@ -221,7 +221,7 @@ fn check(robot: &Robot, seed: u64, name: &str, effects: &mut Effects) -> f64 {
             let [off, on] = [off, on].map(|plan| bench.roots(shown, &plan));
             *effects.entry(option.clone()).or_default() += usize::from(off != on);
             for (word, roots) in [("off", off), ("on", on)] {
-                // Equal expressions are one expression of the graph: they need one look.
+                // Equal expressions are the same node of the graph, so they are checked only once.
                 if seen.contains(&(shown, roots.clone())) {
                     continue;
                 }
@@ -238,7 +238,7 @@ fn check(robot: &Robot, seed: u64, name: &str, effects: &mut Effects) -> f64 {
     worst
 }
 
-/// Checks many robots; only the options of `lacking` are never in effect.
+/// Checks many robots; only the options in `lacking` may never be in effect.
 fn check_all(what: &str, robots: impl IntoIterator<Item = (String, u64, Robot)>, lacking: &[&str]) {
     let (mut effects, mut worst) = (Effects::new(), 0.0_f64);
     for (name, seed, robot) in robots {
@@ -256,7 +256,7 @@ fn options_on_robot_files() {
         (name, 11, robot)
     };
     let robots = robot_files().into_iter().map(robot);
-    // Right angles leave nothing to take from these entries.
+    // With right angles, these entries cannot be made to vanish.
     let lacking = [
         "first residual Xx",
         "mass residual Yz",
@@ -277,7 +277,7 @@ fn options_on_random_chains() {
     check_all("chains", robots, &["angle sum"]);
 }
 
-/// Random axes are rarely parallel: here every second joint's axis is parallel to its parent's.
+/// Random axes are rarely parallel; here the axis of every second joint is parallel to its parent's.
 fn with_parallel_axes(mut robot: Robot) -> Robot {
     for index in (1..robot.links.len()).step_by(2) {
         let Some(parent) = robot.links[index].parent else { continue };
@@ -309,7 +309,8 @@ fn options_on_random_trees() {
     check_all("trees", robots, &[]);
 }
 
-/// Three links of 2 kg: the second's center of mass `center` off its axis, the third `lever` along it.
+/// An arm with three links of 2 kg. The center of mass of the second one is `center` away from its axis, and the third
+/// one is `lever` away along it.
 fn arm(center: f64, lever: f64, axis: &str) -> Robot {
     let link = |name: &str, position: [f64; 3], axis: &str, center: [f64; 3]| {
         format!(
@@ -329,7 +330,7 @@ fn arm(center: f64, lever: f64, axis: &str) -> Robot {
     robot_testing::read("arm", &text.concat())
 }
 
-/// Whether an option of one link changes anything; the torques are right in any case.
+/// Whether an option of one link changes the expressions; the torques must be right in any case.
 fn in_effect(robot: &Robot, link: usize, off: &LinkPlan, on: &LinkPlan) -> bool {
     let solver = robot_numeric::Mechanism::nominal(robot).unwrap();
     let states = (0..STATES).map(|seed| Random::new(seed as u64).state(&solver)).collect();
@@ -345,23 +346,25 @@ fn in_effect(robot: &Robot, link: usize, off: &LinkPlan, on: &LinkPlan) -> bool 
     off != on
 }
 
-/// Left with link 3, 2 + 2 c / l kilograms make link 2's first moment vanish.
+/// If 2 + 2 c / l kilograms remain with link 3, the first moment of link 2 vanishes.
 #[test]
 fn residuals_weigh_no_more_than_three_robots() {
     let residual = [Some(Entry::X), None, None];
     let on = LinkPlan { residual, ..LinkPlan::BASIC };
-    // 4.5 kg and 16.3 kg; then 27 kg and 502 kg, where three robots weigh 18 kg.
+    // The first two levers require 4.5 kg and 16.3 kg; the others 27 kg and 502 kg, while the limit of three times the
+    // robot's mass is 18 kg.
     for (lever, taken) in [(0.4, true), (0.07, true), (0.04, false), (0.002, false)] {
         assert_eq!(in_effect(&arm(0.5, lever, "z"), 2, &LinkPlan::BASIC, &on), taken, "{lever}");
     }
 }
 
-/// Link 2's Σxz vanishes 0.1 / 2 c along its axis from its origin.
+/// Σxz of link 2 vanishes at a distance of 0.1 / 2 c along its axis from its origin.
 #[test]
 fn origins_lie_no_farther_than_three_reaches() {
     let off = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
     let on = LinkPlan { origin: Origin::ZeroXz, ..off.clone() };
-    // 0.1 m and 2.5 m; then 5 m and 25 m, where three reaches are 3.6 m.
+    // The first two require shifts by 0.1 m and 2.5 m; the others by 5 m and 25 m, while the limit of three times the
+    // reach is 3.6 m.
     for (center, taken) in [(0.5, true), (0.02, true), (0.01, false), (0.002, false)] {
         assert_eq!(in_effect(&arm(center, 0.0, "x"), 1, &off, &on), taken, "{center}");
     }

@@ -1,4 +1,4 @@
-//! Batches over threads give the bytes of batches on one.
+//! Checks that batches on several threads give the same bytes as batches on one thread.
 
 robot_macros::include_robot!(
     "robots/ur5.toml",
@@ -10,7 +10,7 @@ robot_macros::include_robot!(
 
 use ur5::Model;
 
-/// Entries that differ from state to state and joint to joint.
+/// States whose entries differ for every state and joint.
 fn states(count: usize, seed: f64) -> Vec<[f64; 6]> {
     let entry = |state: usize, joint: usize| (seed + state as f64 * 0.37 + joint as f64).sin();
     (0..count).map(|state| std::array::from_fn(|joint| 3.0 * entry(state, joint))).collect()
@@ -32,7 +32,7 @@ fn threads_give_the_same_bytes() {
             pool.install(|| model.inverse_dynamics_batch_parallel(&q, &qd, &qdd, &mut several));
         assert_eq!(computed, count);
         assert_eq!(bits(&one), bits(&several));
-        // The shortest slice is the measure; what lies beyond is left alone.
+        // The shortest slice determines the count; entries beyond it are not changed.
         let (mut one, mut several) =
             (vec![[[7.0; 6]; 6]; count + 3], vec![[[7.0; 6]; 6]; count + 3]);
         assert_eq!(model.mass_matrix_batch(&q, &mut one), count);

@@ -1,5 +1,5 @@
-//! The two recursions on symbols against the numeric solver, which shares nothing with them: for
-//! every robot file and for random robots, serial and branched.
+//! Compares the two symbolic recursions with the numeric solver, which shares no code with them, for every robot file
+//! and for random chains and trees.
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -18,7 +18,7 @@ use robot_testing::{evaluate, magnitude, robot_files};
 const STATES: usize = 50;
 const TOLERANCE: f64 = 1e-12;
 
-/// What the numeric solver says about a state.
+/// The results of the numeric solver in a state.
 struct Reference {
     state: robot_numeric::random::State,
     torques: Vec<f64>,
@@ -47,7 +47,7 @@ fn references(robot: &Robot, random: &mut robot_numeric::random::Random) -> Vec<
                 let torques = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
                 torques.iter().copied().collect()
             },
-            // The solver has gyroscopic rotors as links behind those of the robot.
+            // In the solver, gyroscopic rotors are additional links after those of the robot.
             link_wrenches: links[..robot.links.len()].iter().flat_map(torsor).flatten().collect(),
             state,
         }
@@ -72,8 +72,8 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
     let mut hold = |what: &str, roots: &[Expr<'_>], expected: fn(&Reference) -> &Vec<f64>| {
         let per_joint = [order];
         let shape: &[usize] = if roots.len() == order { &per_joint } else { &[links, 6] };
-        // Where a torque passes through zero nothing is exact in its own measure: the robot's
-        // largest one over the states is the measure.
+        // A torque that passes through zero has no relative accuracy of its own, so errors are relative to the robot's
+        // largest torque over the states.
         let size = magnitude(references.iter().flat_map(expected));
         for reference in &references {
             let values = evaluate(robot, roots, &reference.state);

@@ -1,4 +1,4 @@
-//! The regressor against the numeric solver's, and against the joint torques that it stands for.
+//! Compares the regressor with that of the numeric solver, and its product with the parameters with the joint torques.
 
 use robot_build::{BaseFrames, Functions, Options, programs_of};
 use robot_dynamics::functions::Derivation;
@@ -26,8 +26,8 @@ fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     output.values.clone()
 }
 
-/// The parameters π by the regressor's columns. The locked rotors of gyroscopic drives are part of
-/// the links that carry them.
+/// The parameters π in the order of the regressor's columns. Links that carry gyroscopic rotors include the locked
+/// rotors.
 fn parameters(robot: &Robot, state: &State) -> Vec<f64> {
     let mut locked = robot.clone();
     for link in &mut locked.links {
@@ -52,11 +52,11 @@ fn parameters(robot: &Robot, state: &State) -> Vec<f64> {
     [links.as_slice(), &drives].concat()
 }
 
-/// The links' columns against the solver's, and Y π against its joint torques.
+/// Compares the columns of the links with the solver's, and Y π with its joint torques.
 fn check(robot: &Robot, seed: u64, name: &str) {
     let mut robot = robot.clone();
     for link in &mut robot.links {
-        // What grows with the contact force is not linear in the parameters.
+        // Friction that depends on the contact force is not linear in the parameters.
         link.friction.coulomb = Formula::number(&Rational::ZERO);
     }
     let mut random = Random::new(seed);
@@ -72,7 +72,7 @@ fn check(robot: &Robot, seed: u64, name: &str) {
 
         let inertial = LINK_PARAMETERS * robot.links.len();
         let of_links: Vec<f64> = rows.clone().flat_map(|row| row[..inertial].to_vec()).collect();
-        // The solver has gyroscopic rotors as links behind those of the robot.
+        // In the solver, gyroscopic rotors are additional links after those of the robot.
         let expected = solver.regressor(q, qd, qdd).unwrap().columns(0, inertial).transpose();
         let size = magnitude(&of_links).max(1e-3);
         let shape = [robot.degrees_of_freedom(), inertial];
@@ -128,7 +128,7 @@ fn regressors_of_robots_with_parameters() {
     }
 }
 
-/// Joint axes that depend on parameters leave no working frames to choose.
+/// If joint axes depend on parameters, working frames cannot be chosen.
 #[test]
 fn regressors_of_robots_with_free_axes() {
     for seed in 3000..3008 {
@@ -137,8 +137,8 @@ fn regressors_of_robots_with_free_axes() {
     }
 }
 
-/// Zero entries are the constant 0, and the others cost little even where no plan was searched: at
-/// most so many multiplications and additions, and so many entries.
+/// Zero entries are the constant 0, and the others need few operations even without a search: the bounds are the
+/// maximum number of multiplications and additions, and of entries.
 #[test]
 fn regressors_cost_little_without_a_search() {
     let budgets =
@@ -155,8 +155,8 @@ fn regressors_cost_little_without_a_search() {
     }
 }
 
-/// What a call of `regressor_base` over moments in frames of Denavit and Hartenberg may cost,
-/// multiplications and additions, and one in the file's frames.
+/// The maximum number of multiplications and additions of a call of `regressor_base`, over moments in
+/// Denavit–Hartenberg frames and in the file's frames.
 #[test]
 fn base_regressors_cost_no_more_than_they_did() {
     let bounds =

@@ -1,5 +1,5 @@
-//! Truncated angles: whatever tolerance takes them for multiples of π/2, the code computes the robot
-//! with the angles so taken, and no option of the recursion divides by what is left of them.
+//! Truncated angles: whichever tolerance snaps them to multiples of π/2, the code computes the robot with the snapped
+//! angles, and no option of the recursion divides by the remaining differences.
 
 use robot_build::{Effects, FunctionKind, Functions, Options, Source, programs, snapping};
 use robot_codegen::Interpreter;
@@ -11,7 +11,7 @@ use robot_testing::{largest_difference, magnitude};
 const TOLERANCE: f64 = 1e-12;
 const STATES: usize = 20;
 
-/// Four turns; the angles are blanks.
+/// A robot file with four revolute joints, in which some angles are placeholders.
 const ARM: &str = r#"format = 1
 [robot]
 name = "truncated"
@@ -52,18 +52,18 @@ fn source(angles: [&str; 3]) -> Source {
     Source { name: "truncated.toml".to_owned(), text }
 }
 
-/// What the file says, and what each tolerance makes of it.
+/// The angles in the file, and the angles that result from each tolerance.
 const WRITTEN: [&str; 3] = ["1.5708", "3.1416", "5e-12"];
 const TAKEN: [(f64, [&str; 3], usize); 5] = [
     (0.0, WRITTEN, 0),
     (1e-12, WRITTEN, 0),
     (1e-9, ["1.5708", "3.1416", "0"], 1),
-    // 1.5708 is off by 3.7e-6, 3.1416 by 7.3e-6.
+    // 1.5708 differs from π/2 by 3.7e-6, and 3.1416 from π by 7.3e-6.
     (5e-6, ["\"pi/2\"", "3.1416", "0"], 2),
     (1e-4, ["\"pi/2\"", "\"pi\"", "0"], 3),
 ];
 
-/// Forms that work with the directions and distances of joint axes.
+/// Plans that use the directions and distances of joint axes.
 fn plans() -> Vec<Option<Plan>> {
     let turns = [Turn::File, Turn::NextNormal, Turn::FirstMoment];
     let origins = [Origin::NextNormal, Origin::PreviousNormal, Origin::ZeroXz, Origin::ZeroYz];

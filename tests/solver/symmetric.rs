@@ -1,5 +1,5 @@
-//! Last links that are axisymmetric about their joint axes: no joint torque depends on their
-//! joints' positions, and code does not take their sines.
+//! Last links that are axisymmetric about their joint axes: no joint torque depends on the positions of these joints,
+//! and the code does not compute their sines.
 
 use robot_build::{Functions, Options, Source, programs};
 use robot_codegen::Module;
@@ -13,7 +13,7 @@ use robot_model::functions::Effects;
 use robot_symbolic::Graph;
 use robot_symbolic::polynomial::expands_to_zero;
 
-/// A last link about an axis, with its own inertia.
+/// A last link with its joint axis and inertia.
 struct Last {
     axis: &'static str,
     center_of_mass: &'static str,
@@ -24,7 +24,7 @@ fn last(axis: &'static str, center_of_mass: &'static str, inertia: &'static str)
     Last { axis, center_of_mass, inertia }
 }
 
-/// Joints about x and y, and a last one about an axis, with a gyroscopic rotor.
+/// An arm with joints about x and y and a last joint about the given axis, which has a gyroscopic rotor.
 fn arm(last: &Last) -> String {
     let Last { axis, center_of_mass, inertia } = last;
     let link = |name: &str, axis: &str, rest: &str| {
@@ -43,14 +43,14 @@ fn arm(last: &Last) -> String {
     format!("format = 1\n[robot]\nname = \"arm\"\n{one}{two}{three}")
 }
 
-/// Holds the economical recursion against the paper's iterations as polynomials, and gives the number of
-/// angles whose sines the code takes.
+/// Compares the economical recursion with the paper's iterations as polynomials; returns the number of angles whose
+/// sines the code computes.
 fn sines(last: &Last) -> usize {
     let text = arm(last);
     let robot = robot_testing::read("arm.toml", &text);
     let graph = Graph::new();
     let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
-    // Working frames in the file's axes, so that no sine of an odd angle comes in.
+    // The working frames are in the file's axes, so that no sines of additional angles occur.
     let link = LinkPlan { turn: Turn::File, ..LinkPlan::BASIC };
     let recursion = Recursion::new(&mechanism, &Plan::uniform(3, &link)).unwrap();
     let paper = newton_euler(&mechanism, Effects { wrench: false, friction: false });
@@ -64,7 +64,7 @@ fn sines(last: &Last) -> usize {
     angles(&module, "inverse_dynamics")
 }
 
-/// The number of angles whose sines a function takes.
+/// The number of angles whose sines a function computes.
 fn angles(module: &Module, name: &str) -> usize {
     module.function(name).unwrap().angles.results().len()
 }
@@ -74,7 +74,7 @@ fn a_symmetric_last_link_is_not_turned() {
     let about_z = last("z", "[0, 0, 0.05]", "{ xx = 0.02, yy = 0.02, zz = 0.03 }");
     let about_y = last("y", "[0, 0.05, 0]", "{ xx = 0.02, yy = 0.03, zz = 0.02 }");
     for last in [about_z, about_y] {
-        // Gravity along z: the first joint, about x, turns what it acts on.
+        // Gravity is along z, and the first joint, about x, turns the links on which it acts.
         assert_eq!(sines(&last), 2, "about {}", last.axis);
     }
 }

@@ -1,5 +1,5 @@
-//! Two hundred random trees with two tips against the numeric solver: through the paper's iterations,
-//! the economical recursion and the interpreter of the generated programs.
+//! Compares two hundred random trees with two tips with the numeric solver: by the paper's iterations, the economical
+//! recursion and the generated programs in the interpreter.
 
 use robot_build::{FunctionKind, Functions, Options, programs_of};
 use robot_codegen::Interpreter;
@@ -19,7 +19,7 @@ use robot_testing::{evaluate, magnitude};
 const STATES: usize = 6;
 const TOLERANCE: f64 = 1e-12;
 
-/// A tree of 2 to 12 joints whose links carry two tips: `tip` on the last and `sensor` on any.
+/// A tree with 2 to 12 joints whose links carry two tips: `tip` on the last link and `sensor` on any link.
 fn tree(seed: u64) -> Robot {
     let recipe = Recipe {
         drives: seed.is_multiple_of(2),
@@ -36,7 +36,7 @@ fn tree(seed: u64) -> Robot {
     robot
 }
 
-/// Holds values per state against expected ones; the worst error in parts of the largest value.
+/// Compares values in each state with expected ones; returns the largest error relative to the largest value.
 fn hold(robot: &Robot, what: &str, seed: u64, found: &[Vec<f64>], expected: &[Vec<f64>]) -> f64 {
     let size = magnitude(expected.iter().flatten());
     let layout = Layout::per_joint(robot, what);
@@ -106,7 +106,7 @@ fn check(seed: u64) -> f64 {
 fn two_hundred_trees_with_two_tips_agree_with_the_numeric_solver() {
     let worst = (5000..5200).map(check).fold(0.0, f64::max);
     println!("200 trees of 2 to 12 joints × {STATES} states: worst error {worst:.1e}");
-    // Branches there are: a chain has no link with two children.
+    // Enough of the robots must have branches: a chain has no link with two children.
     let branched = |robot: &Robot| {
         (0..robot.links.len())
             .any(|link| robot.links.iter().filter(|child| child.parent == Some(link)).count() > 1)

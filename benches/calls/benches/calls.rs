@@ -1,7 +1,7 @@
 //! Times every function of every robot: `RUSTFLAGS="-C target-cpu=native" cargo bench -- panda/polynomial`.
 //!
-//! "throughput" calls at independent states; in "latency" each call waits for a result of the one
-//! before, as in a control loop. A round goes over 64 states, a batch has 512.
+//! "throughput" measures calls at independent states. In "latency" each call waits for a result of the one before,
+//! as in a control loop. A round covers 64 states, a batch has 512.
 
 use std::hint::black_box;
 use std::time::Duration;

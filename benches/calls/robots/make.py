@@ -1,7 +1,7 @@
-"""Writes the robots beside this file whose numbers are at random, the same in every run:   python3 make.py
+"""Writes the robots beside this file, whose numbers are random but the same in every run:   python3 make.py
 
-humanoid.toml: 29 joints on a pelvis that is held, two legs of 6, a waist of 3, two arms of 7. chain.toml: 60 joints one after the
-other, angles between neighboring axes 0 or a right angle.
+humanoid.toml has 29 joints on a fixed pelvis: two legs of 6, a waist of 3, two arms of 7. chain.toml has 60 joints in
+a chain, with neighboring axes parallel or at right angles.
 """
 
 import pathlib

@@ -1,5 +1,5 @@
-//! Every function of every robot, called: for the benchmark (`cargo bench`) and for the comparison with
-//! other programs (`benches/peers/run`).
+//! Calls of every function of every robot, for the benchmark (`cargo bench`) and for the comparison with other
+//! programs (`benches/peers/run`).
 
 use robot_numeric::random;
 
@@ -11,7 +11,7 @@ mod polynomial {
     include!(concat!(env!("OUT_DIR"), "/polynomial/robots.rs"));
 }
 
-/// Inverse dynamics with the options that nobody chose.
+/// Inverse dynamics with the default options.
 mod default {
     include!(concat!(env!("OUT_DIR"), "/default/robots.rs"));
 }
@@ -35,13 +35,13 @@ mod large {
 
 include!(concat!(env!("OUT_DIR"), "/list.rs"));
 
-/// A robot, where sines come from, and a function.
+/// The name of a robot, the source of sines and cosines, and the name of a function.
 pub type Name = (&'static str, &'static str, &'static str);
 
-/// What is done with the calls.
+/// A use of the calls, such as a measurement.
 pub trait Calls {
-    /// A function: how random inputs are made, the call, and the input that is made to wait for the
-    /// first number of the result of the call before.
+    /// Receives a function: how to make random inputs, the call, the input that is made to depend on the previous
+    /// result, and the first number of a result.
     fn call<I: Copy, R>(
         &mut self,
         name: Name,
@@ -51,7 +51,8 @@ pub trait Calls {
         first: impl Fn(&R) -> f64,
     );
 
-    /// A function of many states at once: positions, velocities, accelerations, and room for results.
+    /// Receives a function of many states at once; its arguments are positions, velocities, accelerations, and the
+    /// array for the results.
     fn batch<const N: usize>(
         &mut self,
         name: Name,
@@ -69,7 +70,7 @@ impl Default for Random {
 }
 
 impl Random {
-    /// Numbers between −3 and 3: positions, velocities, accelerations, torques, loads.
+    /// Random numbers between −3 and 3, for positions, velocities, accelerations, torques and wrenches.
     pub fn array<const N: usize>(&mut self) -> [f64; N] {
         std::array::from_fn(|_| self.0.uniform(-3.0, 3.0))
     }
@@ -93,8 +94,8 @@ impl<T: First, const N: usize> First for [T; N] {
     }
 }
 
-/// How many states every function is called at.
+/// The number of states at which every function is called.
 pub const STATES: usize = 64;
 
-/// States of a batch.
+/// The number of states of a batch.
 pub const BATCH: usize = 512;

@@ -1,4 +1,4 @@
-//! Writes the robots for the other contenders, and times the generated code as they are timed.
+//! Writes the robots for the other programs, and times the generated code in the same way.
 //!
 //! ```text
 //! calls models FOLDER      FOLDER/<robot>.txt for each robot of the comparison
@@ -19,7 +19,7 @@ use crate::timing::nanoseconds;
 /// The robots of the comparison: those without parameters.
 const ROBOTS: [&str; 6] = ["puma560", "ur5", "stanford", "scara", "iiwa", "panda"];
 
-/// Larger robots, of which single functions are compared.
+/// Larger robots, for which only some functions are compared.
 const LARGE: [(&str, &str); 3] = [
     ("quadruped", "../../tests/fixtures/limbs/quadruped.toml"),
     ("humanoid", "robots/humanoid.toml"),
@@ -40,7 +40,7 @@ const FUNCTIONS: [&str; 10] = [
     "pose_and_jacobian",
 ];
 
-/// Prints counts and times; `compiled` says for which machine.
+/// Prints times; `compiled` names the target for which the code is compiled.
 struct Timer {
     compiled: String,
 }

@@ -1,4 +1,4 @@
-//! The robots and states that every contender gets, as `robot_data.hpp` reads them.
+//! Writes the robots and states that all programs of the comparison use, in the format that `robot_data.hpp` reads.
 
 use std::error::Error;
 use std::fmt::Write as _;

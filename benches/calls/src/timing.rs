@@ -1,9 +1,9 @@
-//! Timing as `timing.hpp` does it.
+//! Timing, in the same way as in `timing.hpp`.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Nanoseconds per call of `call(state index)`: the median over 300 batches of about 0.15 ms.
+/// Returns nanoseconds per call of `call(state index)`: the median over 300 repetitions of about 0.15 ms.
 pub fn nanoseconds(states: usize, mut call: impl FnMut(usize)) -> f64 {
     let mut batch = |rounds: usize| {
         let start = Instant::now();

@@ -1,6 +1,7 @@
-//! Machine code in memory beside the same functions compiled by rustc for this processor, and by cranelift: calls in turn
-//! within one process, the least of many short batches. The sines of all round once, and all bits must be the same; with
-//! `portable` those of machine code are the interpreter's, which take longer.
+//! Compares machine code in memory with the same functions compiled by rustc for this processor, and by cranelift.
+//! All are called in turn within one process, and the least time of many short repetitions counts. The sines of all
+//! three round once, and all bits must be the same. With `portable`, the sines of machine code are the
+//! interpreter's, which take longer.
 //!
 //! ```text
 //! RUSTFLAGS="-C target-cpu=native" cargo run --release -- [ROUNDS] [FUNCTION] [portable]
@@ -16,10 +17,10 @@ use robot_codegen::Module;
 use robot_jit::{Compiled, Options, Registers};
 use robot_symbolic::Random;
 
-/// The states of a batch, which stay in the cache.
+/// The number of states of a repetition, which stay in the cache.
 const STATES: usize = 64;
 
-/// The numbers of one batch, aligned as a vector register is.
+/// A column of numbers, aligned like a vector register.
 #[repr(align(64))]
 struct Column([f64; STATES]);
 
@@ -31,7 +32,7 @@ fn slices(columns: &mut [Column]) -> Vec<&mut [f64]> {
     columns.iter_mut().map(|column| &mut column.0[..]).collect()
 }
 
-/// The least time of so many runs, in nanoseconds.
+/// The least time of this number of runs, in nanoseconds.
 fn least_of(count: usize, mut run: impl FnMut()) -> f64 {
     let times = (0..count).map(|_| {
         let start = Instant::now();
@@ -41,18 +42,18 @@ fn least_of(count: usize, mut run: impl FnMut()) -> f64 {
     times.fold(f64::INFINITY, f64::min)
 }
 
-/// What this thread has had of a processor, in nanoseconds, and not what others had between. 0 if the system does not say.
+/// The processor time of this thread, in nanoseconds; 0 if the system does not provide it.
 fn processor_time() -> f64 {
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     text.split(' ').next().and_then(|time| time.parse().ok()).unwrap_or_default()
 }
 
-/// How often a batch is run to take some ten microseconds.
+/// The number of runs that take about ten microseconds.
 fn repeats(run: impl FnMut()) -> usize {
     (10e3 / least_of(20, run)).ceil() as usize
 }
 
-/// The least times of contenders that are run in turn, in nanoseconds a state.
+/// The least times of functions that are run in turn, in nanoseconds per state.
 fn in_turn<const N: usize>(rounds: usize, mut contenders: [&mut dyn FnMut(); N]) -> [f64; N] {
     let repeats = repeats(&mut contenders[0]);
     let mut least = [f64::INFINITY; N];
@@ -68,13 +69,14 @@ fn in_turn<const N: usize>(rounds: usize, mut contenders: [&mut dyn FnMut(); N])
     least
 }
 
-/// Over so many the time to compile is averaged.
+/// The number of compilations over which the time to compile is averaged.
 const COMPILATIONS: u32 = 50;
 
-/// How often code is placed in memory: in some 3 % of the places it is slower by a factor, whoever made it.
+/// The number of places in memory in which code is tried: in about 3 % of all places any code is several times
+/// slower.
 const PLACES: usize = 3;
 
-/// A function with the code that is made in memory.
+/// A function for which code is made in memory.
 struct Compared<'a> {
     function: &'a Function,
     module: &'a Module,
@@ -92,7 +94,7 @@ impl<'a> Compared<'a> {
         robot_jit::compile_with(self.module, &[], &options)
     }
 
-    /// Milliseconds to compile.
+    /// The time to compile, in milliseconds.
     fn compilation(&self, registers: Registers) -> Result<f64, robot_jit::Error> {
         let start = processor_time();
         for _ in 0..COMPILATIONS {
@@ -101,7 +103,8 @@ impl<'a> Compared<'a> {
         Ok((processor_time() - start) / f64::from(COMPILATIONS) / 1e6)
     }
 
-    /// Nanoseconds of the three makers, for a call and for a state of columns.
+    /// The times of this project's code, rustc's and cranelift's in nanoseconds: per call, and per state in
+    /// columns.
     fn times(&self, rounds: usize) -> Result<[[f64; 3]; 2], Box<dyn Error>> {
         let name = self.function.name;
         let best = Registers::detect()?;
@@ -154,7 +157,8 @@ impl<'a> Compared<'a> {
     }
 }
 
-/// The ratios to rustc of single calls and of columns: of this project's code, and of cranelift's.
+/// The ratios of times to those of rustc's code, for calls and for columns, first of this project's code and then
+/// of cranelift's.
 fn compare(compared: &Compared<'_>, rounds: usize) -> Result<[f64; 4], Box<dyn Error>> {
     let milliseconds =
         [Registers::detect()?, Registers::Bits128].map(|registers| compared.compilation(registers));

@@ -1,4 +1,4 @@
-//! Errors from a robot file to code.
+//! Errors on the way from a robot file to code.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -11,17 +11,17 @@ use robot_model::snap::InvalidSnap;
 #[derive(Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// Everything that is wrong with a robot file.
+    /// All errors in a robot file.
     #[error("{0}")]
     Robot(Box<Diagnostics>),
-    /// A chosen function that the robot lacks.
+    /// A chosen function that the robot does not have.
     #[error("{robot} has no function `{function}`: {why}")]
     MissingFunction {
         /// The function.
         function: String,
         /// The robot.
         robot: String,
-        /// The missing property of the robot, and the remedy.
+        /// The property that the robot does not have, and the remedy.
         why: &'static str,
     },
     /// A name that is not a function of the robot.
@@ -30,7 +30,7 @@ pub enum Error {
     /// An invalid bundle.
     #[error("the bundle `{}`: {reason}", quote(bundle))]
     Bundle {
-        /// Its name.
+        /// The name of the bundle.
         bundle: String,
         /// The reason.
         reason: String,
@@ -49,13 +49,13 @@ pub enum Error {
     Batch {
         /// The number.
         states: usize,
-        /// The largest that there is.
+        /// The largest valid number.
         most: usize,
     },
-    /// Threads without batches to distribute.
+    /// The option `parallel` without batches.
     #[error("`parallel` applies to batches: set their size with `batch`")]
     ParallelWithoutBatch,
-    /// An option of Rust's printer with another language.
+    /// An option that only Rust supports, with another language.
     #[error("the option `{option}` applies to Rust and not to `{language}`; leave it out")]
     OfRust {
         /// The option.
@@ -71,7 +71,7 @@ pub enum Error {
         /// The error.
         error: robot_codegen::Error,
     },
-    /// A mass matrix that is singular in every configuration, so that there is no forward dynamics.
+    /// A mass matrix that is singular in every configuration, so that forward dynamics does not exist.
     #[error(
         "{name}: the mass matrix is singular in every configuration, so forward dynamics has no \
          solution: the joint torques do not determine the accelerations of {}; give mass or \
@@ -84,7 +84,7 @@ pub enum Error {
         /// The joints whose accelerations are not determined.
         joints: Vec<String>,
     },
-    /// Functions of more expressions than code is made of.
+    /// Functions with too many expressions.
     #[error(
         "{name}: the functions need more than {limit} expressions; choose fewer functions, or \
          replace long expressions in the file with numbers"
@@ -118,17 +118,17 @@ pub enum Error {
         /// The input.
         input: PathBuf,
     },
-    /// An output in whose place is a file that this program did not write.
+    /// An output that would replace a file that this program did not write.
     #[error("{} is not replaced: it {reason}; {remedy}", shown(path))]
     Foreign {
         /// The file.
         path: PathBuf,
-        /// By what it is known.
+        /// The reason why it is regarded as foreign.
         reason: &'static str,
         /// The remedy.
         remedy: &'static str,
     },
-    /// A robot file outside of the package.
+    /// A robot file outside the package.
     #[error(
         "{} is outside the package {}; a build reads only files of the package: move the file \
          there, or allow it with the option `allow_outside`",
@@ -136,12 +136,12 @@ pub enum Error {
         shown(package)
     )]
     Outside {
-        /// The file, symbolic links followed.
+        /// The file, after following symbolic links.
         path: PathBuf,
         /// The folder of the package.
         package: PathBuf,
     },
-    /// A variable of Cargo's that is not there.
+    /// An environment variable of Cargo that is not set.
     #[error("the environment variable {variable} is not set: {remedy}")]
     NotUnderCargo {
         /// The variable.
@@ -149,7 +149,7 @@ pub enum Error {
         /// The remedy.
         remedy: &'static str,
     },
-    /// A pinned plan that is stale or no plan.
+    /// A pinned plan that is stale or invalid.
     #[error("{}: {reason}; search for a plan again, or remove the file", shown(path))]
     Pin {
         /// The file of the pin.
@@ -165,7 +165,7 @@ pub enum Error {
         /// The robot file.
         name: String,
     },
-    /// A function that costs more than the options let it.
+    /// A function that costs more than its limit.
     #[error("{name}: {over}; {}", over.remedy())]
     Budget {
         /// The robot file.
@@ -173,16 +173,16 @@ pub enum Error {
         /// The function and resource over its limit.
         over: crate::driver::budget::Over,
     },
-    /// No robot file at all.
+    /// No robot file is given.
     #[error("no robot file is given; name at least one")]
     NoRobots,
-    /// A robot file that is named more than once.
+    /// A robot file that is given more than once.
     #[error("{path} is given twice; name it once")]
     SameFile {
         /// The file.
         path: String,
     },
-    /// Two files whose modules would have one name.
+    /// Two files whose modules would have the same name.
     #[error("{first} and {second} both define the module `{module}`; rename one of the robots")]
     SameModule {
         /// The module.
@@ -194,12 +194,12 @@ pub enum Error {
     },
 }
 
-/// The names of joints.
+/// The names of joints in a message.
 pub(crate) fn quoted(names: &[String]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// The text of [`fmt::Display`]: a `main` that returns an error shows this.
+/// Prints the text of [`fmt::Display`], because this is shown if `main` returns the error.
 impl fmt::Debug for Error {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "{self}")
@@ -208,18 +208,18 @@ impl fmt::Debug for Error {
 
 /// All errors; never empty.
 ///
-/// Both `Display` and `Debug` give the text for people, so that a `build.rs` whose `main` returns it
-/// shows the robot file's own errors.
+/// Both `Display` and `Debug` print the text for people, so that a `build.rs` whose `main` returns it
+/// shows the errors of the robot file.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Ok(value)` if there are no errors.
+    /// Returns `Ok(value)` if there are no errors.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }
 
-    /// The errors of code made from the file `name`.
+    /// Converts errors of code that was made from the file `name`.
     pub(crate) fn of_code(name: &str, errors: &robot_codegen::Errors) -> Errors {
         let errors = errors.as_slice().iter();
         Errors(
@@ -264,7 +264,7 @@ impl fmt::Display for Errors {
     }
 }
 
-/// The text for people, on a line of its own.
+/// Prints the text for people, starting on a new line.
 impl fmt::Debug for Errors {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "\n{self}")
@@ -273,7 +273,7 @@ impl fmt::Debug for Errors {
 
 impl std::error::Error for Errors {}
 
-/// A path as messages show it: see [`visible`].
+/// A path in messages; see [`visible`].
 #[must_use]
 pub fn shown(path: &Path) -> String {
     visible(&path.to_string_lossy())

@@ -1,4 +1,4 @@
-//! What code may cost.
+//! Budgets: limits on the cost of code.
 
 #![allow(clippy::unwrap_used)]
 
@@ -17,7 +17,7 @@ fn options() -> Options {
     Options { functions: Functions::Chosen(functions), ..Options::default() }
 }
 
-/// Operations and bytes of stack of `inverse_dynamics`, and operations of `mass_matrix`.
+/// The operations and bytes of stack of `inverse_dynamics`, and the operations of `mass_matrix`.
 fn costs() -> [u64; 3] {
     let module = programs(&source(""), &options()).unwrap().module;
     let [id, mass] = ["inverse_dynamics", "mass_matrix"].map(|name| module.function(name).unwrap());
@@ -35,7 +35,7 @@ fn what_costs_as_much_as_it_may_is_generated() {
          [[budget]]\nmax_operations = {operations}\n"
     );
     generate(&source(&text), &options()).unwrap();
-    // What is not generated costs nothing.
+    // Budgets of functions that are not generated have no effect.
     let other = "[[budget]]\nfunction = \"bias\"\nmax_operations = 0\nmax_stack = 0\n";
     generate(&source(other), &options()).unwrap();
     let limits = Options { max_operations: Some(operations), max_stack: Some(stack), ..options() };
@@ -67,7 +67,7 @@ fn one_operation_too_many_breaks_the_build_at_the_limits_place() {
             assert!(error.contains(&part), "{part} is not in\n{error}");
         }
     }
-    // Numbers can still be had, and counts, to see what costs so much.
+    // The programs are still available, so that users can see which functions cost too much.
     programs(&source, &options()).unwrap();
 }
 

@@ -1,4 +1,4 @@
-//! Functions that the robot file chooses, and functions in one call.
+//! Functions that the robot file chooses, and bundles.
 
 #![allow(clippy::unwrap_used)]
 
@@ -42,7 +42,7 @@ fn the_file_chooses_where_the_caller_does_not() {
     assert_eq!(names(&of_file, &usual), names(&source(""), &all));
 }
 
-/// Functions in one call, and how much of their operations apart they may take, in percent.
+/// Bundles of functions, and the most operations that they may have, in percent of those of the separate functions.
 const SETS: [(&[FunctionKind], usize); 6] = {
     use FunctionKind::{
         Bias, CoriolisMatrix, Energies, ForwardDynamics, Gravity, InverseDynamics,
@@ -53,7 +53,7 @@ const SETS: [(&[FunctionKind], usize); 6] = {
         (&[MassMatrix, Bias, InverseDynamics(Effects::NONE)], 75),
         (&[CoriolisMatrix, Gravity, Bias], 85),
         (&[MassMatrix, Energies], 85),
-        // 79 of 95 operations here; the Coriolis matrix by itself has too few to share more.
+        // 79 of 95 operations for this robot; the Coriolis matrix has too few operations to share more.
         (&[CoriolisMatrix, InverseDynamicsDerivatives], 84),
         (&[MassMatrix, Bias, ForwardDynamics(Effects::NONE)], 65),
     ]
@@ -73,7 +73,7 @@ fn a_bundle_gives_what_its_functions_give_for_less() {
     }
 }
 
-/// Holds functions in one call against the same functions apart.
+/// Compares a bundle of functions with the separate functions.
 fn hold(source: &Source, kinds: &[FunctionKind], percent: usize) {
     let functions = Functions::Chosen(kinds.to_vec());
     let bundles = vec![bundle("together", kinds)];
@@ -134,7 +134,7 @@ fn budgets_hold_bundles_by_their_names() {
     let module = programs(&source(code), &Options::default()).unwrap().module;
     let cost = module.counts(&module.functions[0]).call.operations() as u64;
     generate(&budget("bias_and_more", cost), &Options::default()).unwrap();
-    // The bundle is not a form of the function that its name begins with.
+    // The bundle is not a form of the function whose name is the start of its own.
     generate(&budget("bias", 0), &Options::default()).unwrap();
     let error = generate(&budget("bias_and_more", cost - 1), &Options::default()).unwrap_err();
     let stated = format!("`bias_and_more` takes {cost} operations; its budget is {}", cost - 1);

@@ -1,4 +1,4 @@
-//! The documentation of generated modules reads as it is meant to.
+//! The documentation of generated modules.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 

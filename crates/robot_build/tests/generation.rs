@@ -66,7 +66,7 @@ fn only_the_chosen_functions_are_generated() {
     assert_eq!(names, ["link_wrenches"]);
 }
 
-/// And where it ends stands in the documentation.
+/// The documentation also states the range of angles.
 #[test]
 fn the_sine_is_the_runtimes_unless_asked_otherwise() {
     let source = source("planar_2r.toml");

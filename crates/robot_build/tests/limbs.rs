@@ -1,4 +1,4 @@
-//! Limbs that are alike, side by side.
+//! Limbs of the same kind, which are computed in lanes.
 #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
 
 use robot_build::{
@@ -19,7 +19,7 @@ fn functions(source: &Source) -> Functions {
     functions_named(&names.map(str::to_owned), &read(source).unwrap().robot).unwrap()
 }
 
-/// The results of a function, given its inputs and fields.
+/// Computes the results of a function from its inputs and fields.
 fn results(function: &Function, inputs: &[f64], fields: &[f64]) -> Vec<f64> {
     let load = |source: Load| match source {
         Load::Input(index) => inputs[index as usize],
@@ -34,7 +34,7 @@ fn results(function: &Function, inputs: &[f64], fields: &[f64]) -> Vec<f64> {
     })
 }
 
-/// The results as the limbs compute them, lane by lane.
+/// Computes the results limb by limb, lane by lane.
 fn by_limbs(function: &Function, inputs: &[f64]) -> Vec<f64> {
     let limbs = function.limbs.as_ref().unwrap();
     let of_call = limbs.calls.iter().map(|call| {
@@ -80,6 +80,6 @@ fn limbs_that_are_not_alike_stay_apart() {
     };
     assert_eq!(calls(QUADRUPED, Limbs::SideBySide), Some(1));
     assert_eq!(calls(QUADRUPED, Limbs::Apart), None);
-    // Three alike, and one by itself.
+    // Three limbs of the same kind, and one of another.
     assert_eq!(calls(&other_axis, Limbs::SideBySide), Some(2));
 }

@@ -1,4 +1,4 @@
-//! Forward dynamics where the mass matrix is nearly singular, and where it is.
+//! Forward dynamics if the mass matrix is nearly singular, and if it is singular.
 
 #![allow(clippy::unwrap_used)]
 
@@ -10,9 +10,9 @@ use robot_numeric::robots::{self, Random, Recipe};
 use robot_symbolic::Function;
 use serde_json::Value;
 
-/// The wrists of `tests/fixtures/gimbals`, with what comes out in 80 digits.
+/// The wrists of `tests/fixtures/gimbals`, with results computed with 80 digits.
 const GIMBALS: &str = include_str!("../../../tests/fixtures/gimbals/gimbals.json");
-/// A wrist without mass in its first two links; it is singular where q2 is 0.
+/// A wrist without mass in its first two links; its mass matrix is singular if q2 is 0.
 const WRIST: &str = include_str!("../../../tests/fixtures/gimbals/wrist.toml");
 const PENDULUM: &str = "format = 1
 [robot]
@@ -56,7 +56,7 @@ fn error(found: &[f64], expected: &[f64]) -> f64 {
     found.iter().zip(expected).fold(0.0, largest) / size
 }
 
-/// The errors of the outputs of a function over the robots whose fixtures have them, with their states.
+/// The errors of the outputs of a function, for the robots whose fixtures have these outputs, with their states.
 fn errors(kind: FunctionKind, keys: &[&str]) -> Vec<(String, f64, f64)> {
     let robots: Value = serde_json::from_str(GIMBALS).unwrap();
     let mut errors = vec![];
@@ -80,12 +80,12 @@ fn errors(kind: FunctionKind, keys: &[&str]) -> Vec<(String, f64, f64)> {
     errors
 }
 
-/// From condition numbers of 10 to 10¹⁷. By the decomposition of M the last have no digit.
+/// Condition numbers from 10 to 10¹⁷. With a decomposition of M, the last states would have no correct digit.
 #[test]
 fn accelerations_keep_their_digits() {
     let errors = errors(FunctionKind::ForwardDynamics(Effects::NONE), &["qdd"]);
     assert_eq!(errors.len(), 14 * 16);
-    // In one state torques cancel: there Pinocchio is off by 10⁻¹⁴ too.
+    // In one state torques cancel; there the error of Pinocchio is also 10⁻¹⁴.
     let many = errors.iter().filter(|(.., error)| *error > 5e-15).count();
     assert!(many <= 1, "{errors:?}");
     for (place, _, error) in errors {
@@ -93,7 +93,7 @@ fn accelerations_keep_their_digits() {
     }
 }
 
-/// M⁻¹ ∂τ/∂x: ∂τ/∂x is a difference of large torques, and loses digits with the distance.
+/// M⁻¹ ∂τ/∂x: ∂τ/∂x is a difference of large torques, and loses digits as the distance grows.
 #[test]
 fn derivatives_keep_what_their_torques_have() {
     let keys = ["dqdd_dq", "dqdd_dqd", "dqdd_dtau"];
@@ -114,7 +114,7 @@ fn accelerations_have_the_right_sign() {
         call(&programs, &[], &inputs).iter().map(|entry| entry.signum()).collect()
     };
     for exponent in 2..16 {
-        // Torque on the first joint moves it its own way, and the third against it.
+        // A torque on the first joint moves it in its own direction, and the third joint in the opposite one.
         let signs = signs(10.0_f64.powi(-exponent));
         assert_eq!([signs[0], signs[2]], [1.0, -1.0], "at 1e-{exponent}");
     }
@@ -128,7 +128,7 @@ fn what_is_singular_has_no_number() {
     let found = call(&wrist, &[], &inputs);
     assert!(found.iter().all(|entry| entry.is_nan()), "{found:?}");
 
-    // An inertia of −9 beside m r² = 0.5: the acceleration would be finite, and against the torque.
+    // An inertia of −9 in addition to m r² = 0.5: the acceleration would be finite, and opposed to the torque.
     let pendulum =
         programs("pendulum.toml", PENDULUM, FunctionKind::ForwardDynamics(Effects::NONE));
     let inputs: [(&str, &[f64]); 3] = [("q", &[0.0]), ("qd", &[0.0]), ("tau", &[1.0])];
@@ -151,7 +151,7 @@ fn pivots_name_the_joint_and_the_digits() {
     assert!(here.to_string().contains("singular in this configuration"), "{here}");
 }
 
-/// Where each coordinate does not move one joint, M is decomposed, and digits go.
+/// If a coordinate does not move exactly one joint, M is decomposed, and digits are lost.
 #[test]
 fn pivots_count_the_digits_that_a_decomposition_loses() {
     let follower = "[[link]]\nname = \"finger\"\nparent = \"hand\"\nmass = 0.1\n\
@@ -169,7 +169,7 @@ fn pivots_count_the_digits_that_a_decomposition_loses() {
     assert!((2..=6).contains(&near.digits), "{near:?}");
 }
 
-/// The code of arms has no check: multiplications, additions and divisions of
+/// The code of arms does not check pivots with reciprocals of positive numbers. The numbers are the operations of
 /// forward dynamics without a search.
 #[test]
 fn arms_decompose_their_mass_matrix() {
@@ -211,7 +211,7 @@ fn trees_with_massless_links_agree_with_the_numeric_solver() {
         let state = Random::new(seed).state(&mechanism);
         let (q, qd, tau) = (&state.q, &state.qd, &state.tau);
         let Ok(expected) = mechanism.articulated_body(q, qd, tau, &[]) else { continue };
-        // Two parallel slides with nothing between: M is singular in every configuration.
+        // Two parallel slides without mass between them: M is singular in every configuration.
         if expected.iter().any(|entry| !entry.is_finite() || entry.abs() > 1e8) {
             continue;
         }
@@ -225,7 +225,7 @@ fn trees_with_massless_links_agree_with_the_numeric_solver() {
     assert!(checked > 40, "{checked}");
 }
 
-/// A joint that moves nothing in any configuration: the error names the mass matrix.
+/// A joint that moves no mass in any configuration: the error names the mass matrix.
 #[test]
 fn a_joint_without_mass_is_the_reason() {
     let text = format!(

@@ -1,4 +1,4 @@
-//! Programs against the numeric solver.
+//! Compares programs with the numeric solver.
 
 use robot_build::Programs;
 use robot_codegen::Interpreter;
@@ -6,12 +6,12 @@ use robot_model::variable::JointVariable::{Acceleration, Position, Torque, Veloc
 use robot_numeric::random::Random;
 use robot_numeric::{Mechanism, NumericError};
 
-/// States at which the program is held against the numeric solver.
+/// The number of states in which the program is compared with the numeric solver.
 const STATES: usize = 1000;
-/// Their seed.
+/// The seed of the states.
 const SEED: u64 = 61;
 
-/// The states, in words.
+/// Describes the states in words.
 #[must_use]
 pub fn states() -> String {
     format!(
@@ -20,11 +20,11 @@ pub fn states() -> String {
     )
 }
 
-/// The largest difference of each function in a component, as a fraction of the largest component of the result.
+/// The largest error of each function in a component, as a fraction of the largest component of the result.
 ///
 /// # Errors
 ///
-/// Why the programs could not be held against the solver: parameters without values, a function that is missing.
+/// The reason why the programs could not be compared with the solver: parameters without values, or a missing function.
 pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
     let mechanism = Mechanism::nominal(&programs.robot).map_err(|error| error.to_string())?;
     let interpreter = Interpreter::new(&programs.module, &[]).map_err(|error| error.to_string())?;
@@ -47,7 +47,7 @@ pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
             .map(|(variable, values)| (variable.name(), values));
         let mut found = vec![
             (call("inverse_dynamics", &[q, qd, qdd])?, torques.as_slice()),
-            // Symmetric, so that its columns are its rows.
+            // The matrix is symmetric, so its columns are also its rows.
             (call("mass_matrix", &[q])?, masses.as_slice()),
         ];
         let rates;
@@ -63,7 +63,7 @@ pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
     Ok(errors)
 }
 
-/// The largest difference as a fraction of the largest expected value.
+/// The largest difference, as a fraction of the largest expected value.
 fn difference(values: &[f64], expected: &[f64]) -> f64 {
     let size = expected.iter().fold(0.0f64, |size, value| size.max(value.abs()));
     let pairs = values.iter().zip(expected);

@@ -4,7 +4,7 @@ use robot_document::robot::CheckValue;
 use robot_model::robot::Robot;
 use robot_numeric::{Loads, Mechanism, Wrench};
 
-/// Positions, velocities and accelerations of the check state, taken in turn.
+/// The positions, velocities and accelerations of the check state, which are repeated for more joints.
 const STATE: [[&str; 7]; 3] = [
     ["0.3", "-0.5", "0.7", "0.4", "-0.6", "0.2", "0.9"],
     ["0.8", "0.5", "-0.4", "1.1", "0.6", "-0.9", "0.7"],
@@ -13,8 +13,8 @@ const STATE: [[&str; 7]; 3] = [
 /// The wrench of each tip, N and N m.
 const WRENCH: [&str; 6] = ["3", "-2", "5", "0.4", "0.7", "-0.3"];
 
-/// The joint torques at a state, by the numeric solver, which is independent of the equations, with or without
-/// friction. `None` if parameters have no values.
+/// The joint torques in a state, with or without friction, computed by the numeric solver, which is independent of the
+/// equations. `None` if parameters have no values.
 #[must_use]
 pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {
     let count = robot.degrees_of_freedom();

@@ -1,8 +1,8 @@
 //! Checks of robots and equations.
 //!
-//! [`doctor`] looks for likely mistakes in robot files, [`errata`] compares published equations with the
-//! derived ones, [`difference`] compares two robots, [`accuracy`] compares programs with the numeric
-//! solver, and [`check_value`] is a state for readers who copy the equations.
+//! [`doctor`] finds likely mistakes in robot files; [`errata`] compares published equations with derived ones;
+//! [`difference`] compares two robots; [`accuracy`] compares programs with the numeric solver; [`check_value`] computes
+//! joint torques in a state, with which readers can check equations that they have copied.
 
 pub mod accuracy;
 mod check_value;

@@ -1,9 +1,9 @@
-//! Texts that tests compare with committed ones.
+//! Comparison of texts with committed files.
 
 use std::path::Path;
 
-/// Compares a text with that of a file of this crate's sources; with `UPDATE_SNAPSHOTS` set, writes it anew. Read the difference
-/// before it is kept.
+/// Compares a text with a file in the sources of this crate. With `UPDATE_SNAPSHOTS` set, it writes the file first;
+/// review the difference before you keep it.
 pub(crate) fn assert_snapshot(path: &str, found: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(path);
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {

@@ -1,9 +1,9 @@
-//! Messages of which there may be one for each line of a long input.
+//! Messages, of which there can be one for each line of a long input.
 
-/// More messages than this are counted, not shown.
+/// The most messages that are shown; further ones are only counted.
 const MAX_SHOWN: usize = 20;
 
-/// Messages: the first of them, and the number of all.
+/// The first messages, and the number of all.
 #[derive(Debug, Default)]
 pub(crate) struct Complaints {
     first: Vec<String>,
@@ -18,7 +18,7 @@ impl Complaints {
         }
     }
 
-    /// These, then the others.
+    /// Appends other messages.
     pub(crate) fn and(mut self, others: Complaints) -> Complaints {
         let count = self.count + others.count;
         self.extend(others.first);
@@ -29,7 +29,7 @@ impl Complaints {
         self.count == 0
     }
 
-    /// A line for each message that is shown, then one with the number of those that are not.
+    /// A line for each shown message, then one with the number of the others.
     pub(crate) fn lines(&self) -> Vec<String> {
         let mut lines: Vec<String> =
             self.first.iter().map(|message| format!("error: {message}")).collect();

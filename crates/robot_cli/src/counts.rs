@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 /// A named count of [`Counts`].
 type Column = (&'static str, fn(&Counts) -> usize);
 
-/// The counts, by their names in JSON.
+/// The counts, with their names in JSON.
 pub(crate) const COLUMNS: [Column; 8] = [
     ("mul", |counts| counts.mul),
     ("add", |counts| counts.add),
@@ -20,7 +20,7 @@ pub(crate) const COLUMNS: [Column; 8] = [
     ("temporaries", |counts| counts.temporaries),
 ];
 
-/// `{"mul": …, …, "constructor": {"mul": …, …}, "code": {…}}`
+/// The counts of a function as `{"mul": …, …, "constructor": {"mul": …, …}, "code": {…}}`.
 pub(crate) fn json(counts: &FunctionCounts, size: CodeSize) -> Value {
     let mut object = cells(&counts.call);
     object.insert("constructor".to_owned(), Value::Object(cells(&counts.constructor)));
@@ -33,7 +33,7 @@ pub(crate) fn json(counts: &FunctionCounts, size: CodeSize) -> Value {
     Value::Object(object)
 }
 
-/// `NAME: about 23 kB of code: fits …`, a line.
+/// Prints a line about the size of code: `NAME: about 23 kB of code: fits …`.
 pub(crate) fn size_line(name: &str, size: CodeSize) -> String {
     let cache = INSTRUCTION_CACHE / 1024;
     let kilobytes = size.bytes as f64 / 1000.0;
@@ -51,7 +51,7 @@ pub(crate) fn size_line(name: &str, size: CodeSize) -> String {
     format!("{name}: about {about} kB of code: {verdict}\n")
 }
 
-/// `{"tolerance": …, "angles": …, "largest_change": …, "operations": …, "larger": […]}`
+/// The effect of snapping as `{"tolerance": …, "angles": …, "largest_change": …, "operations": …, "larger": […]}`.
 pub(crate) fn snapping_json(snapping: &Snapping) -> Value {
     let one = |tried: &Tried| {
         json!({
@@ -66,7 +66,7 @@ pub(crate) fn snapping_json(snapping: &Snapping) -> Value {
     shown
 }
 
-/// `{"mul": …, …}`
+/// The counts as `{"mul": …, …}`.
 pub(crate) fn cells(counts: &Counts) -> Map<String, Value> {
     COLUMNS.iter().map(|(name, count)| ((*name).to_owned(), json!(count(counts)))).collect()
 }

@@ -10,7 +10,7 @@ use robot_build::{File, Output, Ownership, Staleness, Writer, remaining, shown, 
 use crate::Terminal;
 use crate::failure::Failure;
 
-/// So many files of an earlier run are named.
+/// The most files of an earlier run that a message names.
 const SHOWN: usize = 5;
 
 /// Whether files of others are replaced.
@@ -22,8 +22,8 @@ pub(crate) struct ForceArgument {
 }
 
 impl ForceArgument {
-    /// A writer of outputs that are made of those inputs; `-` is standard input. Refused if replacing is asked for
-    /// where nothing is written.
+    /// Makes a writer of outputs that are made from these inputs; `-` is standard input. Returns an error if `--force`
+    /// is given although nothing is written.
     pub(crate) fn writer(
         &self,
         inputs: impl IntoIterator<Item = PathBuf>,
@@ -55,12 +55,12 @@ pub(crate) struct OutputArguments {
     force: ForceArgument,
 }
 
-/// The file of an output; none where standard output is asked for by `-`.
+/// The file of an output; `None` for `-`, which is standard output.
 pub(crate) fn file_of(path: Option<&Path>) -> Option<&Path> {
     path.filter(|path| path.as_os_str() != "-")
 }
 
-/// Where one text goes, which has been found to be free for it.
+/// The destination of a text, which has been checked.
 pub(crate) struct Delivery<'a> {
     path: Option<Cow<'a, Path>>,
     check: bool,
@@ -69,18 +69,18 @@ pub(crate) struct Delivery<'a> {
 }
 
 impl OutputArguments {
-    /// The file that is asked for, if any is.
+    /// The file that is given, if there is one.
     pub(crate) fn file(&self) -> Option<&PathBuf> {
         self.output.as_ref().filter(|path| file_of(Some(path)).is_some())
     }
 
-    /// Whether neither a file nor standard output is asked for.
+    /// Whether neither a file nor standard output is given.
     pub(crate) fn is_open(&self) -> bool {
         self.output.is_none()
     }
 
-    /// The place of a text with the mark of this program, made of those inputs; refused at once, before
-    /// any work, where it cannot be written.
+    /// The destination of a text with the mark of this program that is made from these inputs. If it cannot be written,
+    /// the error is returned here, before any work.
     pub(crate) fn open(
         &self,
         inputs: impl IntoIterator<Item = PathBuf>,
@@ -88,7 +88,7 @@ impl OutputArguments {
         self.open_as(Ownership::Marked, inputs)
     }
 
-    /// The place of a text that shows in some other way whose it is.
+    /// The destination of a text whose origin is recognized as given by `ownership`.
     pub(crate) fn open_as(
         &self,
         ownership: Ownership,
@@ -104,7 +104,7 @@ impl OutputArguments {
         Delivery { path, check: self.check, writer, ownership }.opened()
     }
 
-    /// The place of a text with the mark of this program at a path that is not asked for.
+    /// The destination of a text with the mark of this program, at a path that the user did not give.
     pub(crate) fn open_at(
         &self,
         path: PathBuf,
@@ -117,7 +117,7 @@ impl OutputArguments {
 }
 
 impl<'a> Delivery<'a> {
-    /// The place of a text with the mark of this program, which is never compared.
+    /// The destination of a text with the mark of this program, which is written and never compared.
     pub(crate) fn open(path: Option<&'a Path>, writer: Writer) -> Result<Delivery<'a>, Failure> {
         let path = file_of(path).map(Cow::Borrowed);
         Delivery { path, check: false, writer, ownership: Ownership::Marked }.opened()
@@ -149,7 +149,7 @@ impl<'a> Delivery<'a> {
     }
 }
 
-/// Writes files, and says of each that changed how large it is.
+/// Writes files, and prints the size of each that changed.
 pub(crate) fn write(
     writer: &Writer,
     outputs: &[Output<'_>],
@@ -168,7 +168,7 @@ pub(crate) fn write(
     Ok(())
 }
 
-/// A size in the unit that people read it in.
+/// Prints a size in a suitable unit.
 pub(crate) fn size(bytes: usize) -> String {
     match bytes {
         0..1000 => format!("{bytes} bytes"),
@@ -177,7 +177,7 @@ pub(crate) fn size(bytes: usize) -> String {
     }
 }
 
-/// Prints what an exit code sums up; a reader that closes the stream early does not change that code.
+/// Prints a text whose result is also the exit code; a reader that closes the stream early does not change the code.
 pub(crate) fn answered(text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     let output = &mut terminal.output;
     match output.write_all(text.as_bytes()).and_then(|()| output.flush()) {
@@ -186,7 +186,7 @@ pub(crate) fn answered(text: &str, terminal: &mut Terminal<'_>) -> Result<(), Fa
     }
 }
 
-/// Writes files into a folder, or says which are out of date.
+/// Writes files into a folder, or reports which are out of date.
 pub(crate) fn deliver_folder(
     folder: &Path,
     files: &[File],
@@ -210,7 +210,7 @@ pub(crate) fn deliver_folder(
     warn_of_remaining(folder, &remaining(folder, files), terminal)
 }
 
-/// Warns of files of an earlier run, which can be called as those of this run can.
+/// Warns of files of an earlier run, which could be used like those of this run.
 fn warn_of_remaining(
     folder: &Path,
     files: &[PathBuf],
@@ -236,7 +236,7 @@ fn warn_of_remaining(
     Ok(())
 }
 
-/// Whether files hold what they should; all that do not are told.
+/// Checks that files have the expected contents; reports all that do not.
 fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a [u8])>) -> Result<(), Failure> {
     let mut stale = vec![];
     for (path, bytes) in files {

@@ -1,4 +1,4 @@
-//! Displayed equations, as several commands print them.
+//! Displayed equations, which several commands print.
 
 use clap::Args;
 use robot_document::document::NumberedEquation;
@@ -10,13 +10,13 @@ use crate::Terminal;
 use crate::failure::Failure;
 use crate::forms::no_effect;
 
-/// The narrowest and the widest line, cm.
+/// The range of valid widths of lines, in cm.
 const WIDTHS: std::ops::RangeInclusive<f64> = 3.0..=100.0;
 
-/// The width of lines where none is given, cm.
+/// The default width of lines, in cm.
 const WIDTH: f64 = 16.0;
 
-/// The number of an equation and its distance from the equation, pt.
+/// The width of the number of an equation, with its distance from the equation, in pt.
 const NUMBER: f64 = 44.0;
 
 /// How displayed equations are laid out.
@@ -36,15 +36,15 @@ pub(crate) enum Notation {
     Latex,
     Typst,
     Markdown,
-    /// A page of HTML.
+    /// An HTML page with MathML.
     Mathml {
-        /// Whether it contains the font of its equations.
+        /// Whether the page contains the font of its equations.
         has_font: bool,
     },
 }
 
 impl Notation {
-    /// A page of HTML, on a screen without its font, which is a long line: that is said.
+    /// An HTML page. On a terminal it does not contain its font, which would be a very long line; a note says so.
     pub(crate) fn page(terminal: &mut Terminal<'_>) -> Result<Notation, Failure> {
         let has_font = terminal.screen.is_none();
         if !has_font {
@@ -58,7 +58,7 @@ impl Notation {
 }
 
 impl LayoutArguments {
-    /// Refuses options that would have no effect where nothing is typeset.
+    /// Returns an error for options that would have no effect because nothing is typeset.
     pub(crate) fn check(&self, typeset: bool) -> Result<(), Failure> {
         let given = [("--width", self.width.is_some()), ("--numbers", self.numbers)];
         let wrong: Vec<String> = given
@@ -69,19 +69,19 @@ impl LayoutArguments {
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
     }
 
-    /// The width that an equation has without its number, pt.
+    /// The width for an equation without its number, in pt.
     pub(crate) fn line(&self) -> f64 {
         let layout = Layout::of_centimeters(self.width.unwrap_or(WIDTH));
         layout.width - if self.numbers { NUMBER } else { 0.0 }
     }
 
-    /// Refuses numbers in Markdown, whose equations have none.
+    /// Returns an error for numbers in Markdown, whose equations do not have any.
     pub(crate) fn check_markdown(&self) -> Result<(), Failure> {
         let message = "--numbers has no effect on Markdown; leave it out";
         if self.numbers { Err(Failure::Usage(vec![message.to_owned()])) } else { Ok(()) }
     }
 
-    /// Displayed equations, a comment before each group where there are several; a page has the title.
+    /// Prints displayed equations, with a comment before each group if there are several; a page has the title.
     pub(crate) fn displayed(
         &self,
         title: &str,
@@ -120,7 +120,7 @@ impl LayoutArguments {
 /// A printer of displayed equations.
 type Print = fn(&[NumberedEquation], Layout) -> Result<String, Error>;
 
-/// `8.5cm` or `8.5`, in centimetres.
+/// Parses a length in cm: `8.5cm` or `8.5`.
 pub(crate) fn centimeters(text: &str) -> Result<f64, String> {
     let digits = text.strip_suffix("cm").unwrap_or(text).trim();
     let width: Option<f64> = digits.parse().ok();

@@ -1,4 +1,4 @@
-//! Why a command ended without having done its work.
+//! The reasons why a command did not do its work.
 
 use std::io;
 
@@ -9,22 +9,22 @@ use crate::Terminal;
 use crate::complaints::Complaints;
 use crate::options::in_flags;
 
-/// Why a command ended without having done its work.
+/// The reason why a command did not do its work.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The robot file, or what was asked of it.
+    /// Errors in the robot file or in the request.
     Robot(Errors),
-    /// Other inputs, a message each.
+    /// Errors in other inputs, each with a message.
     Input(Vec<String>),
-    /// Other inputs, of which more may be wrong than is kept.
+    /// Errors in other inputs, of which there can be more than are stored.
     Inputs(Complaints),
-    /// Arguments that do not fit together, or name what there is not.
+    /// Arguments that contradict each other or name something that does not exist.
     Usage(Vec<String>),
-    /// A failure that has been shown already.
+    /// A failure that has already been shown.
     Shown,
-    /// As the failure, with the code 2: a comparison keeps 1 for what differs.
+    /// A failure with the exit code 2, because comparisons use 1 for differences.
     Refused(Box<Failure>),
-    /// Standard output, which cannot be written.
+    /// Standard output cannot be written.
     Stream(io::Error),
 }
 
@@ -57,7 +57,7 @@ impl From<io::Error> for Failure {
 }
 
 impl Failure {
-    /// One wrong input.
+    /// A failure because of one wrong input.
     pub(crate) fn input(message: impl Into<String>) -> Failure {
         Failure::Input(vec![message.into()])
     }
@@ -67,7 +67,7 @@ impl Failure {
         Failure::Refused(Box::new(self))
     }
 
-    /// Shows what is wrong; gives the exit code.
+    /// Prints the messages; returns the exit code.
     pub(crate) fn report(&self, terminal: &mut Terminal<'_>) -> u8 {
         let (messages, code) = match self {
             Failure::Robot(errors) => {
@@ -82,21 +82,21 @@ impl Failure {
                 failure.report(terminal);
                 return 2;
             }
-            // The reader of the output has closed it.
+            // The reader of the output has closed the stream.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
             Failure::Stream(error) => {
                 (vec![format!("error: cannot write the results: {error}")], 2)
             }
         };
         for message in messages {
-            // Nobody is listening if this fails.
+            // If this fails, nobody reads the messages.
             let _ = writeln!(terminal.errors, "{}", in_flags(message.trim_end()));
         }
         code
     }
 }
 
-/// Whether the command line is what is wrong: the same in a file would have a place.
+/// Whether the error is in the command line; the same error in a file would have a place.
 fn is_of_options(error: &Error) -> bool {
     matches!(
         error,
@@ -118,7 +118,7 @@ fn robot_messages(errors: &Errors, colors: bool) -> Vec<String> {
     messages.collect()
 }
 
-/// An error with the command that helps: a library does not know how it is called.
+/// Prints an error with the command that helps, which libraries do not mention.
 pub(crate) fn in_command_words(error: &Error) -> String {
     match error {
         Error::Pin { robot, .. } => {

@@ -9,10 +9,10 @@ use robot_build::{missing, shown};
 use crate::Terminal;
 use crate::failure::Failure;
 
-/// Tables of states and torques are smaller; a device may have no end.
+/// The most bytes of a file. Tables of states and torques are smaller, but a device can be endless.
 const MAX_BYTES: u64 = 1 << 28;
 
-/// Why a file cannot be read; of one that is not there, which one may be meant.
+/// The failure to read a file; if the file does not exist, the message names a similar one.
 fn cannot_open(path: &Path, name: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
         std::io::ErrorKind::NotFound => {
@@ -22,7 +22,7 @@ fn cannot_open(path: &Path, name: &str, error: &std::io::Error) -> Failure {
     }
 }
 
-/// The name of a file as messages show it, and its text; `-` is standard input.
+/// Reads a file; returns its name for messages and its text. `-` is standard input.
 pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, String), Failure> {
     let (mut name, mut bytes) = (shown(path), vec![]);
     if name == "-" {
@@ -42,7 +42,7 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
     Ok((name, text))
 }
 
-/// What is read.
+/// The source of bytes.
 pub(crate) enum Bytes<'t> {
     /// A regular file, which can be read again.
     File(File),
@@ -62,7 +62,7 @@ impl<'t> Bytes<'t> {
     }
 }
 
-/// The name of a file as messages show it, and its bytes; `-` is standard input.
+/// Opens a file; returns its name for messages and its bytes. `-` is standard input.
 pub(crate) fn open<'t>(
     path: &Path,
     standard: &'t mut dyn Read,

@@ -1,4 +1,4 @@
-//! Which equations a command prints, and in which form.
+//! The choice of the equations that a command prints, and of their form.
 
 use std::path::PathBuf;
 
@@ -135,7 +135,7 @@ impl EquationArguments {
         self.style.is_some() || self.like.is_some()
     }
 
-    /// The files that the equations are made of besides the robot's.
+    /// The files from which the equations are made, in addition to the robot file.
     pub(crate) fn inputs(&self) -> Option<PathBuf> {
         self.like.clone()
     }
@@ -149,7 +149,7 @@ impl EquationArguments {
         found.map_err(|errors| Failure::Robot(errors.into()))
     }
 
-    /// The forms in which a style prints, or those that are asked for.
+    /// The forms that a style prints, or those that are chosen.
     pub(crate) fn forms(&self, asked: &[FormName]) -> Vec<Form> {
         let mut forms: Vec<Form> = vec![];
         for form in asked.iter().map(|form| Form::from(*form)) {
@@ -160,7 +160,7 @@ impl EquationArguments {
         if self.has_style() { vec![Form::Expanded] } else { forms }
     }
 
-    /// Whether vectors are columns, and coefficients matrices: if nothing is said, where formulas are set in a form
+    /// Whether vectors are columns and coefficients matrices. By default they are if formulas are typeset in a form
     /// that consists of them.
     pub(crate) fn has_arrays(&self, forms: &[Form], typeset: bool) -> bool {
         let consists = forms.iter().any(|form| matches!(form, Form::Grouped | Form::Recursive));
@@ -168,7 +168,7 @@ impl EquationArguments {
         self.layout.map_or(usual, |layout| layout == LayoutStyle::Vectors)
     }
 
-    /// Refuses a layout of equations without matrices and columns.
+    /// Returns an error for a layout option if the equations have no matrices or columns.
     pub(crate) fn check_layout(&self, equations: &Equations) -> Result<(), Failure> {
         if self.layout.is_none() || equations.arrays().next().is_some() {
             return Ok(());
@@ -180,7 +180,7 @@ impl EquationArguments {
         ]))
     }
 
-    /// Refuses options that would have no effect: in those forms, and where nothing is typeset.
+    /// Returns an error for options that would have no effect in these forms, or because nothing is typeset.
     pub(crate) fn check(&self, forms: &[Form], typeset: bool) -> Result<(), Failure> {
         let mut wrong = vec![];
         if self.christoffel && !forms.contains(&Form::Grouped) {
@@ -223,12 +223,12 @@ impl EquationArguments {
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
     }
 
-    /// The most significant digits of decimals, if they are given.
+    /// The number of significant digits of decimals, if it is given.
     pub(crate) fn digits(&self) -> Option<usize> {
         self.digits.map(usize::from)
     }
 
-    /// Says that decimals are rounded though nothing asks for it.
+    /// Prints a note that decimals are rounded, if no option asks for it.
     pub(crate) fn tell_rounding(
         &self,
         equations: &Equations,
@@ -237,7 +237,7 @@ impl EquationArguments {
         tell_rounding(equations.rounded && self.digits.is_none(), terminal)
     }
 
-    /// Says how many equations of the file given by `--like` are unlike those derived.
+    /// Prints how many equations of the file given by `--like` differ from the derived ones.
     pub(crate) fn tell_unlike(
         &self,
         Unlike { foreign, all }: Unlike,
@@ -254,19 +254,20 @@ impl EquationArguments {
         Ok(())
     }
 
-    /// What is wrong with the equations of a robot file.
+    /// Converts an error in the equations of a robot file.
     pub(crate) fn failed(&self, robot: &RobotArgument, error: &Error) -> Failure {
         let style = if self.like.is_some() { "--like" } else { "--style" };
-        match (hint(error), self.has_style()) {
-            (hint, true) if hint.contains("--form") => {
-                let hint = hint.replace('(', &format!("(without {style}: "));
-                Failure::input(format!("{}: {error}{hint}", shown(robot.path())))
+        // A style fixes the form, so another form can only be had without it.
+        let condition = match options_that_help(error) {
+            Some(options) if self.has_style() && options.contains("--form") => {
+                format!("without {style}: ")
             }
-            _ => failed(robot, error),
-        }
+            _ => String::new(),
+        };
+        failure(robot, error, &condition)
     }
 
-    /// Refuses friction that the robot has not.
+    /// Returns an error if friction is chosen but the robot does not have any.
     pub(crate) fn check_friction(
         &self,
         file: &RobotArgument,
@@ -275,7 +276,7 @@ impl EquationArguments {
         if self.friction { has_friction(&shown(file.path()), robot) } else { Ok(()) }
     }
 
-    /// The options, in the form chosen.
+    /// The options for equations in the chosen form.
     pub(crate) fn options(
         &self,
         robot: &RobotArgument,
@@ -312,11 +313,11 @@ impl EquationArguments {
     }
 }
 
-/// Why JSON has no digits.
+/// The message that JSON does not have rounded digits.
 pub(crate) const NO_DIGITS: &str =
     "--digits has no effect on JSON, whose equations are exact; leave it out";
 
-/// Says that decimals are rounded though nothing asks for it, if so.
+/// Prints a note that decimals are rounded, if they are.
 pub(crate) fn tell_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if is_rounded {
         let message = "significant digits; --digits 17 prints all";
@@ -325,31 +326,38 @@ pub(crate) fn tell_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Re
     Ok(())
 }
 
-/// What is said of an option of typeset formulas where none are.
+/// The message about an option of typeset formulas if nothing is typeset.
 pub(crate) fn no_effect(option: &str) -> String {
     format!(
         "{option} has no effect on text and JSON; add --format latex, typst or mathml, or leave it out"
     )
 }
 
-/// What is wrong with the equations of a robot file.
+/// Converts an error in the equations of a robot file.
 pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
-    Failure::input(format!("{}: {error}{}", shown(robot.path()), hint(error)))
+    failure(robot, error, "")
 }
 
-/// The option that helps: the library does not know those of the command.
-const fn hint(error: &Error) -> &'static str {
+/// The failure with the options that help, under a condition.
+fn failure(robot: &RobotArgument, error: &Error, condition: &str) -> Failure {
+    let options = options_that_help(error);
+    let remedy = options.map(|options| format!(" ({condition}{options})")).unwrap_or_default();
+    Failure::input(format!("{}: {error}{remedy}", shown(robot.path())))
+}
+
+/// The options that help, which messages of the library do not mention.
+const fn options_that_help(error: &Error) -> Option<&'static str> {
     match error {
-        Error::TooLong { .. } => " (--form grouped, recursive or compact)",
-        Error::TooMany { .. } => " (--form recursive or compact)",
-        Error::TooManyExpressions { .. } => " (--form recursive or compact; --snap)",
-        Error::LikeSine { .. } => " (--trig named)",
-        Error::Narrow { .. } => " (--form, --width)",
-        _ => "",
+        Error::TooLong { .. } => Some("--form grouped, recursive or compact"),
+        Error::TooMany { .. } => Some("--form recursive or compact"),
+        Error::TooManyExpressions { .. } => Some("--form recursive or compact; --snap"),
+        Error::LikeSine { .. } => Some("--trig named"),
+        Error::Narrow { .. } => Some("--form, --width"),
+        _ => None,
     }
 }
 
-/// The quantities of those names, each once.
+/// Finds the quantities with these names, each once.
 fn kinds(names: &[String]) -> Result<Vec<Kind>, Failure> {
     let (mut kinds, mut wrong): (Vec<Kind>, _) = (vec![], vec![]);
     let mut known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();

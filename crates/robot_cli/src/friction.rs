@@ -1,4 +1,4 @@
-//! Whether and how a command takes friction into account.
+//! The options with which a command takes friction into account.
 
 use clap::Args;
 use robot_build::{Effects, FunctionKind};
@@ -8,7 +8,7 @@ use robot_symbolic::Formula;
 
 use crate::failure::Failure;
 
-/// That the robot has friction, which a command was asked to take into account.
+/// Checks that the robot has friction, if a command is asked to take it into account.
 pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
     match FunctionKind::InverseDynamics(Effects::FRICTION).missing_in(robot) {
         None => Ok(()),
@@ -28,12 +28,12 @@ pub(crate) struct FrictionArguments {
 }
 
 impl FrictionArguments {
-    /// Whether friction is wanted.
+    /// Whether the command takes friction into account.
     pub(crate) fn is_wanted(&self) -> bool {
         self.friction
     }
 
-    /// Gives dry friction that has a sharp sign a smooth one, where that is asked for.
+    /// Replaces the sign function in dry friction with a smooth one, if the option is given.
     pub(crate) fn apply_smoothing(&self, robot: &mut Robot) -> Result<(), Failure> {
         let Some(width) = self.smoothing else {
             return Ok(());

@@ -5,7 +5,7 @@ use robot_model::robot::Robot;
 
 use crate::failure::Failure;
 
-/// The functions of a robot of those names.
+/// Finds the functions of a robot with these names.
 pub(crate) fn functions(names: &[String], robot: &Robot) -> Result<Functions, Failure> {
     let (all, names): (Vec<_>, Vec<_>) =
         names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
@@ -13,7 +13,7 @@ pub(crate) fn functions(names: &[String], robot: &Robot) -> Result<Functions, Fa
     Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
 }
 
-/// The bundles, their functions those of a robot.
+/// Makes bundles from names, with the functions of a robot.
 pub(crate) fn bundles(
     bundles: &[(String, Vec<String>)],
     robot: &Robot,

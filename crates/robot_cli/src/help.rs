@@ -1,4 +1,4 @@
-//! The help of the command line: as wide as the terminal, with styles, and tips that are of use.
+//! The help of the command line, as wide as the terminal, with styles and useful tips.
 
 use clap::builder::styling::{AnsiColor, Style};
 use clap::builder::{StyledStr, Styles};
@@ -8,12 +8,12 @@ use clap::{Command, CommandFactory};
 use crate::Cli;
 use crate::screen::Screen;
 
-/// Where options about the model are listed, after those of the command.
+/// The heading under which options about the model are listed, after those of the command.
 pub(crate) const MODEL: &str = "Model options";
 
-/// The width of help that no terminal shows.
+/// The width of help that is not shown on a terminal.
 const USUAL: usize = 100;
-/// Narrower terminals break lines themselves.
+/// The smallest width; narrower terminals break lines themselves.
 const NARROWEST: usize = 40;
 
 const HEADING: Style = AnsiColor::Green.on_default().bold();
@@ -25,7 +25,7 @@ const STYLES: Styles = Styles::styled()
     .literal(LITERAL)
     .placeholder(AnsiColor::Cyan.on_default());
 
-/// The command line with help for a terminal, or for none.
+/// Makes the command line, with help for a terminal or for other output.
 pub(crate) fn command(screen: Option<Screen>) -> Command {
     let columns = screen.and_then(|screen| screen.columns).unwrap_or(USUAL);
     shaped(Cli::command(), columns.clamp(NARROWEST, USUAL))
@@ -41,7 +41,7 @@ fn shaped(command: Command, columns: usize) -> Command {
     command.mut_subcommands(|command| shaped(command, columns))
 }
 
-/// Headings, examples and paragraphs, wrapped; those before them have ends of lines of their own.
+/// Wraps the text after the options: headings, examples and paragraphs. Text before them has its own line breaks.
 fn after(text: &str, columns: usize) -> String {
     let mut shown: Vec<String> = vec![];
     let mut lines = text.lines().peekable();
@@ -68,7 +68,7 @@ fn after(text: &str, columns: usize) -> String {
                 whole += " ";
                 whole += next.trim_start();
             }
-            // `  0  done`: further lines begin below `done`.
+            // In `  0  done`, further lines start below `done`.
             let hanging = if is_definition { indent + 3 } else { 0 };
             shown.push(wrapped(&whole, columns, hanging));
         }
@@ -80,8 +80,8 @@ fn indent(line: &str) -> usize {
     line.len() - line.trim_start().len()
 }
 
-/// A text on lines of at most so many columns, the further ones indented as far as the text that the first one
-/// begins with is long; longer words stay whole.
+/// Wraps a text into lines of at most `columns` columns. The first `hanging` bytes are the start of the first line, and
+/// further lines are indented by this length. Longer words are not broken.
 fn wrapped(text: &str, columns: usize, hanging: usize) -> String {
     let (start, words) = text.split_at_checked(hanging).unwrap_or(("", text));
     let (mut lines, mut line, mut has_words) = (vec![], start.to_owned(), false);
@@ -100,7 +100,7 @@ fn wrapped(text: &str, columns: usize, hanging: usize) -> String {
     lines.join("\n")
 }
 
-/// A line of a shell, continued on others by `\` before options where it is too long.
+/// Breaks a shell command before options, with `\` at the ends of lines, if it is too long.
 fn example(line: &str, columns: usize) -> String {
     const AGAIN: &str = " \\\n      ";
     let (mut shown, mut column) = (String::new(), 0);
@@ -119,7 +119,7 @@ fn example(line: &str, columns: usize) -> String {
     shown
 }
 
-/// The line cut before options, which are outside of quotes.
+/// Splits a line before options that are outside of quotes.
 fn parts(line: &str) -> Vec<&str> {
     let (mut parts, mut start, mut quoted) = (vec![], 0, false);
     for (place, character) in line.char_indices() {
@@ -133,8 +133,8 @@ fn parts(line: &str) -> Vec<&str> {
     parts
 }
 
-/// The error without the tip to take what looks like an option for a file; where it is the value of an option,
-/// with a tip that says so.
+/// Removes the tip that suggests using an unknown option as a value. If it is the value of an option, adds a tip with
+/// this option.
 pub(crate) fn with_tips(
     mut error: clap::Error,
     arguments: &[std::ffi::OsString],
@@ -161,7 +161,7 @@ pub(crate) fn with_tips(
     error
 }
 
-/// The options of the command, as given, that can have that value: `--format latex`.
+/// The options of the given command that can have this value, such as `--format latex`.
 fn values(value: &str, arguments: &[std::ffi::OsString], command: &Command) -> Vec<String> {
     let named =
         |name: &&std::ffi::OsString| name.to_str().and_then(|name| command.find_subcommand(name));
@@ -202,7 +202,7 @@ mod tests {
             for command in whole.get_subcommands_mut() {
                 let help = command.render_long_help().to_string();
                 for line in help.lines().filter(|line| line.chars().count() > columns) {
-                    // A word, or what a shell reads, is not cut.
+                    // Single words and shell commands are not broken.
                     let words = line.split_whitespace().count();
                     let is_usage = line.starts_with("Usage:");
                     let is_text = is_usage

@@ -79,16 +79,16 @@ pub struct Terminal<'a> {
     pub output: &'a mut dyn Write,
     /// Standard error.
     pub errors: &'a mut dyn Write,
-    /// Whether standard error shows colors: see [`colors`].
+    /// Whether standard error shows colors; see [`colors`].
     pub colors: bool,
-    /// Whether standard error shows how far a long run has come: on a terminal.
+    /// Whether standard error shows the progress of long runs, as it does on a terminal.
     pub progress: bool,
-    /// The terminal that standard output is, if it is one: results are then shown for people.
+    /// The terminal, if standard output is one; results are then formatted for people.
     pub screen: Option<Screen>,
 }
 
 impl Terminal<'_> {
-    /// Standard input, and the terminal without it.
+    /// Splits off standard input; returns it and the terminal without it.
     fn without_input<'t>(
         &'t mut self,
         nothing: &'t mut std::io::Empty,
@@ -99,15 +99,15 @@ impl Terminal<'_> {
     }
 }
 
-/// Whether a stream shows colors: on a terminal, unless the variable `NO_COLOR` is set and not
+/// Whether a stream shows colors. It does on a terminal, unless the variable `NO_COLOR` is set and not
 /// empty (<https://no-color.org>).
 #[must_use]
 pub fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
     is_terminal && no_color.is_none_or(OsStr::is_empty)
 }
 
-/// Runs the command; the first argument is its own name. Gives the exit code: 0 done, 1 an input is
-/// wrong or the answer is no, 2 the command line is wrong or the output cannot be written.
+/// Runs the command; the first argument is its own name. Returns the exit code: 0 if the work is done, 1 if an input
+/// is wrong or the answer is no, 2 if the command line is wrong or the output cannot be written.
 pub fn run(
     arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     terminal: &mut Terminal<'_>,
@@ -137,7 +137,7 @@ pub fn run(
     }
 }
 
-/// Help and version go to standard output, wrong usage to standard error.
+/// Prints help and version on standard output, and errors of usage on standard error.
 fn usage(error: &clap::Error, terminal: &mut Terminal<'_>) -> u8 {
     let wanted = matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion);
     if wanted {
@@ -145,7 +145,7 @@ fn usage(error: &clap::Error, terminal: &mut Terminal<'_>) -> u8 {
         let shown = write!(terminal.output, "{text}").and_then(|()| terminal.output.flush());
         return shown.map_or_else(|error| Failure::from(error).report(terminal), |()| 0);
     }
-    // Nobody is listening if this fails.
+    // If this fails, nobody reads the message.
     let _ = write!(terminal.errors, "{}", rendered(error, terminal.colors));
     2
 }

@@ -1,4 +1,4 @@
-//! The command `robot-symbolic`: robot files to equations, code and numbers.
+//! The command `robot-symbolic`, which turns robot files into equations, code and numbers.
 
 use std::io::IsTerminal;
 use std::process::ExitCode;

@@ -1,13 +1,13 @@
-//! Standard error as messages reach it: whatever text they hold, a terminal obeys none of it.
+//! Standard error for messages, whose text cannot control a terminal.
 
 use std::fmt::Write as _;
 use std::io::Write;
 
 use robot_model::diagnostic::is_invisible;
 
-/// Standard error. Control characters and those that show nothing or reorder text are written as escapes, but for ends of lines, tabs, and on a terminal
-/// this program's own commands; text that cannot be written is dropped, because a message that nobody reads must not
-/// stop the work.
+/// Standard error. Control characters, invisible characters and characters that reorder text are escaped, except ends
+/// of lines, tabs and, on a terminal, this program's own terminal commands. Text that cannot be written is dropped,
+/// because a message that nobody reads must not stop the work.
 pub(crate) struct Messages<'a> {
     pub(crate) stream: &'a mut dyn Write,
     /// Whether colors and lines of progress are shown.
@@ -27,7 +27,7 @@ impl Write for Messages<'_> {
     }
 }
 
-/// The text without what a terminal would obey.
+/// Escapes characters that would control a terminal.
 fn escaped(text: &str, commands: bool) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;
@@ -49,7 +49,8 @@ fn escaped(text: &str, commands: bool) -> String {
     shown
 }
 
-/// The length of a command of this program that the text begins with: a color, or the line begun anew.
+/// The length of a terminal command of this program at the start of the text: a color, or a return to the start of the
+/// line.
 fn own_command(text: &str) -> Option<usize> {
     const ANEW: &str = "\r\x1b[K";
     if text.starts_with(ANEW) {

@@ -1,4 +1,4 @@
-//! The robot of commands about motions, made from its file.
+//! The robot for commands about motions, made from its file.
 
 use robot_build::{FunctionKind, Functions, Options, Programs, programs_of};
 use robot_model::robot::Robot;
@@ -9,7 +9,7 @@ use crate::friction::{FrictionArguments, has_friction};
 use crate::robot::OpenRobot;
 use crate::settings::Settings;
 
-/// The robot, all its parameters known and its friction as it is asked for.
+/// Makes the robot, whose parameters must all have values, with friction as chosen by the options.
 pub(crate) fn robot(
     file: &OpenRobot<'_>,
     settings: &Settings,
@@ -30,7 +30,7 @@ pub(crate) fn robot(
     Ok(robot)
 }
 
-/// The programs of its functions, under options of the file's.
+/// Compiles its functions, with the options of the file.
 pub(crate) fn programs(
     file: &OpenRobot<'_>,
     robot: Robot,

@@ -1,21 +1,21 @@
-//! The options of generated code on the command line, taken from the one table that declares them.
+//! The options of generated code on the command line, taken from the table that declares them.
 
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
 use robot_build::{Commands, Kind, OPTIONS, OptionSpec, Options, Value};
 
-/// What the help says of an option.
+/// The help text of an option.
 pub(crate) fn help(name: &str) -> &'static str {
     OptionSpec::named(name).map_or("", |option| option.help)
 }
 
-/// What the help calls the value of an option.
+/// The name of an option's value in the help.
 pub(crate) fn value_name(name: &str) -> &'static str {
     OptionSpec::named(name).map_or("", |option| option.value_name)
 }
 
-/// What messages of libraries say of options that are not in the table and of work that commands do, and how the
-/// command says it.
+/// Words in messages of libraries, for options that are not in the table and for work of commands, and their
+/// replacements in messages of the command.
 const OTHERS: [(&str, &str); 4] = [
     ("the import option `friction`", "`import --friction`"),
     ("the option `rustc`", "`--rustc`"),
@@ -23,7 +23,7 @@ const OTHERS: [(&str, &str); 4] = [
     ("measure the compiled code", "measure it with `robot-symbolic prove`"),
 ];
 
-/// A message of a library in the words of the command: "the option `allow_massless`" is `--allow-massless`.
+/// Rewrites a message of a library for the command: "the option `allow_massless`" becomes `--allow-massless`.
 pub(crate) fn in_flags(message: &str) -> String {
     let known = OPTIONS
         .iter()
@@ -32,7 +32,7 @@ pub(crate) fn in_flags(message: &str) -> String {
     known.chain(others).fold(message.to_owned(), |text, (words, flag)| text.replace(&words, &flag))
 }
 
-/// The words that an option may have.
+/// The words that an option can have as its value.
 pub(crate) fn choice(name: &str) -> PossibleValuesParser {
     match OptionSpec::named(name).map(|option| option.kind) {
         Some(Kind::Choice(words)) => words_of(words),
@@ -48,7 +48,7 @@ fn words_of(words: &[(&'static str, &'static str)]) -> PossibleValuesParser {
     PossibleValuesParser::new(words.iter().map(word).collect::<Vec<_>>())
 }
 
-/// How code is printed and optimized, as the commands that make code take it.
+/// The options for printing and optimizing code, for the commands that generate code.
 #[derive(Clone)]
 pub(crate) struct CodeOptions(Vec<(&'static OptionSpec, Given)>);
 
@@ -61,7 +61,7 @@ enum Given {
 }
 
 impl CodeOptions {
-    /// The options with what was given.
+    /// Sets the given options in `options`.
     pub(crate) fn set(&self, options: &mut Options) {
         for (option, given) in &self.0 {
             let value = match given {
@@ -69,13 +69,13 @@ impl CodeOptions {
                 Given::Count(count) => Value::Count(*count),
                 Given::Word(word) => Value::Word(word),
             };
-            // The parsers of the arguments let no other values pass.
+            // The parsers of the arguments accept only valid values.
             let _ = option.set(options, value);
         }
     }
 }
 
-/// Those of the table that are a flag with at most one plain value.
+/// The options of the table that are flags with at most one plain value.
 fn listed() -> impl Iterator<Item = &'static OptionSpec> {
     let plain = |kind| matches!(kind, Kind::Flag | Kind::Count { .. } | Kind::Choice(_));
     OPTIONS.iter().filter(move |option| option.commands == Commands::Code && plain(option.kind))

@@ -1,4 +1,4 @@
-//! Long texts on their way to standard output or to a file, in memory a piece at a time.
+//! Output of long texts to standard output or to a file, with one piece at a time in memory.
 
 use std::io::Write;
 use std::path::Path;
@@ -9,15 +9,16 @@ use robot_simulation::Table;
 use crate::delivery::size;
 use crate::failure::Failure;
 
-/// Text waits up to this length, so that what fails early prints nothing.
+/// The length up to which text is held back, so that nothing is printed if the work fails early.
 const HELD: usize = 1 << 16;
 
-/// A text that is written as it comes: a file when it is whole, standard output at once but for the last piece.
+/// A text that is written piece by piece. A file is put in its place when it is complete; standard output is written
+/// immediately, except for the last piece.
 pub(crate) struct Outgoing<'t> {
     destination: Destination<'t>,
     errors: &'t mut dyn Write,
     text: String,
-    /// Lines for standard error, before the text that they come with.
+    /// Lines for standard error, which are printed before the waiting text.
     warnings: String,
 }
 
@@ -27,7 +28,7 @@ enum Destination<'t> {
 }
 
 impl<'t> Outgoing<'t> {
-    /// A text for a file, without which it is for standard output.
+    /// Starts a text for a file, or for standard output if there is no file.
     pub(crate) fn new(
         file: Option<(Pending, &'t Path)>,
         output: &'t mut dyn Write,
@@ -39,7 +40,7 @@ impl<'t> Outgoing<'t> {
         Outgoing { destination, errors, text, warnings }
     }
 
-    /// Appends what `write` does.
+    /// Appends the text that `write` appends.
     pub(crate) fn push(&mut self, write: impl FnOnce(&mut String)) -> Result<(), Failure> {
         write(&mut self.text);
         if self.text.len() >= HELD { self.write() } else { Ok(()) }
@@ -58,8 +59,8 @@ impl<'t> Outgoing<'t> {
         self.warnings.push_str(lines);
     }
 
-    /// Writes what waits, and puts a file in its place. `others` writes what belongs to it: before standard output
-    /// has the last piece, and when the file has all but is not in its place.
+    /// Writes the waiting text, and puts a file in its place. `others` writes other outputs: before the last piece is
+    /// written to standard output, or when the file is complete but not yet in its place.
     pub(crate) fn end(
         mut self,
         others: impl FnOnce(&mut dyn Write) -> Result<(), Failure>,

@@ -1,4 +1,4 @@
-//! The plan of the recursion that commands compute under.
+//! The plan of the recursion with which commands compute.
 
 use robot_build::{Error, Errors, Options, RobotFile};
 use robot_dynamics::economical::search::{Found, Measure, search};
@@ -8,10 +8,10 @@ use crate::Terminal;
 use crate::failure::{Failure, in_command_words};
 use crate::progress::watched;
 
-/// The options with the plan that is pinned beside the robot file.
+/// Returns the options with the pinned plan of the robot file.
 ///
-/// A pin that cannot be taken, because it is stale or no plan, is warned of: what is computed is right under
-/// every plan, and one searched for this call is used instead.
+/// If the pin cannot be used, because it is stale or invalid, a warning is printed and a plan is searched for this
+/// call. Results are correct with any plan.
 pub(crate) fn pinned_or_searched(
     file: &RobotFile,
     options: Options,
@@ -41,7 +41,7 @@ pub(crate) fn pinned_or_searched(
     Ok(Options { plan: found.map(|found| found.plan), search: false, ..options })
 }
 
-/// Whether all that is wrong is the pin beside the file.
+/// Whether all errors are those of the pin.
 pub(crate) fn is_of_pin(errors: &Errors) -> bool {
     errors.as_slice().iter().all(|error| matches!(error, Error::Pin { .. }))
 }

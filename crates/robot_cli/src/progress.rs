@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use crate::Terminal;
 
-/// A line on standard error that says how far a run has come: on a terminal only, and only if the
+/// A line on standard error that shows the progress of a run, only on a terminal, and only if the
 /// run takes longer than a second.
 pub(crate) struct Progress<'e> {
     errors: Option<&'e mut dyn Write>,
@@ -15,9 +15,9 @@ pub(crate) struct Progress<'e> {
     shown: bool,
 }
 
-/// The time for which a run shows nothing.
+/// The time before the first line is shown.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// The time from one line to the next.
+/// The time between two lines.
 const PAUSE: Duration = Duration::from_millis(100);
 
 impl<'e> Progress<'e> {
@@ -26,11 +26,11 @@ impl<'e> Progress<'e> {
         Progress { errors, next: Instant::now() + PATIENCE, shown: false }
     }
 
-    /// Shows the line, if it is time.
+    /// Shows the line, if enough time has passed.
     pub(crate) fn show(&mut self, line: impl FnOnce() -> String) {
         let now = Instant::now();
         if let Some(errors) = self.errors.as_mut().filter(|_| now >= self.next) {
-            // Nobody is watching if this fails.
+            // If this fails, nobody sees the line.
             let _ = write!(errors, "\r\x1b[K{}", line()).and_then(|()| errors.flush());
             self.next = now + PAUSE;
             self.shown = true;
@@ -38,7 +38,7 @@ impl<'e> Progress<'e> {
     }
 }
 
-/// Does work that reports no progress; shows how long it takes.
+/// Does work that does not report progress, and shows the time that has passed.
 pub(crate) fn watched<T: Send>(
     what: &str,
     terminal: &mut Terminal<'_>,
@@ -52,7 +52,7 @@ pub(crate) fn watched<T: Send>(
     std::thread::scope(|scope| {
         let (done, ended) = channel::<()>();
         let worker = scope.spawn(move || {
-            // Dropped when the work is done, or panics.
+            // Dropped when the work is done or panics.
             let _done = done;
             work()
         });
@@ -63,7 +63,7 @@ pub(crate) fn watched<T: Send>(
     })
 }
 
-/// The line goes when the run is over.
+/// Removes the line when the run is over.
 impl Drop for Progress<'_> {
     fn drop(&mut self) {
         if let Some(errors) = self.errors.as_mut().filter(|_| self.shown) {
@@ -76,7 +76,7 @@ impl Drop for Progress<'_> {
 mod tests {
     use super::*;
 
-    /// The output of two seconds' work.
+    /// The output of work that takes two seconds.
     fn shown(progress: bool) -> String {
         let (mut output, mut errors) = (vec![], vec![]);
         let mut terminal = Terminal {

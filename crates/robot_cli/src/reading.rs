@@ -1,4 +1,4 @@
-//! What a command takes of a robot file that is an error otherwise.
+//! The options with which a command accepts robot files that would otherwise be errors.
 
 use clap::Args;
 use robot_build::{Errors, Options, Source, read_with};
@@ -21,14 +21,14 @@ pub(crate) struct ReadingArguments {
 }
 
 impl ReadingArguments {
-    /// The default options, with what is taken.
+    /// The default options, with these settings.
     pub(crate) fn options(self) -> Options {
         let ReadingArguments { allow_massless, allow_unphysical } = self;
         Options { allow_massless, allow_unphysical, ..Options::default() }
     }
 
-    /// Reads a robot; shows warnings, and in one line what the file says about dynamics that does not become part
-    /// of the robot.
+    /// Reads a robot. Prints warnings, and a line about data in the file that concerns dynamics but does not become
+    /// part of the robot.
     pub(crate) fn read(
         self,
         source: &Source,
@@ -43,8 +43,7 @@ impl ReadingArguments {
         Ok(described)
     }
 
-    /// Holds a robot file against the reader's checks with other values of parameters; shows the warnings
-    /// that these give.
+    /// Applies the reader's checks to a robot file with other values of parameters; prints the resulting warnings.
     pub(crate) fn check_values(
         self,
         source: &Source,

@@ -1,4 +1,4 @@
-//! The output of commands about motions: a table, and a plot of it.
+//! The output of commands about motions: a table and its plot.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -10,21 +10,21 @@ use crate::delivery::{file_of, write};
 use crate::failure::Failure;
 use crate::outgoing::Outgoing;
 
-/// A path that says what picture to write.
+/// Parses the path of a picture, whose ending gives the format.
 pub(crate) fn plot_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let known = path.extension().is_some_and(|extension| extension == "svg" || extension == "png");
     if known { Ok(path) } else { Err("the name must end in .svg or .png".to_owned()) }
 }
 
-/// The paths of table and plot, which have been found to be free for them.
+/// The destinations of a table and a plot, which have been checked.
 pub(crate) struct Recording<'a> {
     table: Option<&'a Path>,
     plot: Option<&'a Path>,
     writer: Writer,
 }
 
-/// CSV has no comments: a table is known by its header.
+/// The ownership of tables: CSV has no comments, so that a table is recognized by its header.
 const TABLE: Ownership = Ownership::Headed(is_header);
 
 /// Whether a line is the header of a table of `simulate` or of `torques`.
@@ -34,8 +34,8 @@ fn is_header(line: &str) -> bool {
 }
 
 impl<'a> Recording<'a> {
-    /// The places of a table, without which it goes to standard output, and of a plot; refused at once,
-    /// before any work, if they cannot be written.
+    /// Checks the paths of a table, whose default is standard output, and of a plot. If they cannot be written, the
+    /// error is returned here, before any work.
     pub(crate) fn open(
         table: Option<&'a Path>,
         plot: Option<&'a Path>,
@@ -51,12 +51,12 @@ impl<'a> Recording<'a> {
         Ok(Recording { table, plot, writer })
     }
 
-    /// Whether a plot is wanted.
+    /// Whether there is a plot.
     pub(crate) fn has_plot(&self) -> bool {
         self.plot.is_some()
     }
 
-    /// Begins the table.
+    /// Starts the table.
     pub(crate) fn begin<'t>(
         &'t self,
         output: &'t mut dyn Write,
@@ -66,7 +66,7 @@ impl<'a> Recording<'a> {
         Ok(Outgoing::new(self.table.map(begin).transpose()?, output, errors))
     }
 
-    /// Ends the table, and writes the plot if one is wanted.
+    /// Ends the table, and writes the plot if there is one.
     pub(crate) fn end(
         &self,
         table: Outgoing<'_>,
@@ -82,7 +82,7 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// A picture as its name says.
+/// Makes a picture in the format given by the ending of its name.
 fn picture(path: &Path, figure: &Figure) -> Result<Vec<u8>, Failure> {
     let is_svg = path.extension().is_some_and(|extension| extension == "svg");
     Ok(if is_svg { figure.svg()?.into_bytes() } else { figure.png()? })

@@ -1,4 +1,4 @@
-//! The robot file of a command, and how code is made of it.
+//! The robot file of a command, and the options for its code.
 
 use std::path::PathBuf;
 
@@ -25,8 +25,8 @@ use crate::reading::ReadingArguments;
 use crate::suggested::FUNCTIONS;
 use crate::text;
 
-/// The tolerance in print for constant angles next to multiples of π/2, rad, if neither an option nor the file gives
-/// one: files write 1.5708 for π/2.
+/// The tolerance, in rad, within which printed constant angles become multiples of π/2, if neither an option nor the
+/// file gives one. Files often have 1.5708 for π/2.
 pub(crate) const PRINT_SNAP: f64 = 1e-5;
 
 /// The robot file.
@@ -42,40 +42,40 @@ pub(crate) struct RobotArgument {
     pub(crate) reading: ReadingArguments,
 }
 
-/// A snapping tolerance.
+/// Parses a snapping tolerance.
 fn snap(text: &str) -> Result<f64, String> {
     let angle = text.parse().ok().and_then(|angle| snap::check(angle).ok());
     let most = snap::MAX;
     angle.ok_or_else(|| format!("a tolerance is an angle in radians between 0 and {most}"))
 }
 
-/// The names of frames of base parameters.
+/// The parser for the name of the frames of base parameters.
 fn base_frames() -> impl TypedValueParser<Value = BaseFrames> {
     choice("base_frames").map(|name| BaseFrames::from_name(&name).unwrap_or_default())
 }
 
 impl RobotArgument {
-    /// The text of the file.
+    /// Reads the text of the file.
     pub(crate) fn source(&self) -> Result<Source, Failure> {
         Ok(RobotFile::read(&self.file)?.source)
     }
 
-    /// The file, read once for all that a command makes of it.
+    /// Opens the file, which is read once for all uses in a command.
     pub(crate) fn open(&self) -> Result<OpenRobot<'_>, Failure> {
         Ok(OpenRobot { argument: self, file: RobotFile::read(&self.file)? })
     }
 
-    /// The robot; warnings are shown.
+    /// Reads the robot; prints warnings.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
         self.open()?.read(terminal)
     }
 
-    /// The robot as it is printed; warnings are shown.
+    /// Reads the robot as it is printed; prints warnings.
     pub(crate) fn printed(&self, terminal: &mut Terminal<'_>) -> Result<Robot, Failure> {
         Ok(self.printed_with_snaps(terminal)?.0)
     }
 
-    /// The same, with the angles that differ from those of the file.
+    /// Does the same, and also returns the angles that differ from those of the file.
     pub(crate) fn printed_with_snaps(
         &self,
         terminal: &mut Terminal<'_>,
@@ -84,8 +84,8 @@ impl RobotArgument {
         self.snapped(&robot, terminal)
     }
 
-    /// A robot as it is printed: constant angles within the tolerance of a multiple of π/2 are that multiple, which is
-    /// said where neither an option nor the file asks for it.
+    /// Returns a robot as it is printed: constant angles within the tolerance of a multiple of π/2 become that
+    /// multiple. A note about this is printed if neither an option nor the file sets the tolerance.
     pub(crate) fn snapped(
         &self,
         robot: &Robot,
@@ -99,7 +99,7 @@ impl RobotArgument {
         Ok((shown, snaps))
     }
 
-    /// Says that frames of base parameters are given for equations without these.
+    /// Prints a note if frames of base parameters are given but the equations do not have base parameters.
     pub(crate) fn check_base_frames(
         &self,
         forms: &[Form],
@@ -115,17 +115,17 @@ impl RobotArgument {
         Ok(())
     }
 
-    /// The snapping tolerance, rad, where one is given.
+    /// The snapping tolerance in rad, if one is given.
     pub(crate) fn snap(&self) -> Option<f64> {
         self.snap
     }
 
-    /// Those of [`OpenRobot::options`].
+    /// The options of [`OpenRobot::options`].
     pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
         self.open()?.options(terminal)
     }
 
-    /// The same of commands that make code, which refuse a stale pin as builds do.
+    /// The options of commands that generate code, for which a stale pin is an error, as in builds.
     fn code_options(&self) -> Result<Options, Failure> {
         Ok(RobotFile::read(&self.file)?.with_pin(&self.unpinned())?)
     }
@@ -157,12 +157,12 @@ pub(crate) struct OpenRobot<'a> {
 }
 
 impl OpenRobot<'_> {
-    /// The text.
+    /// The text of the file.
     pub(crate) fn source(&self) -> &Source {
         &self.file.source
     }
 
-    /// The robot; warnings are shown.
+    /// Reads the robot; prints warnings.
     pub(crate) fn read(&self, terminal: &mut Terminal<'_>) -> Result<Described, Failure> {
         let mut described = self.argument.reading.read(self.source(), terminal)?;
         let robot = &mut described.robot;
@@ -170,7 +170,7 @@ impl OpenRobot<'_> {
         Ok(described)
     }
 
-    /// Holds the robot against the reader's checks with other values of parameters.
+    /// Applies the reader's checks to the robot with other values of parameters.
     pub(crate) fn check_values(
         &self,
         described: &Described,
@@ -180,8 +180,8 @@ impl OpenRobot<'_> {
         self.argument.reading.check_values(self.source(), described, values, terminal)
     }
 
-    /// The default options of commands that compute, with the snapping tolerance and the pinned plan; where
-    /// none is pinned or the pin is stale, which is warned of, the cheapest form is searched.
+    /// The default options of commands that compute, with the snapping tolerance and the pinned plan. If there is no
+    /// pin, or a stale one, of which a warning is printed, the cheapest plan is searched.
     pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
         pinned_or_searched(&self.file, self.argument.unpinned(), terminal)
     }
@@ -207,7 +207,7 @@ pub(crate) struct LanguageArgument {
     pub(crate) language: Language,
 }
 
-/// A language by its name.
+/// The parser for the name of a language.
 fn language() -> impl TypedValueParser<Value = Language> {
     let words = Language::ALL.iter().map(|one| PossibleValue::new(one.name()).help(one.title()));
     let words = PossibleValuesParser::new(words);
@@ -221,7 +221,7 @@ pub(crate) struct BundleArguments {
     bundles: Vec<(String, Vec<String>)>,
 }
 
-/// `dynamics=mass_matrix,bias`
+/// Parses a bundle such as `dynamics=mass_matrix,bias`.
 fn bundle(text: &str) -> Result<(String, Vec<String>), String> {
     let expected = "expected NAME=FUNCTION,…, such as dynamics=mass_matrix,bias";
     let (name, functions) = text.split_once('=').ok_or(expected)?;
@@ -230,14 +230,14 @@ fn bundle(text: &str) -> Result<(String, Vec<String>), String> {
 }
 
 impl BundleArguments {
-    /// The bundles, their functions those of a robot.
+    /// Makes the bundles, with the functions of a robot.
     pub(crate) fn bundles(&self, robot: &Robot) -> Result<Vec<Bundle>, Failure> {
         bundles(&self.bundles, robot)
     }
 }
 
 impl CodeArguments {
-    /// The options for code; reports functions that the robot lacks if all are wanted.
+    /// The options for code; if all functions are chosen, reports those that the robot does not have.
     pub(crate) fn options(
         &self,
         file: &RobotArgument,
@@ -261,7 +261,7 @@ impl CodeArguments {
     }
 }
 
-/// Where sines and cosines come from, by its name.
+/// The parser for the name of the source of sines and cosines.
 pub(crate) fn trigonometry() -> impl TypedValueParser<Value = Trigonometry> {
     choice("trigonometry").map(|word| {
         let mut options = Options::default();

@@ -7,27 +7,27 @@ use clap::builder::styling::{AnsiColor, Style};
 /// A terminal as standard output.
 #[derive(Clone, Copy, Debug)]
 pub struct Screen {
-    /// Its width, in columns; `None` if it does not say.
+    /// The width in columns; `None` if it is unknown.
     pub columns: Option<usize>,
-    /// Whether it shows colors: see [`colors`](crate::colors).
+    /// Whether it shows colors; see [`colors`](crate::colors).
     pub colors: bool,
 }
 
-/// What lacks, in red.
+/// The style of removed text: red.
 pub(crate) const REMOVED: Style = AnsiColor::Red.on_default();
-/// What is new, in green.
+/// The style of added text: green.
 pub(crate) const ADDED: Style = AnsiColor::Green.on_default();
-/// What differs, in yellow.
+/// The style of changed text: yellow.
 pub(crate) const CHANGED: Style = AnsiColor::Yellow.on_default();
-/// Titles.
+/// The style of titles: bold.
 pub(crate) const TITLE: Style = Style::new().bold();
 
-/// Whether a result on that terminal has colors.
+/// Whether results on a terminal have colors.
 pub(crate) fn is_colored(screen: Option<Screen>) -> bool {
     screen.is_some_and(|screen| screen.colors)
 }
 
-/// The lines of a text, each in the style that `style` has for it.
+/// Prints the lines of a text, each in the style that `style` returns for it.
 pub(crate) fn styled_lines(text: &str, style: impl Fn(&str) -> Option<Style>) -> String {
     let mut shown = String::with_capacity(text.len());
     for line in text.lines() {

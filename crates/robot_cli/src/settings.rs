@@ -19,7 +19,7 @@ pub(crate) struct Settings {
     settings: Vec<(String, f64)>,
 }
 
-/// `M5=2.5`
+/// Parses a setting such as `M5=2.5`.
 fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as M5=2.5")?;
     Ok((name.trim().to_owned(), values::number(value)?))
@@ -31,7 +31,7 @@ impl Settings {
         self.settings.iter().map(|(name, value)| (name.as_str(), *value)).collect()
     }
 
-    /// Holds the robot file against the reader's checks with these values in place of the nominal ones.
+    /// Applies the reader's checks to the robot file with these values instead of the nominal ones.
     pub(crate) fn check(
         &self,
         file: &OpenRobot<'_>,
@@ -51,7 +51,7 @@ impl Settings {
         checked
     }
 
-    /// Parameters that there are not, that are set twice, or that have no value.
+    /// Finds parameters that do not exist, are set twice, or have no value.
     pub(crate) fn wrong(&self, robot: &Robot) -> Vec<String> {
         let mut wrong = vec![];
         let parameters = &robot.parameters;

@@ -1,4 +1,4 @@
-//! Values of options that help and completions list, and that the command checks itself.
+//! Values of options that help and completions list, but that the command checks itself.
 
 use std::ffi::OsStr;
 
@@ -7,25 +7,25 @@ use robot_build::{ALL_FUNCTIONS, FunctionKind};
 use robot_dynamics::quantity::Kind;
 use robot_model::diagnostic::code;
 
-/// Takes any word, because the command knows better than the list what is wrong with one.
+/// A parser that accepts any word, because the command gives a better message about a wrong one than a fixed list.
 #[derive(Clone, Copy)]
 pub(crate) struct Suggested(fn() -> Vec<PossibleValue>);
 
-/// A function of all robots; those of a frame are known with the robot.
+/// The names of functions. Functions of single frames depend on the robot and are not listed.
 pub(crate) const FUNCTION: Suggested =
     Suggested(|| FunctionKind::ALL.iter().map(|kind| PossibleValue::new(kind.name())).collect());
 
-/// A function, or the word for all.
+/// The names of functions, and the word for all.
 pub(crate) const FUNCTIONS: Suggested =
     Suggested(|| [(FUNCTION.0)(), vec![PossibleValue::new(ALL_FUNCTIONS)]].concat());
 
-/// A quantity of the equations, or the word for all.
+/// The names of quantities of the equations, and the word for all.
 pub(crate) const QUANTITY: Suggested = Suggested(|| {
     let names = Kind::ALL.iter().map(|kind| kind.name());
     names.chain(["all"]).map(PossibleValue::new).collect()
 });
 
-/// A code of diagnostics, with its title.
+/// The codes of diagnostics, with their titles.
 pub(crate) const CODE: Suggested = Suggested(|| {
     code::TABLE.iter().map(|(code, title)| PossibleValue::new(*code).help(*title)).collect()
 });

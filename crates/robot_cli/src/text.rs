@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::options::in_flags;
 use crate::robot::PRINT_SNAP;
 
-/// `there is no function `invers`; did you mean `inverse`? There are …`
+/// The message ``there is no function `invers`; did you mean `inverse`? There are …``.
 pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
     let near = nearest_word(name, known.iter().copied())
         .map(|near| format!(" Did you mean `{near}`?"))
@@ -25,7 +25,7 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
     format!("there is no {what} `{}`.{near} {known}", quote(name))
 }
 
-/// Shows the warnings of a robot file.
+/// Prints the warnings of a robot file.
 pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if !warnings.is_empty() {
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
@@ -34,7 +34,7 @@ pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> R
     Ok(())
 }
 
-/// Shows which functions the robot lacks as no joint torques determine all of its accelerations.
+/// Prints which functions the robot does not have because joint torques do not determine all of its accelerations.
 pub(crate) fn lacking(
     robot: &Robot,
     options: &Options,
@@ -49,15 +49,15 @@ pub(crate) fn lacking(
 /// The width of printed sums, in columns.
 pub(crate) const COLUMNS: usize = 100;
 
-/// `Q1 = …` on lines, the further ones indented.
+/// Prints `Q1 = …` on lines, of which all but the first are indented.
 pub(crate) fn sum(whole: &str) -> String {
     let mut lines = wrapped(whole, COLUMNS).join("\n    ");
     lines.push('\n');
     lines
 }
 
-/// A sum on lines of so many columns, broken before signs: within parentheses only if what they hold
-/// fits no line.
+/// Breaks a sum into lines of at most `columns` columns, before signs. It is broken within parentheses only if
+/// their contents do not fit on a line.
 fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     let mut breaks: Vec<(usize, usize)> = vec![];
     let mut depth = 0_usize;
@@ -75,7 +75,7 @@ fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     let (mut lines, mut start) = (vec![], 0);
     while text.len() - start > columns {
         let further = || breaks.iter().filter(|(place, _)| *place > start);
-        // The last one in reach outside of parentheses; else within them; else the next one.
+        // The last break within reach outside of parentheses, or else within them, or else the next one.
         let reach = further().filter(|(place, _)| *place - start <= columns);
         let chosen = reach.min_by_key(|(place, depth)| (*depth, std::cmp::Reverse(*place)));
         let Some((place, _)) = chosen.or_else(|| further().next()) else { break };
@@ -86,7 +86,7 @@ fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     lines
 }
 
-/// `title: a, b, c`, broken after commas, the further lines indented.
+/// Prints `title: a, b, c`, broken after commas, with further lines indented.
 pub(crate) fn list(title: &str, names: &[&str]) -> String {
     let mut shown = format!("{title}:");
     let mut column = shown.chars().count();
@@ -105,7 +105,7 @@ pub(crate) fn list(title: &str, names: &[&str]) -> String {
     shown
 }
 
-/// Rows in columns, the first row a title; numbers to the right.
+/// Prints rows in columns; the first row is the title, and numbers are right-aligned.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
@@ -135,7 +135,7 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// Describes how angles near multiples of π/2 were snapped, and the effect of larger tolerances.
+/// Describes how angles close to multiples of π/2 were snapped, and the effect of larger tolerances.
 pub(crate) fn snapping(snapping: &Snapping) -> String {
     let Snapping { taken, larger } = snapping;
     let mut text = format!(
@@ -164,10 +164,11 @@ pub(crate) fn snapping(snapping: &Snapping) -> String {
     text
 }
 
-/// The most links that are named where angles are snapped for print.
+/// The most links that the note about angles snapped for print names.
 const NAMED: usize = 3;
 
-/// Says which constant angles print as multiples of π/2 though code takes them as they are; empty if none does.
+/// Prints which constant angles are printed as multiples of π/2 although code uses their exact values; empty if there
+/// are none.
 pub(crate) fn snapped_for_print(robot: &Robot, snaps: &[Snap]) -> String {
     let changed = |snap: &&Snap| snap.change.abs() > snap::DEFAULT;
     let changed: Vec<&Snap> = snaps.iter().filter(changed).collect();

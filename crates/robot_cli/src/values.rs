@@ -5,14 +5,14 @@ use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;
 
-/// The ends that mark an angle in degrees, for what is an angle, a rate of one, and so on.
+/// The endings that mark values in degrees, for angles and their derivatives.
 const DEGREES: [(JointVariable, &[&str]); 3] = [
     (JointVariable::Position, &["deg", "°"]),
     (JointVariable::Velocity, &["deg/s", "°/s", "deg", "°"]),
     (JointVariable::Acceleration, &["deg/s^2", "°/s^2", "deg", "°"]),
 ];
 
-/// A number, or a formula of numbers such as `-3*pi/4`.
+/// Parses a number, or a formula of numbers such as `-3*pi/4`.
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     if let Ok(number) = text.parse::<f64>() {
@@ -34,7 +34,7 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A number in the units of a joint's variable; angles may be in degrees.
+/// Parses a number in the unit of a joint's variable; angles can be in degrees.
 fn of_joint(text: &str, variable: JointVariable, kind: JointKind) -> Result<f64, String> {
     let text = text.trim();
     let ends =
@@ -55,8 +55,8 @@ fn of_joint(text: &str, variable: JointVariable, kind: JointKind) -> Result<f64,
     }
 }
 
-/// A variable of all joints, separated by commas, given as `option`, or what is wrong with which of them; their count is
-/// not checked.
+/// Parses a variable of all joints, separated by commas, given as `option`; the errors name the joints. The number of
+/// values is not checked.
 pub(crate) fn of_joints(
     option: &str,
     text: &str,
@@ -70,7 +70,7 @@ pub(crate) fn of_joints(
     })
 }
 
-/// That there are not as many numbers as names.
+/// The message if the number of values is not that of the names.
 pub(crate) fn miscounted(option: &str, values: &[f64], names: &[String]) -> Option<String> {
     let (given, expected) = (values.len(), names.len());
     let plural = if given == 1 { "entry" } else { "entries" };
@@ -78,7 +78,7 @@ pub(crate) fn miscounted(option: &str, values: &[f64], names: &[String]) -> Opti
     (given != expected).then(|| format!("{option}: {given} {plural}, not {expected} ({names})"))
 }
 
-/// Numbers of those names, separated by commas, given as `option`; their count is not checked.
+/// Parses numbers with these names, separated by commas, given as `option`. Their number is not checked.
 pub(crate) fn list(
     option: &str,
     text: &str,

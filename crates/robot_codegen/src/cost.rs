@@ -4,14 +4,14 @@ use crate::counts::Counts;
 use crate::passes::{fusing, product_last};
 use crate::program::Program;
 
-/// A measure of programs: a pass whose result measures more is not taken.
+/// A measure of programs: the result of a pass is discarded if it costs more than its input.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cost {
     /// Multiplications, additions and divisions at a call.
     #[default]
     Operations,
-    /// Instructions at a call on a target with fused multiply-add: the operations, each product
-    /// that fuses with a sum not counted.
+    /// Instructions at a call on a target with fused multiply-add: the operations, without the products
+    /// that are fused with a sum.
     Instructions,
 }
 

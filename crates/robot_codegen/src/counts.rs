@@ -1,4 +1,4 @@
-//! Counting operations.
+//! Operation counts of programs and functions.
 
 use robot_symbolic::Function as Call;
 
@@ -7,8 +7,8 @@ use crate::program::{Limits, Operation, Program, Source, Stage, Statements, Valu
 
 /// The operations of a program.
 ///
-/// Subtractions are additions, changes of sign are free and counted apart, a doubling `2 x` is one
-/// addition. A fused multiply-add is one multiplication and one addition, and `fused` says how many.
+/// Subtractions count as additions, and a doubling `2 x` counts as one addition. Changes of sign are free and counted
+/// separately. A fused multiply-add counts as one multiplication and one addition; `fused` is the number of these.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Multiplications.
@@ -27,9 +27,9 @@ pub struct Counts {
     pub sin: usize,
     /// Cosines.
     pub cos: usize,
-    /// Those pairs of a multiplication and an addition that are one fused instruction.
+    /// The pairs of a multiplication and an addition that form one fused instruction.
     pub fused: usize,
-    /// Named values in the text, if it is laid out ([`FunctionCounts::laid_out`]).
+    /// Named values in the printed code, if its layout is known ([`FunctionCounts::laid_out`]); otherwise 0.
     pub temporaries: usize,
 }
 
@@ -40,15 +40,15 @@ impl Counts {
         Counts::of_operations(program, |_| true)
     }
 
-    /// The operations that are left for the call when a constructor does the rest.
+    /// The operations of a call, without those that a constructor can do beforehand.
     #[must_use]
     pub fn of_calls(program: &Program) -> Counts {
         let stages = program.stages();
         Counts::of_operations(program, |value| stages[value.index()] == Stage::Call)
     }
 
-    /// Multiplications, additions and divisions together, the measure of the literature (which has
-    /// no divisions in inverse dynamics).
+    /// The sum of multiplications, additions and divisions, which is the measure used in the literature (inverse
+    /// dynamics there has no divisions).
     #[must_use]
     pub fn operations(&self) -> usize {
         self.mul + self.add + self.div
@@ -89,12 +89,12 @@ impl Counts {
     }
 }
 
-/// The cost of a function.
+/// The operation counts of a function.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FunctionCounts {
-    /// Each call: the angles, their sines and cosines, and the arithmetic.
+    /// The operations of each call: the angles, their sines and cosines, and the arithmetic.
     pub call: Counts,
-    /// Once for each set of parameters: what of the constructor this function needs.
+    /// The operations of the part of the constructor that this function needs, done once for each set of parameters.
     pub constructor: Counts,
 }
 
@@ -120,7 +120,7 @@ impl FunctionCounts {
         FunctionCounts { call, constructor: constructor_counts }
     }
 
-    /// These counts with the named values of the function's arithmetic in a text within such limits.
+    /// Adds the number of named values that the function's arithmetic has if it is printed within these limits.
     #[must_use]
     pub fn laid_out(mut self, function: &Function, limits: &Limits) -> FunctionCounts {
         self.call.temporaries = Statements::new(&function.core, limits).count();
@@ -146,12 +146,12 @@ fn needed_fields(constructor: &Program, function: &Function) -> Vec<bool> {
     needed
 }
 
-/// The counts after a pass.
+/// The operation counts after a pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PassCounts {
-    /// The name of the pass; `as built` for the program before any, `constructor` for what is left when
-    /// the constructor has its part.
+    /// The name of the pass; `as built` for the program before any pass, `constructor` for the program after its
+    /// operations on parameters were moved into the constructor.
     pub pass: &'static str,
-    /// The operations in calls after it.
+    /// The operations of a call after the pass.
     pub counts: Counts,
 }

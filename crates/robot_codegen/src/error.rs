@@ -1,8 +1,8 @@
-//! Errors of a specification, a call or a generation.
+//! Errors in a specification, in a call or in the generation of code.
 
 use std::fmt;
 
-/// An error. Its message gives the place, the reason and, if there is one, the remedy.
+/// An error. Its message states the place, the reason and, if there is one, the remedy.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -19,17 +19,17 @@ pub enum Error {
         /// The symbol.
         symbol: String,
     },
-    /// Two things of one kind have one name.
+    /// Two items of the same kind have the same name.
     #[error("{place}: the {kind} `{name}` is declared twice; rename one of them")]
     Duplicate {
         /// The module or one of its functions.
         place: String,
-        /// Parameter, function, input, symbol or output.
+        /// The kind of item: parameter, function, input, symbol or output.
         kind: &'static str,
         /// The name.
         name: String,
     },
-    /// The number of values is not what the shape asks for, or the shape has more than two axes.
+    /// The number of values does not match the shape, or the shape has more than two axes.
     #[error(
         "output `{output}` of function `{function}` has the shape {shape:?} but {values} values; \
          a shape is [], [n] or [rows, columns]"
@@ -44,13 +44,13 @@ pub enum Error {
         /// The number of values.
         values: usize,
     },
-    /// A function without outputs.
+    /// A function has no outputs.
     #[error("function `{function}` has no outputs; a function must compute at least one")]
     NoOutputs {
         /// The function.
         function: String,
     },
-    /// Expressions of two graphs.
+    /// The module has expressions from two graphs.
     #[error(
         "output `{output}` of function `{function}` belongs to another graph than the module's \
          first output; build all expressions of a module in one graph"
@@ -61,7 +61,7 @@ pub enum Error {
         /// The output.
         output: String,
     },
-    /// A constant that is not a finite number: a division by zero, or beyond the range of `f64`.
+    /// A constant is not a finite number, because of a division by zero or because it exceeds the range of `f64`.
     #[error(
         "output `{output}` of function `{function}` contains a constant that is not a finite \
          number (a division by zero, the square root of a negative number, or a value outside \
@@ -79,17 +79,17 @@ pub enum Error {
         /// The parameter.
         parameter: String,
     },
-    /// A call of a function that the module has not.
+    /// A call of a function that the module does not have.
     #[error("the module `{module}` has no function `{function}`; it has {known}")]
     UnknownFunction {
         /// The module.
         module: String,
-        /// The name asked for.
+        /// The requested name.
         function: String,
         /// The names there are.
         known: String,
     },
-    /// A parameter that was given but is not the module's.
+    /// A parameter that was given, but that the module does not have.
     #[error("the module `{module}` has no parameter `{parameter}`; it has {known}")]
     UnknownParameter {
         /// The module.
@@ -105,7 +105,7 @@ pub enum Error {
         /// The parameter.
         parameter: String,
     },
-    /// An input that a call needs and was not given.
+    /// An input that the function needs, but that was not given.
     #[error("function `{function}` needs the input `{input}`, an array of {length}")]
     MissingInput {
         /// The function.
@@ -115,7 +115,7 @@ pub enum Error {
         /// The number of its entries.
         length: usize,
     },
-    /// An input that a call gives and the function has not.
+    /// An input that was given, but that the function does not have.
     #[error("function `{function}` has no input `{input}`; it has {known}")]
     UnknownInput {
         /// The function.
@@ -137,19 +137,19 @@ pub enum Error {
         /// The number given.
         found: usize,
     },
-    /// Another number of columns than a function has entries of inputs or outputs.
+    /// The number of columns differs from the number of entries of the function's inputs or outputs.
     #[error("function `{function}` has {expected} entries of {kind}, not {found}")]
     Columns {
         /// The function.
         function: String,
-        /// Which: `inputs` or `outputs`.
+        /// Either `inputs` or `outputs`.
         kind: &'static str,
         /// The number of entries.
         expected: usize,
         /// The number of columns given.
         found: usize,
     },
-    /// Inputs or outputs at different numbers of states.
+    /// Inputs or outputs have different numbers of states.
     #[error(
         "function `{function}` got {expected} states in one input and {found} in another; pass \
          all inputs for the same states"
@@ -162,7 +162,7 @@ pub enum Error {
         /// The number of states of another input or output.
         found: usize,
     },
-    /// An option of a backend that is not a Rust path.
+    /// The runtime path of the Rust backend is not a Rust path.
     #[error("the runtime path `{path}` is not a Rust path such as `::robot_runtime`")]
     RuntimePath {
         /// The text given.
@@ -176,7 +176,7 @@ pub enum Error {
         /// The function or the constructor.
         place: String,
     },
-    /// A constant that the scalar type rounds to 0, or to few digits.
+    /// A constant that is so small that the scalar type rounds it to 0 or keeps only a few of its digits.
     #[error(
         "the constant {value} of {place} is too small for f32, which keeps its digits down to \
          1.2e-38; generate f64, or choose units in which it is larger"
@@ -199,7 +199,7 @@ pub enum Error {
         /// The language.
         language: &'static str,
     },
-    /// Sines that a language does not have.
+    /// Sines of the standard library, which a language does not have.
     #[error("{language} has no sines of a standard library; leave out the option `trigonometry`")]
     Trigonometry {
         /// The language.
@@ -207,12 +207,12 @@ pub enum Error {
     },
 }
 
-/// All that was found wrong; never empty.
+/// All errors that were found; never empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Errors(Vec<Error>);
 
 impl Errors {
-    /// `Ok(value)` if nothing is wrong.
+    /// Returns `Ok(value)` if there are no errors.
     pub(crate) fn check<T>(errors: Vec<Error>, value: T) -> Result<T, Errors> {
         if errors.is_empty() { Ok(value) } else { Err(Errors(errors)) }
     }

@@ -1,7 +1,7 @@
-//! Functions of robots whose limbs are alike: one program for all of them, side by side in lanes.
+//! Functions of robots with limbs of the same kind: one program computes several limbs, one in each lane.
 //!
-//! The limbs of a robot hang on a base at rest, and nothing couples them: each result of a function is one of a limb's,
-//! or 0. Limbs of the same kind differ in numbers alone, which the program of the limb loads as fields.
+//! The limbs of a robot are attached to a base at rest and are not coupled, so each result of a function is a result of
+//! one limb, or 0. Limbs of the same kind differ only in numbers, which the program of the limb loads as fields.
 
 use rustc_hash::FxHashMap;
 
@@ -10,57 +10,58 @@ use crate::module::{Function, Module};
 use crate::program::{Builder, Operation, Program, Source, Value};
 use crate::trigonometry::Trigonometry;
 
-/// The most lanes: more limbs of a kind are several calls.
+/// The most lanes of a call; more limbs of a kind need several calls.
 const MAX_LANES: usize = 8;
-/// The lanes of a call that was measured to be faster than code for each limb; two and eight were not.
+/// The number of lanes for which a call was measured to be faster than separate code for each limb. With two or eight
+/// lanes it was not.
 const MEASURED_LANES: usize = 4;
-/// The most operations of one limb's function: rustc takes minutes for some thousands over lanes.
+/// The most operations of one limb's function, because rustc takes minutes to compile a few thousand over lanes.
 const MAX_OPERATIONS: usize = 600;
 
-/// A kind of limb: the module of one of them, and the limbs.
+/// A kind of limb: the module of a single limb, and the limbs of this kind.
 #[derive(Clone, Debug)]
 pub struct LimbKind {
-    /// The functions of one limb alone, with the numbers in which the limbs differ as parameters.
+    /// The functions of a single limb. Its parameters are the numbers in which the limbs differ.
     pub module: Module,
-    /// For each limb its coordinates in those of the robot, in the order of the limb's own.
+    /// For each limb, the indices of its coordinates among those of the robot, in the order of the limb's coordinates.
     pub coordinates: Vec<Vec<usize>>,
-    /// For each limb the values of the parameters.
+    /// For each limb, the values of the module's parameters.
     pub values: Vec<Vec<f64>>,
 }
 
-/// A function as the limbs of a robot compute it.
+/// A function that is computed limb by limb.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limbs {
     /// The calls that compute it.
     pub calls: Vec<LimbCall>,
-    /// For each result of the function where it comes from; `None` if it is 0.
+    /// For each result of the function, the limb's result that it equals; `None` if it is 0.
     pub results: Vec<Option<LimbResult>>,
 }
 
-/// A call of a function of one limb, for several limbs in lanes.
+/// A call of the function of a limb, for several limbs, one in each lane.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimbCall {
-    /// The function of one limb; its fields are the numbers of `fields`.
+    /// The function of a single limb; its fields are those of `fields`.
     pub function: Function,
-    /// For each field its number in each lane; none if there is one lane.
+    /// For each field, its value in each lane. Empty if there is only one lane.
     pub fields: Vec<Vec<f64>>,
-    /// For each lane and each entry of the limb's inputs, entry by entry, the entry of the robot's inputs.
+    /// For each lane, the index among the robot's inputs of each entry of the limb's inputs.
     pub inputs: Vec<Vec<usize>>,
 }
 
-/// A result of a limb.
+/// The place of a result: a call, a lane and a result of the limb's function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LimbResult {
-    /// The call, by its index.
+    /// The index of the call.
     pub call: usize,
-    /// The lane.
+    /// The index of the lane.
     pub lane: usize,
-    /// The result of the limb's function.
+    /// The index of the result of the limb's function.
     pub result: usize,
 }
 
 impl LimbCall {
-    /// The number of lanes: a power of two, limbs again where there are no more.
+    /// The number of lanes, a power of two; lanes without a limb of their own repeat a limb.
     #[must_use]
     pub fn lanes(&self) -> usize {
         self.inputs.len()
@@ -68,9 +69,9 @@ impl LimbCall {
 }
 
 impl Module {
-    /// Gives those of the functions of these names that the limbs can compute the programs that do: all of their inputs
-    /// and the sides of all of their outputs are as long as the robot has coordinates. Limbs of which there are two, and
-    /// functions that are long, stay as they are.
+    /// Adds programs of limbs to the functions with these names, where possible: all inputs of the function and all
+    /// dimensions of its outputs must be as long as the robot has coordinates. A function keeps its ordinary program
+    /// alone if a call would have a number of lanes that is not known to be faster, or a program that is too long.
     pub fn set_limbs(&mut self, kinds: &[LimbKind], names: &[String], trigonometry: Trigonometry) {
         let coordinates = kinds.iter().flat_map(|kind| &kind.coordinates).map(Vec::len).sum();
         for function in &mut self.functions {
@@ -81,7 +82,7 @@ impl Module {
     }
 }
 
-/// The function as limbs compute it, if they can.
+/// Returns the function as its limbs compute it, if that is possible and worthwhile.
 fn limbs(
     function: &Function,
     kinds: &[LimbKind],
@@ -110,13 +111,14 @@ fn limbs(
     limbs.calls.iter().all(is_worth_it).then_some(limbs)
 }
 
-/// Whether a call is one lane, or is known to be faster and to compile in time.
+/// Whether a call has a single lane, or a number of lanes that is known to be faster and a program that compiles
+/// quickly.
 fn is_worth_it(call: &LimbCall) -> bool {
     let operations = call.function.core.operations().len();
     call.lanes() == 1 || call.lanes() == MEASURED_LANES && operations <= MAX_OPERATIONS
 }
 
-/// Puts the results of a limb, in a lane of the next call, where they belong.
+/// Records which results of the function come from a limb, which has a lane of the next call.
 fn place(limbs: &mut Limbs, function: &Function, coordinates: &[usize], lane: usize) {
     let call = limbs.calls.len();
     let (mut first, mut result) = (0, 0);
@@ -136,7 +138,7 @@ fn place(limbs: &mut Limbs, function: &Function, coordinates: &[usize], lane: us
     }
 }
 
-/// The call for some limbs of a kind.
+/// Makes the call for some limbs of a kind.
 fn limb_call(
     function: &Function,
     kind: &LimbKind,
@@ -185,7 +187,7 @@ struct Fields {
 }
 
 impl Fields {
-    /// A program with those fields that are the same in all lanes as constants.
+    /// Replaces the fields that are the same in all lanes with constants.
     fn settle(&mut self, program: &Program, of_lanes: &[Vec<f64>]) -> Program {
         let mut builder = Builder::new();
         let mut values: Vec<Value> = Vec::with_capacity(program.operations().len());

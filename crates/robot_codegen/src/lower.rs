@@ -1,4 +1,4 @@
-//! From a specification to programs that still load parameters.
+//! Lowering of a specification to programs that still load parameters.
 
 use robot_symbolic::walk::reachable;
 use robot_symbolic::{Expr, Function as Call, Id, SymbolId, View};
@@ -18,7 +18,7 @@ pub(crate) struct Lowered {
 pub(crate) fn lower(spec: &ModuleSpec<'_>) -> Result<Vec<Lowered>, Errors> {
     let mut errors = vec![];
     check_module(spec, &mut errors);
-    // Expressions of several graphs cannot be looked at together at all.
+    // Expressions of several graphs cannot be examined together.
     if errors.iter().any(|error| matches!(error, Error::ForeignGraph { .. })) {
         return Errors::check(errors, vec![]);
     }
@@ -91,9 +91,9 @@ fn check_names<'a>(
 enum Class {
     Constant,
     Parameter,
-    /// An entry of an input, but no sine or cosine of one.
+    /// Depends on entries of inputs, but not on a sine or cosine of one.
     Input,
-    /// A sine or cosine of inputs.
+    /// Depends on a sine or cosine of inputs.
     Circular,
 }
 
@@ -129,7 +129,7 @@ fn lower_function(
     Lowered { angles, core }
 }
 
-/// The name of the first output that contains a node.
+/// Returns the name of the first output that contains a node.
 fn output_with(function: &Function<'_>, id: Id) -> String {
     let contains = |values: &[Expr<'_>]| reachable(values).iter().any(|expr| expr.id() == id);
     let output = function.outputs.iter().find(|output| contains(&output.values));
@@ -220,8 +220,8 @@ impl<'g> Lowering<'g> {
         }
     }
 
-    /// The argument of a sine or cosine of inputs; one that itself contains such a sine is not an angle
-    /// of the function, but computed in its place.
+    /// Returns the argument of a sine or cosine of inputs. An argument that itself contains such a sine or cosine is
+    /// not an angle of the function; its sine or cosine is computed in the arithmetic.
     fn angle(&self, expr: Expr<'g>) -> Option<(Call, Expr<'g>)> {
         match expr.view() {
             View::Call(function @ (Call::Sin | Call::Cos), argument)
@@ -283,8 +283,8 @@ impl<'g> Lowering<'g> {
         Some((function, *angles.get(&argument.id())?))
     }
 
-    /// The nodes from which to build `roots`, operands first; what is below an angle or a constant
-    /// is not needed.
+    /// Returns the nodes from which `roots` are built, operands first, without the operands of angles and of
+    /// constants.
     fn needed(&self, angles: &FxHashMap<Id, u32>, roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut seen = FxHashSet::default();
         let mut needed = vec![];

@@ -1,4 +1,4 @@
-//! A compiled module: what a backend prints and the interpreter runs.
+//! A compiled module, which backends print and the interpreter runs.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -19,10 +19,10 @@ pub struct Module {
     pub name: String,
     /// Documentation, a paragraph or line each.
     pub doc: Vec<String>,
-    /// The parameters; [`Source::Parameter`] counts through them.
+    /// The parameters, which [`Source::Parameter`] refers to by index.
     pub parameters: Vec<ParameterSpec>,
-    /// Computes from the parameters, once, whatever depends on them alone. Its results are the
-    /// fields of the model; [`Source::Field`] counts through them.
+    /// The program that computes, once for each set of parameters, all values that depend only on them. Its
+    /// results are the fields of the model, which [`Source::Field`] refers to by index.
     pub constructor: Program,
     /// The functions.
     pub functions: Vec<Function>,
@@ -35,22 +35,22 @@ pub struct Function {
     pub name: String,
     /// Documentation, a paragraph or line each.
     pub doc: Vec<String>,
-    /// The inputs; [`Source::Input`] counts through their entries, input after input.
+    /// The inputs. [`Source::Input`] refers to their entries by one index that runs over all inputs in order.
     pub inputs: Vec<Input>,
-    /// The outputs; the results of `core` are their entries, output after output.
+    /// The outputs. The results of `core` are their entries, output by output.
     pub outputs: Vec<Output>,
-    /// The arguments of all sines and cosines: first plain entries of inputs, in their order, then
-    /// other expressions. Loads inputs and fields.
+    /// The program that computes the arguments of all sines and cosines: first those that are entries of inputs, in
+    /// their order, then the other expressions. It loads inputs and fields.
     pub angles: Program,
-    /// The arithmetic. Loads inputs, fields, and sines and cosines of the angles by their index.
+    /// The program of the arithmetic. It loads inputs, fields, and the sines and cosines of the angles by their index.
     pub core: Program,
-    /// The operations of `core`, in calls alone, after each pass, in the order in which they ran.
+    /// The operations of `core` at a call after each pass, in the order in which the passes ran.
     pub passes: Vec<PassCounts>,
-    /// The same, computed by the robot's limbs side by side, if some are alike.
+    /// The same function computed limb by limb, in lanes, if the robot has limbs of the same kind.
     pub limbs: Option<Limbs>,
 }
 
-/// The inputs with their lengths, the programs, and the values of `core` that are the outputs.
+/// Prints the inputs with their lengths, the programs, and the values of `core` that are the outputs.
 impl Display for Function {
     fn fmt(&self, formatter: &mut Formatter<'_>) -> fmt::Result {
         let inputs = self.inputs.iter();
@@ -72,12 +72,12 @@ impl Display for Function {
 }
 
 impl Module {
-    /// Compiles a specification: checks it, lowers the expressions, runs the passes and moves what
-    /// depends on parameters alone into the constructor.
+    /// Compiles a specification: checks it, lowers the expressions, runs the passes and moves the operations that
+    /// depend only on parameters into the constructor.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the specification.
+    /// All errors in the specification.
     pub fn compile(spec: &ModuleSpec<'_>, options: &Options) -> Result<Module, Errors> {
         let lowered = lower::lower(spec)?;
         let mut functions = vec![];
@@ -113,13 +113,13 @@ impl Module {
         })
     }
 
-    /// The function of a name.
+    /// Returns the function with a name.
     #[must_use]
     pub fn function(&self, name: &str) -> Option<&Function> {
         self.functions.iter().find(|function| function.name == name)
     }
 
-    /// The parameter that a field of the model is a plain copy of.
+    /// Returns the parameter that a field of the model is a copy of, if it is one.
     #[must_use]
     pub fn field_parameter(&self, field: usize) -> Option<&ParameterSpec> {
         use crate::program::Operation;
@@ -129,13 +129,13 @@ impl Module {
         }
     }
 
-    /// The cost of one call of a function, and the part of the constructor that it needs.
+    /// Counts the operations of one call of a function, and those of the part of the constructor that it needs.
     #[must_use]
     pub fn counts(&self, function: &Function) -> FunctionCounts {
         FunctionCounts::new(&self.constructor, function)
     }
 
-    /// The cost of the constructor of the whole module.
+    /// Counts the operations of the constructor of the whole module.
     #[must_use]
     pub fn constructor_counts(&self) -> Counts {
         Counts::of(&self.constructor)

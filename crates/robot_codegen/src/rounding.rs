@@ -1,9 +1,9 @@
-//! Bounds of what rounding does to the results of a program.
+//! Bounds on the rounding errors of the results of a program.
 //!
 //! Running error analysis (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., 2002,
-//! section 3.3): each operation passes on the errors of its operands, to first order, and adds half a unit
-//! in its last place. The bounds are of the values for the inputs as they are given; parameters are decimal
-//! numbers, whose nearest `f64` is taken.
+//! section 3.3): each operation propagates the errors of its operands, to first order, and adds half a unit
+//! in its last place. Inputs are taken as exact; parameters are decimal numbers that are rounded to the
+//! nearest `f64`.
 
 use robot_symbolic::Function as Call;
 
@@ -13,20 +13,20 @@ use crate::trigonometry::Trigonometry;
 
 /// The unit of rounding of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
-/// The error of the polynomials' sines and cosines.
+/// The largest error of the sines and cosines of the polynomials.
 const POLYNOMIAL: f64 = 1.7e-16;
 
-/// A value, and a bound of what rounding has done to it, to first order.
+/// A value and a bound on its rounding error, to first order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounded {
     /// The value.
     pub value: f64,
-    /// The bound of its error.
+    /// The bound on its error.
     pub error: f64,
 }
 
 impl Rounded {
-    /// A value with the error that comes with its operands, and its own rounding.
+    /// Makes a value with the error inherited from its operands and its own rounding error.
     fn new(value: f64, inherited: f64) -> Rounded {
         Rounded { value, error: inherited + UNIT * value.abs() }
     }
@@ -35,7 +35,7 @@ impl Rounded {
         Rounded { value, error: 0.0 }
     }
 
-    /// A value as loaded: inputs are exact; parameters, fields and sines are rounded.
+    /// Makes a loaded value: inputs are exact; parameters, fields and sines are rounded.
     pub(crate) fn loaded(source: Source, trigonometry: Trigonometry, value: f64) -> Rounded {
         match source {
             Source::Input(_) => Rounded::exact(value),
@@ -80,8 +80,8 @@ impl Rounded {
     }
 }
 
-/// The results of a program with bounds of their errors, given what its loads read: as
-/// [`evaluate`](crate::interpreter::evaluate).
+/// Computes the results of a program as [`evaluate`](crate::interpreter::evaluate) does, with bounds on their
+/// errors.
 pub(crate) fn evaluate(
     program: &Program,
     trigonometry: Trigonometry,

@@ -1,21 +1,21 @@
 //! The specification of code: named expressions over named inputs and parameters.
 //!
-//! Documentation is Markdown of the caller's own, printed as it is: text that the caller does not control, a
-//! remark of a robot file, goes through [`markdown`](crate::backend::common::markdown) before it becomes part of
-//! it. The documentation of parameters alone is text of such a file, and names and units are: they are made
-//! harmless where they are printed.
+//! Documentation is Markdown from the caller and is printed unchanged. The caller must pass text that it does not
+//! control, such as a remark in a robot file, through [`markdown`](crate::backend::common::markdown) before adding it
+//! to the documentation. Names, units and the documentation of parameters can be text from a robot file; they are
+//! escaped when they are printed.
 
 pub use robot_symbolic::named::{Function, Input, Output};
 
-/// A module: parameters and the functions of them, all over one [`robot_symbolic::Graph`].
+/// A module: parameters and functions, whose expressions all belong to one [`robot_symbolic::Graph`].
 ///
-/// One graph for all functions means that what depends on parameters alone is computed once for
+/// All functions share a graph, so that values that depend only on parameters are computed once for
 /// the whole module.
 #[derive(Clone, Debug)]
 pub struct ModuleSpec<'g> {
-    /// The name; a backend makes an identifier of it.
+    /// The name, which a backend turns into an identifier.
     pub name: String,
-    /// Documentation in Markdown, a paragraph or line each.
+    /// The documentation in Markdown; each entry is a paragraph or a line.
     pub doc: Vec<String>,
     /// The parameters, in the order in which the code lists them.
     pub parameters: Vec<ParameterSpec>,
@@ -28,10 +28,10 @@ pub struct ModuleSpec<'g> {
 pub struct ParameterSpec {
     /// The symbol.
     pub name: String,
-    /// Its meaning; text, not Markdown.
+    /// The meaning of the parameter; plain text, not Markdown.
     pub doc: String,
     /// Its unit; empty if it has none.
     pub unit: String,
-    /// The value if none other is given.
+    /// The value that is used if no other is given.
     pub nominal: Option<f64>,
 }

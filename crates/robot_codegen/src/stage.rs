@@ -1,14 +1,14 @@
-//! Moving what depends on parameters alone into a constructor.
+//! Moves operations that depend only on parameters into a constructor.
 
 use rustc_hash::FxHashMap;
 
 use crate::program::{Builder, Operation, Program, Source, Stage, Value};
 
 /// Rewrites `programs` so that they load fields instead of parameters, and returns the constructor
-/// whose results are those fields, each once for all programs.
+/// whose results are these fields, each once for all programs.
 ///
-/// A field is the largest value that depends on parameters alone: nothing is left in the programs
-/// that could have been computed before the call, but for a change of sign, which is free.
+/// A field is a largest value that depends only on parameters: the programs contain no operation
+/// that could be done before the call, except changes of sign, which are free.
 pub(crate) fn hoist_parameters<'a>(programs: impl Iterator<Item = &'a mut Program>) -> Program {
     let mut constructor = Constructor::default();
     for program in programs {
@@ -54,7 +54,7 @@ impl Constructor {
         builder.finish(results)
     }
 
-    /// Loads the field with a value of the constructor, made if there is none.
+    /// Loads the field with a value of the constructor, and adds the field if there is none.
     fn load(&mut self, builder: &mut Builder, value: Value) -> Value {
         match self.builder.operation(value) {
             Operation::Constant(constant) => builder.constant(constant.get()),

@@ -3,8 +3,8 @@
 /// The source of the sines and cosines of a function's angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Trigonometry {
-    /// The runtime's branch-free polynomials: fast, the same bits on every machine, and without the
-    /// standard library. From 2³⁰ rad on (2¹⁷ in `f32`) they give NaN.
+    /// The runtime's branch-free polynomials: fast, with the same bits on every machine, and without the
+    /// standard library. From 2³⁰ rad on (2¹⁷ rad in `f32`) they give NaN.
     #[default]
     Polynomial,
     /// The standard library: angles of any size. The runtime needs its feature `std`.
@@ -12,7 +12,7 @@ pub enum Trigonometry {
 }
 
 impl Trigonometry {
-    /// The documentation, in generated code, of the angles that it takes.
+    /// The sentence in generated documentation about the range of angles.
     #[must_use]
     pub fn range_of_angles(self) -> &'static str {
         match self {

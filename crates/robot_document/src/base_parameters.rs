@@ -15,7 +15,7 @@ use crate::latex;
 use crate::layout::{Order, SymbolTable, Trigonometry, has_longer, tidied, tidied_text};
 use crate::math::{Fence, Math};
 
-/// The limits of expansions: more terms than anybody reads.
+/// The limits of expansions: beyond them, nobody could read the formulas.
 const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
 
@@ -23,63 +23,63 @@ const LIMITS: PolynomialOptions =
 const SHORTER: &str =
     "snapping angles between frames that are nearly multiples of π/2 makes them shorter";
 
-/// The meaning of the names.
+/// The explanation of the names of standard and base parameters.
 pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \
     origin of its frame, in its axes and with their signs, MX, MY, MZ its first moment, M its \
     mass; IA is a drive's reflected inertia (armature), FV, FP, FN its viscous, forward and \
     backward friction, FO its friction offset, IC the coupling of its rotor. The number of the \
     link follows; an R marks a parameter that others are regrouped with.";
 
-/// The base parameters of a robot, written.
+/// The base parameters of a robot, as text and formulas.
 #[derive(Clone, Debug)]
 pub struct BaseSet {
     /// The names of the standard parameters, in the order of the full regressor's columns.
     pub standard: Vec<String>,
     /// The base parameters, in the order of their columns.
     pub list: Vec<BaseEntry>,
-    /// Whether coefficients are rounded, see [`BaseParameters::rounded`].
+    /// Whether coefficients are rounded; see [`BaseParameters::rounded`].
     pub rounded: bool,
 }
 
-/// A base parameter, written.
+/// A base parameter, as text and formulas.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BaseEntry {
-    /// The name in text, `ZZR_2`.
+    /// The name as text, for example `ZZR_2`.
     pub name: String,
-    /// The name in print.
+    /// The layout of the name.
     pub left: Math,
-    /// The column of the full regressor that is this one's.
+    /// The column of the full regressor that belongs to this parameter, if there is one.
     pub column: Option<usize>,
-    /// The formula in standard parameters: those with equal coefficients are in one term.
+    /// The formula in standard parameters; those with the same coefficient are in one term.
     pub formula: Written,
-    /// The coefficient of each standard parameter by its place, as text that reads back.
+    /// The places of the standard parameters and their coefficients, as text that can be parsed again.
     pub coefficients: Vec<(usize, String)>,
-    /// The value in the file's parameters.
+    /// The value, in terms of the parameters of the robot file.
     pub value: Written,
 }
 
-/// A formula in both notations that a reader may want.
+/// A formula as text and as a layout.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Written {
-    /// Infix text that reads back.
+    /// Infix text that can be parsed again.
     pub text: String,
-    /// Its layout.
+    /// The layout.
     pub math: Math,
 }
 
-/// Finds the base parameters of a robot and writes their formulas; `snap` as in
+/// Finds the base parameters of a robot and writes their formulas; for `snap` see
 /// [`EquationOptions::snap`](crate::EquationOptions::snap).
 ///
 /// # Errors
 ///
-/// A robot whose base parameters are out of reach; formulas that are too long to be of use; symbols
-/// that would look alike.
+/// If the base parameters of the robot cannot be computed, if the formulas are too long to be useful, or if two symbols
+/// would look the same.
 pub fn base(robot: &Robot, snap: Option<f64>) -> Result<BaseSet, Error> {
     snap.map(snap::check).transpose()?;
     let graph = Graph::limited(MAX_NODES);
     let set = written(robot, snap, &graph);
     if graph.is_full() {
-        // Symbols written before mean nothing then.
+        // If the graph is full, the formulas that have been written are meaningless.
         let reason = format!("they need more than {MAX_NODES} expressions; {SHORTER}");
         return Err(Error::Base { reason });
     }
@@ -122,7 +122,8 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
 }
 
 impl BaseSet {
-    /// The same for readers: decimals have at most so many significant digits; and whether any had more.
+    /// Rounds decimals to at most `digits` significant digits for readers. The second result tells whether any decimal
+    /// had more.
     #[must_use]
     pub fn readable(&self, digits: usize) -> (BaseSet, bool) {
         let (mut set, mut is_rounded) = (self.clone(), false);
@@ -134,7 +135,7 @@ impl BaseSet {
         (set, is_rounded)
     }
 
-    /// The formulas as displayed equations, each with the value behind the formula.
+    /// The formulas as displayed equations, each followed by its value.
     #[must_use]
     pub fn group(&self) -> Group {
         let equations = self.list.iter().map(BaseEntry::equation).collect();
@@ -144,8 +145,8 @@ impl BaseSet {
 }
 
 impl BaseEntry {
-    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`; if nothing is regrouped, `MY_2 = 0.1`. A parameter of the file that looks like its name
-    /// in print, such as a mass M_3, is the name alone.
+    /// `ZZR_1 = ZZ_1 + 0.2 M_2 = 0.35`, or `MY_2 = 0.1` if nothing is regrouped. If the right side looks like the name,
+    /// as for a mass M_3 in the robot file, only the name is written.
     fn equation(&self) -> Equation {
         let formula = if self.coefficients.len() > 1 { &self.formula } else { &self.value };
         let right = chained(formula, &self.value);
@@ -160,7 +161,7 @@ impl BaseEntry {
     }
 }
 
-/// `formula = value`, or one of them if they look alike, as sums of masses do.
+/// `formula = value`, or only one of them if they look the same, as sums of masses do.
 pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     let mut right = formula.math.pieces().to_vec();
     if latex::formula(&formula.math) != latex::formula(&value.math) {
@@ -170,20 +171,20 @@ pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     Math::row(right)
 }
 
-/// The base parameters, or why they cannot be computed.
+/// Finds the base parameters, or returns the reason why they cannot be computed.
 pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
     base_parameters(derivation).ok_or_else(|| Error::Base {
         reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
     })
 }
 
-/// Coefficients and values, expanded.
+/// Expands coefficients or values.
 pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
     Polynomial::of_all(values, &LIMITS)
         .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })
 }
 
-/// The coefficients of a base parameter, expanded.
+/// Expands the coefficients of a base parameter.
 fn coefficients<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
     let coefficients: Vec<Expr<'g>> =
         parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
@@ -195,7 +196,7 @@ pub(crate) fn look(parameter: &BaseParameter<'_>) -> Math {
     shape(parameter.kept.quantity, parameter.mark(), parameter.kept.link)
 }
 
-/// The layout of a name: italic letters that belong together, the number of the link below.
+/// The layout of the name of a parameter: italic letters, with the number of the link as a lower index.
 pub(crate) fn shape(quantity: Quantity, mark: &str, link: usize) -> Math {
     let letters = quantity.symbol().chars().chain(mark.chars());
     let letters = Math::row(letters.map(Math::Letter).collect());
@@ -213,14 +214,14 @@ pub(crate) struct Formulas<'w> {
 }
 
 impl Formulas<'_> {
-    /// A value in the file's parameters.
+    /// Writes a value in terms of the parameters of the robot file.
     pub(crate) fn of_polynomial(&self, value: &Polynomial<'_>) -> Result<Written, Error> {
         let text = value.to_text_by(|atom| self.order.rank(atom))?;
         Ok(Written { text, math: self.symbols.polynomial(value, self.order)? })
     }
 
-    /// The formula of a base parameter in standard ones, which are written as `standard` has them: the
-    /// kept one comes first, and those with equal coefficients are together. `None` is left out.
+    /// Writes the formula of a base parameter in standard parameters, whose names are given by `standard`; a parameter
+    /// with `None` is omitted. The parameter that is kept comes first, and those with the same coefficient are grouped.
     pub(crate) fn of_parameter(
         &self,
         parameter: &BaseParameter<'_>,
@@ -243,7 +244,7 @@ impl Formulas<'_> {
         Ok(sum(&terms))
     }
 
-    /// A coefficient as a factor: nothing for 1, sums in parentheses.
+    /// Writes a coefficient as a factor: a coefficient 1 is empty, and sums are in parentheses.
     fn factor(&self, coefficient: &Polynomial<'_>) -> Result<Term, Error> {
         let written = self.of_polynomial(coefficient)?;
         if coefficient.len() > 1 {
@@ -259,7 +260,7 @@ impl Formulas<'_> {
     }
 }
 
-/// A term of a sum, or a factor of one, without its sign; a factor 1 is empty.
+/// A term of a sum, or a factor of a term, without its sign. A factor 1 is empty.
 #[derive(PartialEq)]
 pub(crate) struct Term {
     pub(crate) negative: bool,
@@ -267,7 +268,7 @@ pub(crate) struct Term {
 }
 
 impl Term {
-    /// A term, or a sum whose first sign counts for the whole.
+    /// Separates the sign from a term; for a sum, the first sign is separated and stands for the whole.
     pub(crate) fn of(written: Written) -> Term {
         let text = written.text.strip_prefix('-').map(str::to_owned);
         let math = match written.math.pieces() {
@@ -279,7 +280,7 @@ impl Term {
     }
 }
 
-/// The sum of terms; 0 if there is none.
+/// The sum of the terms, which is 0 if there are none.
 pub(crate) fn sum(terms: &[Term]) -> Written {
     if terms.is_empty() {
         return Written { text: "0".to_owned(), math: Math::integer(0) };
@@ -297,7 +298,7 @@ pub(crate) fn sum(terms: &[Term]) -> Written {
     Written { text, math: Math::row(pieces) }
 }
 
-/// The coefficient times the sum of the names.
+/// The product of a coefficient and the sum of the names.
 fn product(factor: &Term, names: &[&Written]) -> Term {
     let text = names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(" + ");
     let mut sum = vec![];
@@ -310,7 +311,7 @@ fn product(factor: &Term, names: &[&Written]) -> Term {
     let Term { negative, written } = factor;
     let is_one = written.text.is_empty();
     let mut pieces = written.math.pieces().to_vec();
-    // A factor after a sine would seem to be in its argument.
+    // Without the dot, a factor after a sine would look like a part of its argument.
     if pieces.iter().any(Math::is_function) {
         pieces.push(Math::Sign('·'));
     }

@@ -1,4 +1,4 @@
-//! A document in no notation.
+//! Documents that do not depend on a notation.
 
 use crate::figure::Figure;
 use crate::forms::Equation;
@@ -9,14 +9,14 @@ use crate::math::Math;
 pub struct Document {
     /// The title.
     pub title: String,
-    /// Its blocks, in order.
+    /// The blocks, in their order in the document.
     pub blocks: Vec<Block>,
 }
 
 /// A part of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {
-    /// A heading of a section (level 1) or of a part of one (level 2).
+    /// A heading: of a section (level 1) or of a part of a section (level 2).
     Heading(u8, String),
     /// A paragraph.
     Paragraph(Vec<Inline>),
@@ -31,13 +31,13 @@ pub enum Block {
 /// A table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Table {
-    /// Its content.
+    /// The caption.
     pub caption: String,
-    /// The heads of the columns.
+    /// The headings of the columns.
     pub head: Vec<Cell>,
-    /// The rows, a cell for each column.
+    /// The rows, with one cell for each column.
     pub rows: Vec<Vec<Cell>>,
-    /// How many of the first columns say what a row is about.
+    /// The number of leading columns that identify a row.
     pub keys: usize,
 }
 
@@ -47,10 +47,10 @@ pub type Cell = Vec<Inline>;
 /// A displayed equation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NumberedEquation {
-    /// The label by which text can refer to it: letters, digits, `-`, `:`; `None` for an equation
-    /// without a number.
+    /// The label that text uses to refer to the equation: letters, digits, `-` and `:`. `None` for an equation without
+    /// a number.
     pub label: Option<String>,
-    /// The number of an equation with a label: that of a published text, or the next one.
+    /// The number of an equation with a label: the one in the published text, or the next one.
     pub number: Option<String>,
     /// The equation.
     pub equation: Equation,
@@ -59,18 +59,18 @@ pub struct NumberedEquation {
 /// A piece of a line of text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Inline {
-    /// Text, as it is to be read.
+    /// Plain text, not markup.
     Text(String),
     /// Emphasized text.
     Emphasis(String),
     /// A formula within the line.
     Math(Math),
-    /// The number of an equation, by its label.
+    /// The number of the equation with this label.
     Reference(String),
 }
 
 impl Inline {
-    /// Text.
+    /// Creates a piece of plain text.
     #[must_use]
     pub fn text(text: impl Into<String>) -> Inline {
         Inline::Text(text.into())

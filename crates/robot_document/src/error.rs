@@ -1,57 +1,57 @@
-//! Why equations cannot be printed.
+//! The reasons why equations cannot be printed.
 
 use robot_model::snap::InvalidSnap;
 use robot_symbolic::print::TooLarge;
 
 use crate::latex::ReadError;
 
-/// Why equations cannot be printed.
+/// The reason why equations cannot be printed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// An expanded form of more terms or products than anybody reads.
+    /// The expanded form has more terms or products than anybody could read.
     #[error(
         "{reason}. The expanded form of this robot is too long to read; choose the form \
          `grouped`, `recursive` or `compact`"
     )]
     TooLong {
-        /// The limit that it exceeds.
+        /// The limit that the form exceeds.
         reason: String,
     },
-    /// More coefficients than anybody reads.
+    /// The grouped form has more coefficients than anybody could read.
     #[error(
         "the grouped form has coefficients for each pair of joints, and this robot has \
          {coordinates} coordinates, more than {limit}; choose the form `recursive` or `compact`"
     )]
     TooMany {
-        /// The robot's coordinates.
+        /// The number of coordinates of the robot.
         coordinates: usize,
-        /// The most that there are coefficients for.
+        /// The largest number of coordinates for which the form is written.
         limit: usize,
     },
-    /// Too many expressions on the way to the equations for anybody to read.
+    /// The derivation of the equations needs more expressions than anybody could read.
     #[error(
         "the equations need more than {limit} expressions; the forms `recursive` and `compact` \
          need the fewest, and snapping angles that are nearly multiples of π/2 (the option \
          `snap`) makes them shorter"
     )]
     TooManyExpressions {
-        /// The most that are derived.
+        /// The largest number of expressions that are derived.
         limit: usize,
     },
-    /// An invalid snapping tolerance.
+    /// The tolerance for snapping angles is invalid.
     #[error(transparent)]
     Snap(#[from] InvalidSnap),
-    /// Base parameters that cannot be found or written out.
+    /// The base parameters cannot be found or written out.
     #[error("the base parameters cannot be computed: {reason}")]
     Base {
-        /// Why.
+        /// The reason.
         reason: String,
     },
-    /// An expression that cannot be written out.
+    /// An expression is too large to be written out.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
-    /// A symbol of the robot that has the name of one that a form defines.
+    /// A symbol of the robot has the same name as a symbol that the form defines.
     #[error(
         "this form of the equations defines a symbol `{name}` of its own; rename the symbol in \
          the robot file, or choose another form"
@@ -60,20 +60,20 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// Two symbols that print alike.
+    /// Two symbols are printed in the same way.
     #[error(
         "`{name}` and `{other}` are both printed as {latex}; give one of them another `latex` in \
          the robot file"
     )]
     Alike {
-        /// A symbol.
+        /// One of the symbols.
         name: String,
-        /// The other one.
+        /// The other symbol.
         other: String,
         /// Their printed form.
         latex: String,
     },
-    /// A symbol that prints like the short form of a sine or cosine.
+    /// A symbol is printed like the short form of a sine or cosine.
     #[error(
         "`{name}` is printed as {latex}, which would read as a sine or cosine; print sines and \
          cosines by name, or give the symbol another `latex` in the robot file"
@@ -84,37 +84,38 @@ pub enum Error {
         /// Its printed form.
         latex: String,
     },
-    /// A piece that is wider than a line.
+    /// A part of an equation that cannot be broken is wider than a line.
     #[error(
         "part of the equation of `{name}` is {needed} cm wide and does not fit a line of \
          {available} cm; choose another form or wider lines, or set shorter names with `latex` \
          in the robot file"
     )]
     Narrow {
-        /// The left side in text.
+        /// The left side of the equation, as text.
         name: String,
-        /// The width that the piece needs.
+        /// The width of the part.
         needed: Centimeters,
-        /// The width available.
+        /// The available width.
         available: Centimeters,
     },
-    /// Parts within parts within parts.
+    /// Parts of an expression are nested too deeply.
     #[error("an expression has parentheses, fractions and indices nested more than {limit} deep")]
     TooDeep {
-        /// The most that are laid out.
+        /// The largest depth that is laid out.
         limit: usize,
     },
-    /// LaTeX of a symbol that cannot be laid out; what a robot file may have can be.
+    /// The LaTeX for a symbol cannot be laid out. This does not happen for LaTeX that a robot file is allowed to
+    /// contain.
     #[error("the LaTeX for a symbol cannot be laid out: {0}")]
     Symbol(#[from] ReadError),
 }
 
-/// A length in tenths of a millimeter, so that errors can be compared.
+/// A length in tenths of a millimeter; integers make errors comparable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Centimeters(u32);
 
 impl Centimeters {
-    /// A length in printer's points, 72.27 to an inch.
+    /// Converts a length in printer's points, 72.27 per inch, and rounds it up.
     #[must_use]
     pub fn from_points(points: f64) -> Centimeters {
         Centimeters((points * 254.0 / 72.27).ceil() as u32)

@@ -1,17 +1,17 @@
-//! Drawings of lines and labels, in no notation.
+//! Drawings of lines and labels that do not depend on a notation.
 //!
-//! Coordinates are in units of the drawing, y points down; each notation scales them to the page.
+//! Coordinates are in units of the drawing, with y pointing down; each notation scales them to the page.
 
 use crate::document::Inline;
 
 /// A drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Its content.
+    /// The caption.
     pub caption: String,
-    /// The corner with the smallest coordinates, and the opposite one.
+    /// The corner with the smallest coordinates, and the opposite corner.
     pub bounds: [Point; 2],
-    /// Its parts, later ones on top.
+    /// The shapes; later ones are drawn on top of earlier ones.
     pub shapes: Vec<Shape>,
 }
 
@@ -23,79 +23,79 @@ pub type Point = [f64; 2];
 pub enum Shape {
     /// Lines and curves.
     Path(Path),
-    /// Something written.
+    /// Text or a formula.
     Label(Label),
 }
 
 /// Connected lines and curves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Path {
-    /// Where they start.
+    /// The first point.
     pub start: Point,
-    /// How they go on.
+    /// The lines and curves that follow.
     pub segments: Vec<Segment>,
-    /// Whether a line leads back to the start.
+    /// Whether a line connects the end with the start.
     pub is_closed: bool,
     /// The color of the line.
     pub color: Color,
     /// The width of the line, in units of the drawing.
     pub width: f64,
-    /// The lengths of dashes and gaps, in turn; none for a solid line.
+    /// The lengths of dashes and gaps, alternating; empty for a solid line.
     pub dashes: &'static [f64],
-    /// The color of what the line encloses.
+    /// The color of the enclosed area; `None` if it is not filled.
     pub fill: Option<Color>,
 }
 
-/// The next piece of a path.
+/// A piece of a path, from the end of the preceding piece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Segment {
     /// A straight line to a point.
     Line(Point),
-    /// A cubic Bézier curve: two control points, and the end.
+    /// A cubic Bézier curve, given by two control points and its end.
     Curve([Point; 3]),
 }
 
-/// Words or a formula about a point.
+/// Text or a formula centered on a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Label {
-    /// The middle.
+    /// The center.
     pub center: Point,
-    /// What is written.
+    /// The text or formula.
     pub words: Inline,
-    /// The height of the type, in units of the drawing.
+    /// The font size, in units of the drawing.
     pub size: f64,
-    /// Whether the type is bold.
+    /// Whether the text is bold.
     pub is_bold: bool,
-    /// Its color.
+    /// The color.
     pub color: Color,
 }
 
-/// Red, green and blue.
+/// A color: red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Color(pub [u8; 3]);
 
-/// Points per unit where there is room.
+/// The scale of a figure that has enough space, in points per unit.
 const USUAL: f64 = 0.62;
 
-/// The most points from top to bottom: with its caption and a heading a figure is on one page.
+/// The largest height in points, so that a figure fits on one page with its caption and a heading.
 const TALLEST: f64 = 440.0;
 
 impl Figure {
-    /// Its width and height in units of the drawing.
+    /// The width and the height, in units of the drawing.
     #[must_use]
     pub fn size(&self) -> [f64; 2] {
         let [low, high] = self.bounds;
         [high[0] - low[0], high[1] - low[1]]
     }
 
-    /// Points per unit on a line of a width in points.
+    /// The scale in points per unit on a line of the given width in points.
     #[must_use]
     pub fn scale(&self, available: f64) -> f64 {
         let [width, height] = self.size().map(|side| side.max(1.0));
         (available / width).min(TALLEST / height).min(USUAL)
     }
 
-    /// The colors of its parts, each once, in order.
+    /// The colors of the shapes, each once, in order of their first use.
     pub(crate) fn colors(&self) -> Vec<Color> {
         let mut colors = vec![];
         for shape in &self.shapes {
@@ -113,13 +113,13 @@ impl Figure {
     }
 }
 
-/// A number with one decimal at most.
+/// Formats a number with at most one decimal.
 pub(crate) fn coordinate(value: f64) -> String {
-    // No negative zero.
+    // Adding zero turns a negative zero into a positive one.
     format!("{}", (value * 10.0).round() / 10.0 + 0.0)
 }
 
-/// A number with two decimals at most.
+/// Formats a number with at most two decimals.
 pub(crate) fn hundredths(value: f64) -> String {
     format!("{}", (value * 100.0).round() / 100.0 + 0.0)
 }

@@ -1,14 +1,14 @@
 //! Equations of robots as documents.
 //!
-//! [`forms`] puts the equations of motion in the requested form; each side of an equation is a [`math::Math`], a
-//! layout that is independent of the notation, which a [`SymbolTable`] makes from expressions. A
-//! [`document::Document`] contains headings, text, tables and equations, also independent of the notation; [`robot`]
-//! fills one from a robot. Each notation has its own printer: [`latex`], [`mathml`], [`typst`]; [`html`] makes a
-//! page. HTML and MathML are trees of [`markup`], which escapes all text. The infix text beside each formula is that
-//! of `robot_symbolic`, which reads back.
+//! [`forms`] writes the equations of motion in the requested form. Each side of an equation is a [`math::Math`], a
+//! layout that does not depend on the notation; a [`SymbolTable`] makes it from an expression. A [`document::Document`]
+//! contains headings, text, tables and equations, also without a notation; [`robot`] makes the document of a robot.
+//! Each notation has its own printer: [`latex`], [`mathml`] and [`typst`]; [`html`] makes a page. HTML and MathML are
+//! trees of [`markup`], which escapes all text. The infix text beside each formula is written by `robot_symbolic` and
+//! can be parsed again.
 //!
-//! [`latex::read`] and [`meaning`] go the opposite way, from LaTeX to a layout and to the expression for which it
-//! stands, so that tests can prove what was printed.
+//! [`latex::read`] and [`meaning`] work in the opposite direction: from LaTeX to a layout, and from a layout to the
+//! expression that it stands for, so that tests can prove printed equations.
 
 pub mod base_parameters;
 pub mod document;

@@ -1,7 +1,7 @@
-//! Markup as a tree of elements, HTML, MathML and SVG alike: the one place where text becomes markup.
+//! Markup as a tree of elements for HTML, MathML and SVG. This is the only place where text becomes markup.
 //!
-//! Text and values of attributes are escaped when the tree is written, so that nothing that comes
-//! from a robot file can be markup. What is written is HTML and well-formed XML at once.
+//! Text and attribute values are escaped when the tree is written, so nothing in a robot file can act as markup. The
+//! result is both HTML and well-formed XML.
 
 use std::fmt::{self, Write as _};
 
@@ -20,9 +20,9 @@ pub struct Element {
 pub enum Node {
     /// An element.
     Element(Element),
-    /// Text, as it is to be read.
+    /// Plain text, which is escaped.
     Text(String),
-    /// A style or script of this program's own, which is written as it is.
+    /// A style or script that is part of this program; it is written without escaping.
     Verbatim(&'static str),
 }
 
@@ -44,29 +44,29 @@ impl From<String> for Node {
     }
 }
 
-/// Elements that have no end in HTML.
+/// The elements that have no end tag in HTML.
 const VOID: [&str; 6] = ["meta", "link", "br", "hr", "col", "input"];
 
-/// An element of that name, such as `mrow`.
+/// Creates an element, for example `mrow`.
 #[must_use]
 pub fn element(name: &'static str) -> Element {
     Element { name, attributes: vec![], children: vec![] }
 }
 
-/// An element of that name with one child.
+/// Creates an element with one child.
 #[must_use]
 pub fn holding(name: &'static str, child: impl Into<Node>) -> Element {
     element(name).with(child)
 }
 
 impl Element {
-    /// Its name.
+    /// The name of the element.
     #[must_use]
     pub fn name(&self) -> &'static str {
         self.name
     }
 
-    /// The first child, if that is an element.
+    /// The first child if it is an element.
     pub fn first_mut(&mut self) -> Option<&mut Element> {
         match self.children.first_mut() {
             Some(Node::Element(first)) => Some(first),
@@ -74,32 +74,32 @@ impl Element {
         }
     }
 
-    /// Sets an attribute that it does not have yet.
+    /// Sets an attribute, which must not be set yet.
     pub fn set(&mut self, name: &'static str, value: impl Into<String>) {
         self.attributes.push((name, value.into()));
     }
 
-    /// With one more attribute.
+    /// Adds an attribute.
     #[must_use]
     pub fn attribute(mut self, name: &'static str, value: impl Into<String>) -> Element {
         self.set(name, value);
         self
     }
 
-    /// With a class.
+    /// Sets the class.
     #[must_use]
     pub fn class(self, value: impl Into<String>) -> Element {
         self.attribute("class", value)
     }
 
-    /// With one more child.
+    /// Adds a child.
     #[must_use]
     pub fn with(mut self, child: impl Into<Node>) -> Element {
         self.children.push(child.into());
         self
     }
 
-    /// With more children.
+    /// Adds children.
     #[must_use]
     pub fn with_all<C: Into<Node>>(mut self, children: impl IntoIterator<Item = C>) -> Element {
         self.children.extend(children.into_iter().map(Into::into));
@@ -107,7 +107,7 @@ impl Element {
     }
 }
 
-/// Elements nest as deep as formulas and this program's own code nest them, so that this may recurse.
+/// Recursion is safe here, because elements nest only as deeply as formulas and this program's code nest them.
 impl fmt::Display for Element {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "<{}", self.name)?;
@@ -131,9 +131,9 @@ impl fmt::Display for Element {
     }
 }
 
-/// Writes text with the signs of markup as references, and characters that show nothing or turn the
-/// direction of reading by their numbers. A quotation mark ends an attribute, which is always between double
-/// ones; in text it is a sign like any other.
+/// Writes text with references in place of the characters that markup uses, and with `[U+…]` in place of hidden
+/// characters (see [`is_hidden`]). Quotation marks are only escaped in attributes, where a double one would end the
+/// value.
 fn escape(text: &str, is_attribute: bool, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
     for character in text.chars() {
         match character {
@@ -149,8 +149,7 @@ fn escape(text: &str, is_attribute: bool, formatter: &mut fmt::Formatter<'_>) ->
     Ok(())
 }
 
-/// Control characters, those that show nothing or turn the direction of reading, and those that XML
-/// does not have.
+/// Whether a character is a control character, is invisible, changes the direction of reading, or cannot occur in XML.
 fn is_hidden(character: char) -> bool {
     character.is_control()
         || is_invisible(character)

@@ -1,4 +1,4 @@
-//! Text from robot files ends as text.
+//! Text from robot files stays plain text.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
@@ -18,7 +18,7 @@ fn signs_of_latex_are_escaped() {
     }
 }
 
-/// Whatever the text, no command but those of the escapes comes out.
+/// No text gives a command other than those of the escapes.
 #[test]
 fn no_text_becomes_a_command() {
     let mut state: u32 = 1;

@@ -1,4 +1,4 @@
-//! Lines that are too long by LaTeX's own measure: there are none. If there is no pdflatex the test says so.
+//! LaTeX itself finds no line too long. Without pdflatex the test does nothing and reports it.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use robot_document::latex::{Layout, Page, document};
 use robot_document::{EquationOptions, Form, robot};
 use robot_model::description::read_toml;
 
-/// Runs pdflatex once; its log, or `None` if there is no such program.
+/// Runs pdflatex once and returns its log, or `None` if the program does not exist.
 fn log(folder: &Path, name: &str, latex: &str) -> Option<String> {
     std::fs::create_dir_all(folder).unwrap();
     std::fs::write(folder.join(format!("{name}.tex")), latex).unwrap();

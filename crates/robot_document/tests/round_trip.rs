@@ -1,5 +1,5 @@
-//! What is printed is read back and proved equal to what the program computes: by polynomials where
-//! that is short, else by values at several states.
+//! Printed equations are read back and proved equal to the values that the program computes: by polynomials if these
+//! are short enough, otherwise by values at several states.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
@@ -24,7 +24,7 @@ use robot_model::robot::{BaseFrames, Robot};
 use robot_symbolic::walk::derivatives;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
-/// What a proof by polynomials may cost.
+/// The limits of a proof by polynomials.
 const PROOF: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 100_000 };
 
@@ -55,7 +55,7 @@ fn a_tolerance_that_is_no_small_angle_is_refused() {
     }
 }
 
-/// The values of the quantities as the program has them, by their names.
+/// The values of the quantities as the program computes them, by their names.
 fn expected<'g>(
     robot: &Robot,
     graph: &'g Graph,
@@ -81,8 +81,8 @@ fn expected<'g>(
     values
 }
 
-/// The equations printed as LaTeX of that width and read back: each quantity and definition with its
-/// expression, definitions replaced by what they stand for.
+/// The equations printed as LaTeX for this line width and read back: the expression of each quantity and definition,
+/// with definitions substituted.
 fn read_back<'g>(
     printed: &Equations,
     width: f64,
@@ -90,7 +90,8 @@ fn read_back<'g>(
 ) -> Result<BTreeMap<String, Expr<'g>>, robot_document::Error> {
     let looks = Looks::new(&printed.symbols).unwrap();
     let mut values: BTreeMap<String, Expr<'g>> = BTreeMap::new();
-    // Definitions are in order, with the quantities that they use; the quantities by them may stand before.
+    // Definitions and the quantities that they use are in order; quantities that use definitions can stand before
+    // these.
     let (definitions, quantities): (Vec<_>, Vec<_>) =
         printed.groups.iter().partition(|group| group.definitions || group.used);
     for group in definitions.into_iter().chain(quantities) {
@@ -123,7 +124,7 @@ fn read_back<'g>(
     Ok(values)
 }
 
-/// Proves that the two are equal.
+/// Asserts that two expressions are equal.
 fn assert_equal(what: &str, graph: &Graph, found: Expr<'_>, expected: Expr<'_>) {
     if let Ok(difference) = Polynomial::of(found - expected, &PROOF)
         && difference.is_zero()
@@ -148,7 +149,7 @@ fn check(robot: &Robot, options: &EquationOptions, widths: &[f64]) {
     let printed = match equations(robot, options) {
         Ok(printed) => printed,
         Err(error) => {
-            // Whole joint torques of a long robot are refused.
+            // Expanded and collected joint torques of a robot with many joints are too long.
             let whole = matches!(options.form, Form::Expanded | Form::Collected);
             assert!(whole, "{}: {error} {options:?}", robot.name);
             return;
@@ -227,8 +228,8 @@ fn friction_reads_back() {
     }
 }
 
-/// The matrices and columns printed as LaTeX of that width and read back, by their names; those that did not fit by
-/// their entries.
+/// The matrices and columns, by their names, printed as LaTeX for this line width and read back; arrays that did not
+/// fit are read from their entries. Also returns the number of arrays that fit.
 fn arrays<'g>(
     printed: &Equations,
     width: f64,
@@ -256,7 +257,7 @@ fn arrays<'g>(
     let value = |math: &Math| {
         let value =
             meaning(math, graph, &looks).unwrap_or_else(|error| panic!("{error}: {math:?}"));
-        // Entries in rows that are shown are known by these names too.
+        // Entries can be known by the names of entries of other rows.
         value.substitute(|name| values.get(name).copied())
     };
     let mut found = BTreeMap::new();
@@ -284,7 +285,7 @@ fn arrays<'g>(
 fn joint_torques_are_those_of_the_matrices() {
     let mut matrices = 0;
     for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() > 1) {
-        // Long robots take seconds for each width.
+        // Robots with many joints take seconds for each width.
         let widths: &[f64] =
             if robot.degrees_of_freedom() < 6 { &[8.2, 16.0, 60.0] } else { &[16.0] };
         for christoffel in [false, true] {

@@ -1,4 +1,4 @@
-//! A body by its ten inertial parameters, in which joint torques are linear.
+//! A rigid body given by its ten inertial parameters, in which joint torques are linear.
 //!
 //! They are the mass m, the first moment h = m c and the inertia tensor I about the origin of a
 //! frame, in the order m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
@@ -9,9 +9,9 @@ use robot_symbolic::{Expr, Graph};
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 
-/// The place of the first moment's x component among the parameters.
+/// The index of the first moment's x component among the parameters.
 pub(crate) const FIRST_MOMENT: usize = 1;
-/// The place of I_xx among the parameters.
+/// The index of I_xx among the parameters.
 pub(crate) const TENSOR: usize = 4;
 /// The entries of the tensor in the order of the parameters.
 pub(crate) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)];
@@ -21,13 +21,13 @@ pub(crate) const ENTRIES: [(usize, usize); 6] = [(0, 0), (0, 1), (1, 1), (0, 2),
 pub(crate) enum Moments {
     /// The inertia tensor I.
     Inertia,
-    /// The second moments Σ = ∫ r rᵀ dm; I = tr(Σ) 1 − Σ. Both are indexed and turned in the
-    /// same way.
+    /// The second moments Σ = ∫ r rᵀ dm, with I = tr(Σ) 1 − Σ. They have the same indices and the same transformation
+    /// under rotations as the inertia tensor.
     Second,
 }
 
 impl Moments {
-    /// The inertia tensor of these second moments.
+    /// The tensor of this kind that corresponds to the given second moments.
     pub(crate) fn of_second<'g>(self, second: Matrix<'g>) -> Matrix<'g> {
         match self {
             Moments::Inertia => Matrix::identity(second.0[0][0].graph()) * second.trace() - second,
@@ -36,19 +36,19 @@ impl Moments {
     }
 }
 
-/// A body by its ten parameters about some origin.
+/// A rigid body given by its ten parameters about some origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Body<'g> {
-    /// m, kg.
+    /// The mass m, kg.
     pub(crate) mass: Expr<'g>,
-    /// h = m c, kg m.
+    /// The first moment h = m c, kg m.
     pub(crate) first: Vector<'g>,
-    /// I about the origin, kg m².
+    /// The inertia tensor I about the origin, kg m².
     pub(crate) tensor: Matrix<'g>,
 }
 
 impl<'g> Body<'g> {
-    /// The link's body, about the origin of the link's frame.
+    /// The body of a link, about the origin of the link's frame.
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> Body<'g> {
         let center = link.center_of_mass;
         let first = center * link.mass;
@@ -57,7 +57,7 @@ impl<'g> Body<'g> {
         Body { mass: link.mass, first, tensor }
     }
 
-    /// A body with one parameter 1 and the others 0.
+    /// A body with one parameter equal to 1 and all others equal to 0.
     pub(crate) fn unit(graph: &'g Graph, parameter: usize) -> Body<'g> {
         let one_at = |place: usize| graph.integer(i64::from(parameter == place));
         Body {
@@ -67,7 +67,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// This body in the axes that `rotation` takes its components to.
+    /// This body in the axes to which `rotation` transforms components.
     pub(crate) fn turned(self, rotation: Matrix<'g>) -> Body<'g> {
         Body {
             mass: self.mass,
@@ -76,7 +76,7 @@ impl<'g> Body<'g> {
         }
     }
 
-    /// This body about an origin from which its own origin lies at `arm`.
+    /// This body about another origin; `arm` is the position of its own origin relative to that one.
     pub(crate) fn about(self, arm: Vector<'g>) -> Body<'g> {
         let Body { mass, first, tensor } = self;
         let diagonal = Matrix::identity(mass.graph()) * (first.dot(arm) * 2 + arm.dot(arm) * mass);
@@ -85,7 +85,7 @@ impl<'g> Body<'g> {
         Body { mass, first: first + arm * mass, tensor }
     }
 
-    /// The parameters in their order.
+    /// The parameters in order.
     pub(crate) fn parameters(&self) -> [Expr<'g>; LINK_PARAMETERS] {
         let (Vector([x, y, z]), Matrix(i)) = (self.first, self.tensor);
         let [xx, xy, yy, xz, yz, zz] = ENTRIES.map(|(row, column)| i[row][column]);
@@ -93,7 +93,7 @@ impl<'g> Body<'g> {
     }
 }
 
-/// The place of an entry of the tensor among the parameters.
+/// The index of an entry of the tensor among the parameters.
 pub(crate) fn tensor_place(row: usize, column: usize) -> usize {
     let (row, column) = (row.min(column), row.max(column));
     TENSOR + row + column * (column + 1) / 2

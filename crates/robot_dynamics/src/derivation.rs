@@ -1,4 +1,4 @@
-//! A robot in symbols with its recursion: the source of all functions and base parameters.
+//! A symbolic robot with its recursion, from which all functions and base parameters are derived.
 
 use std::cell::OnceCell;
 
@@ -11,24 +11,24 @@ use crate::economical::{Plan, Recursion};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::newton_euler;
 
-/// A symbolic robot, from which functions are derived in one graph.
+/// A symbolic robot from which functions are derived in one graph.
 #[derive(Debug)]
 pub struct Derivation<'r, 'g> {
     /// The robot.
     pub robot: &'r Robot,
     /// The symbolic robot.
     pub mechanism: Mechanism<'g>,
-    /// The economical recursion; `None` if a joint axis depends on parameters, for which it
-    /// cannot be set up: functions then come from the paper's iterations.
+    /// The economical recursion. `None` if a joint axis depends on parameters, because the recursion cannot be set up
+    /// in this case; functions are then derived from the paper's iterations.
     pub recursion: Option<Recursion<'g>>,
-    /// Whether pivots of the mass matrix may be small; computed on first use.
+    /// Whether pivots of the mass matrix may be small. This is computed on first use.
     pub(crate) small_pivots: OnceCell<bool>,
 }
 
 impl<'r, 'g> Derivation<'r, 'g> {
-    /// Expresses the robot in the symbols of `graph`, with constants rounded as code needs them.
+    /// Expresses the robot in the symbols of `graph`.
     ///
-    /// Without a plan the recursion takes [`Plan::default_for`].
+    /// If no plan is given, the recursion uses [`Plan::default_for`].
     #[must_use]
     pub fn new(
         robot: &'r Robot,
@@ -42,7 +42,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Derivation { robot, mechanism, recursion, small_pivots: OnceCell::new() }
     }
 
-    /// The operations of expressions; what depends on parameters alone is free.
+    /// The operations of the expressions; subexpressions that depend only on parameters are not counted.
     pub(crate) fn operations(&self, roots: &[Expr<'g>]) -> Operations {
         let symbol = |parameter: &Parameter| {
             self.mechanism.graph.find_symbol(&parameter.name).and_then(Expr::as_symbol)
@@ -51,7 +51,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         operations(roots, |symbol| free.contains(&symbol))
     }
 
-    /// This robot in the same graph, under another plan.
+    /// This robot in the same graph with another plan.
     #[must_use]
     pub fn with_plan(&self, plan: &Plan) -> Derivation<'r, 'g> {
         let mechanism = self.mechanism.clone();
@@ -60,14 +60,14 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Derivation { robot: self.robot, mechanism, recursion, small_pivots }
     }
 
-    /// The symbols of an input with an element per coordinate.
+    /// The symbols of an input that has one element for each coordinate.
     pub(crate) fn coordinate_symbols(&self, variable: JointVariable) -> Vec<Expr<'g>> {
         let names = variable.symbols(self.mechanism.degrees_of_freedom);
         names.iter().map(|name| self.mechanism.graph.symbol(name)).collect()
     }
 
-    /// The paper's joint torques with some variables 0: the substitute if the economical recursion
-    /// cannot be set up.
+    /// The joint torques by the paper's iterations, with some variables set to 0. They replace the economical recursion
+    /// if it cannot be set up.
     pub(crate) fn paper_torques(&self, wrench: bool, zero: &[JointVariable]) -> Vec<Expr<'g>> {
         let effects = Effects { wrench, friction: false };
         let torques = newton_euler::newton_euler(&self.mechanism, effects).generalized_forces;

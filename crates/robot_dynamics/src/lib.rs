@@ -1,8 +1,8 @@
 //! Derivation of a robot's dynamics as symbolic expressions.
 //!
-//! [`mechanism`] makes a symbolic robot from a checked [`robot_model::robot::Robot`]; the recursions turn it into
-//! equations of motion, in which every quantity is a named expression: [`newton_euler`] is the paper's recursion, for
-//! people, and [`economical`] a second form that needs the fewest operations, for code.
+//! [`mechanism`] builds a symbolic robot from a checked [`robot_model::robot::Robot`]. Two recursions derive equations
+//! of motion from it: [`newton_euler`] is the paper's recursion, in which every quantity is a named expression, meant
+//! for readers; [`economical`] is a second form with the fewest operations, meant for code.
 
 pub mod base_parameters;
 mod body;

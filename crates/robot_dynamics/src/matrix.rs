@@ -2,17 +2,17 @@
 
 use robot_symbolic::{Expr, Graph};
 
-/// Knowledge about the pivots of a matrix that must be positive definite.
+/// What is known about the pivots of a matrix that must be positive definite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pivots {
-    /// Nothing is known: a pivot that is not above 0 and finite makes all results that depend on it NaN.
+    /// Nothing is known. A pivot that is not positive and finite makes all results that depend on it NaN.
     Checked,
-    /// They are above 0 and finite.
+    /// All pivots are positive and finite.
     Positive,
 }
 
 impl Pivots {
-    /// 1/D.
+    /// The reciprocal of a pivot.
     pub(crate) fn reciprocal(self, pivot: Expr<'_>) -> Expr<'_> {
         match self {
             Pivots::Checked => pivot.recip_positive(),
@@ -65,16 +65,15 @@ impl<'g> SymmetricMatrix<'g> {
         (0..self.order).flat_map(row).collect()
     }
 
-    /// Solves A x = b by A = Lᵀ D L from the last row to the first, which keeps the zeros between
-    /// branches of a tree zero (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section
-    /// 6.5). One division per row whose pivot is not constant, no branch. A must be positive
-    /// definite.
+    /// Solves A x = b by A = Lᵀ D L, from the last row to the first, which preserves the zeros between branches of a
+    /// tree (R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 6.5). It needs one division for each row
+    /// whose pivot is not constant, and no branch. A must be positive definite.
     #[must_use]
     pub fn solve(self, right: Vec<Expr<'g>>, pivots: Pivots) -> Vec<Expr<'g>> {
         self.solve_all(vec![right], pivots).into_iter().flatten().collect()
     }
 
-    /// [`SymmetricMatrix::solve`] for several right sides, with one factorization.
+    /// Solves A x = b like [`SymmetricMatrix::solve`] for several right sides, with one factorization.
     #[must_use]
     pub fn solve_all(
         mut self,
@@ -85,7 +84,8 @@ impl<'g> SymmetricMatrix<'g> {
         right.into_iter().map(|side| self.outward(&reciprocals, &side)).collect()
     }
 
-    /// Makes the matrix L D below the diagonal and D on it, the right sides those of L, and gives 1/D.
+    /// Replaces the entries below the diagonal by L D and the diagonal by D, transforms the right sides accordingly,
+    /// and returns 1/D.
     fn eliminate(&mut self, right: &mut [Vec<Expr<'g>>], pivots: Pivots) -> Vec<Expr<'g>> {
         let mut reciprocals: Vec<Expr<'g>> = vec![];
         for pivot in (0..self.order).rev() {
@@ -106,14 +106,14 @@ impl<'g> SymmetricMatrix<'g> {
         reciprocals
     }
 
-    /// D of A = Lᵀ D L.
+    /// The pivots D of A = Lᵀ D L.
     #[must_use]
     pub fn pivots(mut self, pivots: Pivots) -> Vec<Expr<'g>> {
         self.eliminate(&mut [], pivots);
         (0..self.order).map(|row| self.at(row, row)).collect()
     }
 
-    /// The solution from the first row to the last, once the matrix is L below D.
+    /// Solves the triangular system from the first row to the last, after [`SymmetricMatrix::eliminate`].
     fn outward(&self, reciprocals: &[Expr<'g>], right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut solution: Vec<Expr<'g>> = vec![];
         for (row, (value, reciprocal)) in right.iter().zip(reciprocals).enumerate() {
@@ -133,7 +133,7 @@ impl<'g> SymmetricMatrix<'g> {
 /// A square matrix.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SquareMatrix<'g> {
-    /// Row by row.
+    /// The entries, row by row.
     entries: Vec<Expr<'g>>,
     order: usize,
 }
@@ -145,7 +145,7 @@ impl<'g> SquareMatrix<'g> {
         SquareMatrix { entries: vec![graph.zero(); order * order], order }
     }
 
-    /// The matrix of these rows, one after the other.
+    /// The matrix with the given entries, row by row.
     #[must_use]
     pub fn from_rows(entries: Vec<Expr<'g>>, order: usize) -> SquareMatrix<'g> {
         SquareMatrix { entries, order }
@@ -157,24 +157,24 @@ impl<'g> SquareMatrix<'g> {
         self.order
     }
 
-    /// An entry.
+    /// The entry in a row and column.
     #[must_use]
     pub fn at(&self, row: usize, column: usize) -> Expr<'g> {
         self.entries[row * self.order + column]
     }
 
-    /// Adds to an entry.
+    /// Adds to the entry in a row and column.
     pub fn add(&mut self, row: usize, column: usize, value: Expr<'g>) {
         self.entries[row * self.order + column] += value;
     }
 
-    /// A column.
+    /// The entries of a column.
     #[must_use]
     pub fn column(&self, column: usize) -> Vec<Expr<'g>> {
         (0..self.order).map(|row| self.at(row, column)).collect()
     }
 
-    /// All entries row by row.
+    /// All entries, row by row.
     #[must_use]
     pub fn rows(&self) -> Vec<Expr<'g>> {
         self.entries.clone()

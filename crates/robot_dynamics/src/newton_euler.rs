@@ -1,12 +1,12 @@
-//! The paper's iterations: Newton–Euler in the frames of the links, outward and inward.
+//! The paper's iterations: the outward and inward Newton–Euler recursions in the frames of the links.
 //!
-//! Symbols and equation numbers are those of the paper "The dynamic model of TRTTR1 modular serial
-//! robot": a_c, F, M_c per link, F_l and M_l per joint, Q per coordinate. Every vector is in its own
-//! link's frame; M_l is taken about the origin of that frame. The iterations hold for trees and for
-//! joints about or along any axis.
+//! Symbols and equation numbers are those of the paper "The dynamic model of TRTTR1 modular serial robot": a_c, F and
+//! M_c for each link, F_l and M_l for each joint, Q for each coordinate. Every vector is in the frame of its own link;
+//! M_l is taken about the origin of this frame. The iterations hold for trees and for joints about or along arbitrary
+//! axes.
 //!
-//! This recursion is for people: its expressions expand to the equations that the paper prints. The
-//! code's own recursion is cheaper, and its inner forces have no physical meaning.
+//! This recursion is meant for readers: its expressions expand to the equations that the paper prints. The recursion
+//! for code needs fewer operations, but its internal forces have no physical meaning.
 
 use robot_model::functions::Effects;
 use robot_model::robot::JointKind;
@@ -20,7 +20,7 @@ use crate::vector::{Matrix, Vector};
 /// The motion of a link, in its own frame.
 #[derive(Clone, Copy, Debug)]
 pub struct LinkMotion<'g> {
-    /// \[R\]ᵢ of the parent: link components to parent components.
+    /// \[R\]ᵢ: the rotation from link components to parent components.
     pub rotation: Matrix<'g>,
     /// r̄ᵢ: the origin in parent components, m.
     pub origin: Vector<'g>,
@@ -50,11 +50,11 @@ pub struct LinkWrench<'g> {
 /// The results of both iterations.
 #[derive(Clone, Debug)]
 pub struct NewtonEuler<'g> {
-    /// Per link, from the outward iterations.
+    /// The motion of each link, from the outward iterations.
     pub motions: Vec<LinkMotion<'g>>,
-    /// Per link, from the inward iterations.
+    /// The wrench of each link, from the inward iterations.
     pub wrenches: Vec<LinkWrench<'g>>,
-    /// Per coordinate: the generalized force, equation (3), N m or N.
+    /// The joint torque or force of each coordinate, equation (3), N m or N.
     pub generalized_forces: Vec<Expr<'g>>,
     kinds: Vec<JointKind>,
 }
@@ -67,7 +67,7 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
     let mut generalized_forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
     let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
-        // (2): the wrench projected on the joint axis, with the drive's own inertia.
+        // (2): the wrench projected on the joint axis, plus the inertia of the drive itself.
         let contact = match link.kind {
             JointKind::Revolute => wrench.moment,
             JointKind::Prismatic => wrench.force,
@@ -84,9 +84,9 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
     NewtonEuler { motions, wrenches, generalized_forces, kinds }
 }
 
-/// The outward iterations: from the base to the tips.
+/// The outward iterations, from the base to the tips.
 fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
-    // Gravity enters as the base's acceleration against it.
+    // Gravity is represented by the opposite acceleration of the base.
     let base = mechanism.base.unwrap_or(BaseMotion::at_rest(mechanism.gravity));
     let base = (base.angular_velocity, base.angular_acceleration, base.acceleration);
     let mut motions: Vec<LinkMotion<'g>> = Vec::with_capacity(mechanism.links.len());
@@ -97,7 +97,7 @@ fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
         });
         let (rotation, origin) = (link.joint_rotation(), link.joint_translation());
         let turned_back = rotation.transpose();
-        // The parent's motion at this link's origin, in this link's axes.
+        // The motion of the parent at this link's origin, in this link's axes.
         let carried_omega = turned_back * omega;
         let carried_epsilon = turned_back * epsilon;
         let carried_a =
@@ -132,7 +132,7 @@ fn outward<'g>(mechanism: &Mechanism<'g>) -> Vec<LinkMotion<'g>> {
     motions
 }
 
-/// The inward iterations: from the tips to the base.
+/// The inward iterations, from the tips to the base.
 fn inward<'g>(
     mechanism: &Mechanism<'g>,
     motions: &[LinkMotion<'g>],
@@ -166,15 +166,15 @@ fn inward<'g>(
     wrenches
 }
 
-/// The moment that a gyroscopic rotor requires of the link that carries it, beyond that of a locked rotor: the
-/// rate of its angular momentum J N q̇ a, with the joint axis a fixed to the carrier.
+/// The moment that a gyroscopic rotor requires from the link that carries it, beyond that of a locked rotor: the time
+/// derivative of its angular momentum J N q̇ a, with the joint axis a fixed to the carrier.
 fn rotor_moment<'g>(link: &MechanismLink<'g>, carrier: &LinkMotion<'g>) -> Vector<'g> {
     let axis = link.axis_in_parent();
     let turning = carrier.angular_velocity.cross(axis) * link.velocity;
     (axis * link.acceleration + turning) * link.rotor_coupling
 }
 
-/// The torque that a gyroscopic rotor requires of its joint while its carrier turns: J N a · ε of the carrier.
+/// The torque that a gyroscopic rotor requires at its joint while its carrier turns: J N a · ε, with ε of the carrier.
 fn rotor_torque<'g>(link: &MechanismLink<'g>, motions: &[LinkMotion<'g>]) -> Expr<'g> {
     let carrier = link.parent.map(|parent| motions[parent].angular_acceleration);
     let zero = link.rotor_coupling.graph().zero();
@@ -182,8 +182,8 @@ fn rotor_torque<'g>(link: &MechanismLink<'g>, motions: &[LinkMotion<'g>]) -> Exp
 }
 
 impl<'g> LinkWrench<'g> {
-    /// The wrench in the axes and about the origin of the frame in which its own frame lies at
-    /// `origin`, turned by `rotation`.
+    /// The wrench in the axes and about the origin of a frame relative to which its own frame is at `origin` and
+    /// rotated by `rotation`.
     fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> LinkWrench<'g> {
         let force = rotation * self.force;
         LinkWrench { force, moment: rotation * self.moment + origin.cross(force) }
@@ -194,8 +194,8 @@ impl<'g> LinkWrench<'g> {
     }
 }
 
-/// Q_f of equations (4)-(5), with the further terms of the robot file: N m or N, for a joint of that
-/// kind and axis with that velocity, whose contact force F̄_l has the link's axes.
+/// The friction Q_f of equations (4) and (5), including the additional terms of the robot file, N m or N. The contact
+/// force F̄_l and the axis are in the link's axes.
 #[must_use]
 pub fn friction<'g>(
     friction: &MechanismFriction<'g>,
@@ -215,13 +215,13 @@ pub fn friction<'g>(
         force += friction.coulomb * lever * across * sign; // (5)
     }
     let (positive, negative) = (friction.coulomb_positive, friction.coulomb_negative);
-    // Constant dry friction: the mean with the sign, and half the difference with its square.
+    // Constant dry friction: the mean times the sign, and half of the difference times the squared sign.
     force += (positive + negative) / 2 * sign;
     force + (positive - negative) / 2 * sign * sign
 }
 
 impl<'g> NewtonEuler<'g> {
-    /// The quantities of a kind, in order of links (coordinates for Q) and components.
+    /// All quantities of a kind, in the order of the links (of the coordinates for Q) and components.
     #[must_use]
     pub fn quantities(&self, kind: Kind) -> Vec<Quantity<'g>> {
         let vectors: Vec<Vector<'g>> = match kind {

@@ -1,5 +1,5 @@
-//! Kinematics and energies straight from the links' frames: for robots whose joint axes depend on
-//! parameters, for which the economical recursion cannot be set up.
+//! Kinematics and energies derived directly from the links' frames, for robots whose joint axes depend on parameters:
+//! the economical recursion cannot be set up for them.
 
 use robot_model::functions::Effects;
 use robot_model::robot::JointKind;
@@ -73,7 +73,7 @@ pub(crate) fn jacobian<'g>(
     rows
 }
 
-/// J̇ q̇: the rate of J q̇ at constant q̇.
+/// J̇ q̇: the time derivative of J q̇ at constant q̇.
 pub(crate) fn jacobian_dot_qd<'g>(
     derivation: &Derivation<'_, 'g>,
     frame: &MechanismFrame<'g>,
@@ -94,7 +94,7 @@ pub(crate) fn jacobian_dot_qd<'g>(
     drift
 }
 
-/// ½ q̇ᵀ M q̇.
+/// The kinetic energy ½ q̇ᵀ M q̇.
 pub(crate) fn kinetic_energy<'g>(
     derivation: &Derivation<'_, 'g>,
     matrix: &SymmetricMatrix<'g>,
@@ -109,7 +109,7 @@ pub(crate) fn kinetic_energy<'g>(
     twice / 2
 }
 
-/// −Σ m g · c.
+/// The potential energy −Σ m g · c.
 pub(crate) fn potential_energy<'g>(derivation: &Derivation<'_, 'g>) -> Expr<'g> {
     let mechanism = &derivation.mechanism;
     let mut energy = mechanism.graph.zero();

@@ -1,4 +1,4 @@
-//! Named expressions with their meaning.
+//! Named expressions and their meanings.
 
 use robot_symbolic::Expr;
 
@@ -7,11 +7,11 @@ use robot_model::unit::Dimension;
 /// A scalar quantity of a robot's dynamics, or one component of a vector.
 #[derive(Clone, Debug)]
 pub struct Quantity<'g> {
-    /// Its symbol.
+    /// The symbol of the quantity.
     pub symbol: Symbol,
-    /// Its value.
+    /// The value of the quantity.
     pub value: Expr<'g>,
-    /// Its dimension.
+    /// The dimension of the quantity.
     pub dimension: Dimension,
 }
 
@@ -24,11 +24,11 @@ pub enum Kind {
     Force,
     /// M_c = J ε + ω × J ω, equation (20).
     Moment,
-    /// F_l: the force in the joint, equation (26).
+    /// F_l: the force that the joint transmits, equation (26).
     LinkForce,
-    /// M_l: the moment in the joint about the frame's origin, equation (36).
+    /// M_l: the moment that the joint transmits, about the origin of the frame, equation (36).
     LinkMoment,
-    /// Q: the generalized force, equation (3).
+    /// Q: the joint torque or force, equation (3).
     GeneralizedForce,
 }
 
@@ -56,7 +56,7 @@ impl Kind {
         }
     }
 
-    /// The kind of that name.
+    /// The kind with the given name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Kind> {
         Kind::ALL.into_iter().find(|kind| kind.name() == name)
@@ -69,14 +69,14 @@ impl Kind {
     }
 }
 
-/// A quantity of one link or joint: `F_l5.x`, `Q2`.
+/// A quantity of one link or joint, such as `F_l5.x` or `Q2`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol {
     /// The kind of quantity.
     pub kind: Kind,
     /// The number of the link or coordinate, from 1.
     pub number: usize,
-    /// 0, 1, 2 for x, y, z; `None` for scalars.
+    /// The component, 0, 1 or 2 for x, y or z; `None` for scalars.
     pub component: Option<usize>,
 }
 

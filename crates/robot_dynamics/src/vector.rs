@@ -20,7 +20,7 @@ impl<'g> Vector<'g> {
         Vector([graph.zero(); 3])
     }
 
-    /// The vector of this component along z.
+    /// The vector with the given component along z.
     #[must_use]
     pub fn along_z(component: Expr<'g>) -> Vector<'g> {
         let zero = component.graph().zero();
@@ -74,7 +74,7 @@ impl<'g> Matrix<'g> {
         Matrix([[graph.zero(); 3]; 3])
     }
 
-    /// The matrix with entries by row and column.
+    /// The matrix whose entry in each row and column is given by a function.
     #[must_use]
     pub fn from_fn(mut entry: impl FnMut(usize, usize) -> Expr<'g>) -> Matrix<'g> {
         Matrix([0, 1, 2].map(|row| [0, 1, 2].map(|column| entry(row, column))))
@@ -117,7 +117,7 @@ impl<'g> Matrix<'g> {
         Matrix(self.0.map(|row| row.map(&mut function)))
     }
 
-    /// The rotation by an angle with the given sine and cosine about a unit axis (Rodrigues):
+    /// The rotation by an angle with the given sine and cosine about a unit axis (Rodrigues' formula):
     /// R = 1 + s \[k\]× + (1 − c) \[k\]×².
     #[must_use]
     pub fn rotation(axis: Vector<'g>, sine: Expr<'g>, cosine: Expr<'g>) -> Matrix<'g> {
@@ -125,8 +125,8 @@ impl<'g> Matrix<'g> {
         let Vector(k) = axis;
         let cross = Matrix::skew(axis);
         Matrix::from_fn(|row, column| {
-            // cos δᵢⱼ + (1 − cos) kᵢ kⱼ + sin [k]×: the same, with fewer operations; about a
-            // coordinate axis the diagonal's own entry is exactly 1.
+            // cos δᵢⱼ + (1 − cos) kᵢ kⱼ + sin [k]× is the same rotation with fewer operations. For a coordinate axis,
+            // its own diagonal entry is exactly 1.
             let along = k[row] * k[column];
             let even = match (row == column, along.is_one()) {
                 (true, true) => graph.one(),

@@ -1,4 +1,4 @@
-//! A function reads no parameter that does not act on it: no rounding of it is left in the results.
+//! Functions do not depend on parameters that have no effect on them, so that such parameters cause no rounding errors.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -19,7 +19,7 @@ fn robot_file(name: &str) -> Robot {
     read_toml(name, &std::fs::read_to_string(path).unwrap()).unwrap().robot
 }
 
-/// Shipped robots with parameters, and random ones with every value of their bodies a parameter.
+/// Some robots of the project that have parameters, and random robots in which every value of a body is a parameter.
 fn robots() -> Vec<(String, Robot)> {
     let files = ["trttr1.toml", "planar_2r.toml", "planar_3r.toml"];
     let mut robots: Vec<_> =
@@ -38,7 +38,7 @@ fn nominal(robot: &Robot, name: &str) -> Option<f64> {
     Some(robot.parameter(name)?.value.as_ref()?.to_f64())
 }
 
-/// The value of a symbol: a parameter's nominal one, or one that its name decides.
+/// The value of a symbol: the nominal value of a parameter, or otherwise a value that depends on the symbol's name.
 fn value(robot: &Robot, name: &str) -> f64 {
     let seed = name.bytes().fold(7, |seed: u64, byte| seed.wrapping_mul(31) + u64::from(byte));
     nominal(robot, name).unwrap_or_else(|| Random::new(seed).uniform(-1.5, 1.5))
@@ -77,7 +77,7 @@ fn every_parameter_of_a_function_acts_on_it() {
                         continue;
                     }
                     let changed = evaluated(&robot, &roots, &parameter.name, 1e3);
-                    // Inertias that no body has leave no accelerations.
+                    // With inertias that no body can have, there may be no accelerations.
                     let acts = usual.iter().zip(&changed).any(|(a, b)| {
                         (a - b).abs() > 1e-9 * a.abs() || (b.is_nan() && !a.is_nan())
                     });
@@ -126,7 +126,7 @@ fn solved(robot: &Robot, state: &State, changed: &str, to: f64) -> Vec<f64> {
     torques.iter().copied().collect()
 }
 
-/// A parameter that were left out though it acts would show here.
+/// Checks that no parameter with an effect is left out.
 #[test]
 fn torques_without_idle_parameters_are_those_of_the_solver() {
     for (name, robot) in robots() {

@@ -1,4 +1,4 @@
-//! What a pinned plan depends on, and what it does not.
+//! The properties on which a pinned plan depends, and those on which it does not.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
@@ -98,7 +98,7 @@ fn what_a_plan_may_depend_on_is_held() {
     ] {
         assert_ne!(mechanics(&edited(from, to)), text, "{to}");
     }
-    // Two links of one mass are another mechanism than two of their own.
+    // A mechanism in which two links share a mass differs from one in which each has its own.
     let shared = edited("mass = 3", "mass = \"m\"");
     let own =
         ARM.replace("\nr = ", "\nm2 = { value = 3 }\nr = ").replace("mass = 3", "mass = \"m2\"");
@@ -106,8 +106,7 @@ fn what_a_plan_may_depend_on_is_held() {
     assert!(!text.contains("real"), "constants are exact\n{text}");
 }
 
-/// The plan that is searched is the same where the text is, whatever the parameters are called and however
-/// they stand.
+/// Robots with the same text have the same plan, independently of the names and the order of their parameters.
 #[test]
 fn equal_mechanics_have_one_plan() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots");

@@ -10,7 +10,7 @@ use robot_model::robot::Robot;
 use robot_numeric::random::Random;
 use robot_symbolic::{Graph, operations};
 
-/// A robot file that grows link by link, with values at random.
+/// A robot file that is built link by link, with random values.
 struct File {
     text: String,
     random: Random,
@@ -22,12 +22,13 @@ impl File {
         File { text, random: Random::new(seed) }
     }
 
-    /// From `low` thousandths to below `high`.
+    /// A random number from `low` thousandths to below `high` thousandths.
     fn between(&mut self, low: i64, high: i64) -> f64 {
         (low + self.random.index((high - low) as usize) as i64) as f64 / 1000.0
     }
 
-    /// A link on a revolute joint with all inertial parameters, its axes turned about x by so many right angles.
+    /// Adds a link on a revolute joint, with all inertial parameters; its axes are turned about x by `quarters` right
+    /// angles.
     fn link(&mut self, name: &str, parent: &str, axis: &str, origin: [f64; 3], quarters: usize) {
         let [mass, x, y, z] = [(500, 4000), (-50, 50), (-50, 50), (-200, 200)]
             .map(|(low, high)| self.between(low, high));
@@ -80,7 +81,7 @@ fn cost(robot: &Robot, plan: &Plan) -> usize {
     operations(&torques, |_| false).flops()
 }
 
-/// The legs have nothing in common but the base, so that each gets the plan that it gets as a robot of its own.
+/// The legs are only connected by the base, so each of them gets the plan that it would get as a separate robot.
 #[test]
 fn each_leg_gets_its_own_plan() {
     let mut quadruped = File::new(5);
@@ -100,7 +101,7 @@ fn each_leg_gets_its_own_plan() {
     assert_eq!(cost(&robot, &found.plan), found.operations);
 }
 
-/// A chain that is too long to be swept as a whole does not end with one plan for all links.
+/// The search of a chain that is too long to be swept as a whole must not end with the same options for all links.
 #[test]
 fn a_long_chain_is_searched_window_by_window() {
     let robot = chain(24);

@@ -1,6 +1,6 @@
-//! The paper's text against itself: with the 34 terms of `docs/trttr1.md` replaced, its equations satisfy
-//! the paper's own relations; with any one of them left, a relation named beside it fails. Nothing of
-//! the derivation takes part but the replaced terms.
+//! Checks the text of the paper against itself. With the 34 terms of `docs/trttr1.md` replaced, its equations satisfy
+//! the paper's own relations; if any one of these terms is not replaced, a relation that the table names fails. Of the
+//! derivation, only the replacement terms are used.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -9,27 +9,27 @@ use nalgebra::{Matrix3, Vector3};
 use robot_numeric::random::Random;
 use robot_symbolic::Graph;
 
-/// What one side of an equation may be off by, where values are about 1.
+/// The maximum difference of the two sides of an equation whose values are about 1.
 const TOLERANCE: f64 = 1e-9;
 
 fn project(file: &str) -> String {
     std::fs::read_to_string(format!("{}/../../{file}", env!("CARGO_MANIFEST_DIR"))).unwrap()
 }
 
-/// The value of a symbol, which its name decides.
+/// A value for a symbol, derived from its name.
 fn value(symbol: &str) -> f64 {
     let seed = symbol.bytes().fold(7, |seed, byte| 31 * seed + u64::from(byte));
     Random::new(seed).uniform(0.3, 1.7)
 }
 
-/// The value of an expression in infix text; `F_l5.y` is not a name there.
+/// The value of an expression in infix notation, in which `F_l5.y` would not be a valid name.
 fn evaluate(text: &str) -> f64 {
     let graph = Graph::new();
     let expr = graph.parse(&text.replace("F_l5.y", "Fl5y")).unwrap();
     expr.evaluate(|symbol| value(&graph.symbol_name(symbol)))
 }
 
-/// The right sides of the text's equations by number and quantity: `(39) M_l4.z`.
+/// The right sides of the paper's equations by number and quantity, such as `(39) M_l4.z`.
 fn equations() -> Vec<(String, String)> {
     let mut equations: Vec<(String, String)> = vec![];
     for line in project("docs/trttr1.printed").lines() {
@@ -44,7 +44,7 @@ fn equations() -> Vec<(String, String)> {
     equations
 }
 
-/// A row of the table of grades.
+/// A row of the table in `docs/trttr1.md`.
 struct Grade {
     equation: String,
     printed: String,
@@ -72,17 +72,18 @@ fn grades() -> Vec<Grade> {
     rows.collect()
 }
 
-/// The values of the text's equations, corrected by grades.
+/// The values of the paper's equations, with some terms corrected.
 #[derive(Default)]
 struct Text {
     quantities: BTreeMap<String, f64>,
-    /// By number, for what the text has twice: `(53) Q1` beside `(52) Q1`.
+    /// Values by equation number, for quantities that the paper prints twice, such as `(53) Q1` in addition to
+    /// `(52) Q1`.
     numbered: BTreeMap<String, f64>,
     failed: BTreeSet<String>,
 }
 
 impl Text {
-    /// The names among the equations are left to [`Text::check`].
+    /// Computes the values; equations that refer to other quantities by name are left to [`Text::check`].
     fn new(corrections: &[&Grade]) -> Text {
         let mut text = Text::default();
         for (name, terms) in equations() {
@@ -115,7 +116,7 @@ impl Text {
         self.hold(relation, left.as_slice(), right.as_slice());
     }
 
-    /// The relations that fail.
+    /// Returns the relations that do not hold.
     fn check(mut self) -> BTreeSet<String> {
         let [q2, q5] = ["q2", "q5"].map(value);
         let [about_z, about_y] = [
@@ -132,7 +133,7 @@ impl Text {
         let tip_moment = Vector3::from(["Mx6", "My6", "Mz6"].map(value));
         let reach = value("q4") + value("l4");
         let height = value("q3") + value("l2");
-        // Per link: its relations, what turns from the next link's axes, and r of the next link.
+        // For each link: its relations, the rotation from the next link's axes, and the position r of the next link.
         let links = [
             (5, "(26)", "(36)", one, Vector3::new(value("l6"), 0.0, 0.0)),
             (4, "(27)", "(38)", about_y, Vector3::new(value("l5"), 0.0, 0.0)),
@@ -168,7 +169,7 @@ impl Text {
     }
 }
 
-/// The relations that fail where all terms are replaced but one, or none is left out.
+/// The relations that do not hold if all terms, or all except one, are replaced.
 fn failures(grades: &[Grade], but: Option<usize>) -> BTreeSet<String> {
     let others = grades.iter().enumerate().filter(|(index, _)| Some(*index) != but);
     let corrections: Vec<&Grade> = others.map(|(_, grade)| grade).collect();

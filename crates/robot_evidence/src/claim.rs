@@ -1,4 +1,4 @@
-//! The claim: flat, without panics, and no calls but those of sines and cosines.
+//! The claim about generated code: it is flat and cannot panic, and its only calls are those of sines and cosines.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -10,7 +10,7 @@ use crate::listing::Listing;
 use crate::object_file::{Object, Referred};
 use crate::probe::{CRATE, Root};
 
-/// Sine and cosine of the platforms' libraries.
+/// The names of sines and cosines in the platforms' libraries.
 const CIRCULAR: [&str; 10] = [
     "sin",
     "cos",
@@ -24,89 +24,88 @@ const CIRCULAR: [&str; 10] = [
     "_sincosf",
 ];
 
-/// The compiled form of a function.
+/// The evidence about a function in compiled form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Evidence {
-    /// Its name: `Model::inverse_dynamics`.
+    /// The name, such as `Model::inverse_dynamics`.
     pub name: String,
-    /// Whether it takes slices of states, and so loops over them.
+    /// Whether it takes slices of states and therefore loops over them.
     pub takes_slices: bool,
-    /// Its measurements.
+    /// The measurements.
     pub measurements: Measurements,
-    /// Its calls that are not followed, by name, with the number of calls in the code.
+    /// The called functions whose code is not examined, by name, with the number of calls.
     pub calls: Vec<(String, usize)>,
     /// The violations of the claim.
     pub violations: Vec<Violation>,
 }
 
-/// Measurements of a function together with all called functions that are followed, each counted
-/// once.
+/// The measurements of a function together with all examined functions that it calls, each counted once.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Measurements {
-    /// Functions: this one, and those that it calls.
+    /// The number of functions: this one and the examined ones that it calls.
     pub functions: usize,
-    /// Instructions, padding left out.
+    /// The number of instructions, without padding.
     pub instructions: usize,
-    /// Conditional jumps, those between copies of a kernel left out.
+    /// The number of conditional jumps, without those that choose between copies of a kernel.
     pub conditional_jumps: usize,
-    /// Conditional jumps that choose between copies of a kernel, each for another processor.
+    /// The number of conditional jumps that choose between copies of a kernel for different processors.
     pub choices: usize,
-    /// Functions that panic.
+    /// The number of called functions that panic.
     pub panics: usize,
-    /// Bytes of stack of the function alone, the return address included.
+    /// The stack of the function alone in bytes, including the return address.
     pub frame: u64,
-    /// Bytes of stack of the deepest chain of calls within the object file; what `sin`, `cos` and
-    /// other functions of libraries take comes on top.
+    /// The stack of the deepest chain of calls within the object file, in bytes. The stack of `sin`, `cos` and other
+    /// library functions is not included.
     pub stack: u64,
-    /// Bytes of code.
+    /// The size of the code, in bytes.
     pub bytes: usize,
 }
 
 /// A violation of the claim.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Violation {
-    /// Conditional jumps.
+    /// The function has conditional jumps.
     Jumps {
-        /// Their number.
+        /// The number of jumps.
         count: usize,
-        /// In which function.
+        /// The function that contains them.
         place: String,
     },
-    /// Jumps or calls to where a register or memory says.
+    /// The function has jumps or calls to addresses in registers or memory.
     Indirect {
-        /// Their number.
+        /// The number of such jumps and calls.
         count: usize,
-        /// In which function.
+        /// The function that contains them.
         place: String,
     },
-    /// Instructions that trap.
+    /// The function has instructions that trap.
     Traps {
-        /// Their number.
+        /// The number of these instructions.
         count: usize,
-        /// In which function.
+        /// The function that contains them.
         place: String,
     },
-    /// A call of a function that panics.
+    /// A function that panics is called.
     Panic {
-        /// That function.
+        /// The function that panics.
         symbol: String,
         /// The function that calls it.
         place: String,
     },
-    /// A call of a function that is not looked into.
+    /// A function is called whose code is not examined.
     Call {
-        /// That function.
+        /// The called function.
         symbol: String,
         /// The function that calls it.
         place: String,
     },
-    /// A function that calls itself, be it through others: its stack has no bound.
+    /// The function calls itself, directly or through others, so its stack is unbounded.
     Recursion,
-    /// More stack than the budget of the robot file or the options lets it have.
+    /// The function takes more stack than the budget in the robot file or the options allows.
     Stack {
-        /// The bytes it takes.
+        /// The stack that it takes, in bytes.
         bytes: u64,
-        /// The bytes it may take.
+        /// The budget, in bytes.
         limit: u64,
     },
 }
@@ -137,7 +136,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// The evidence of all functions of an object file.
+/// Collects the evidence about all functions of an object file.
 pub(crate) fn module(object: &Object, roots: &[Root], profile: Profile) -> Result<Module, Error> {
     let listings: Vec<Listing> =
         object.functions.iter().map(|code| Listing::of(object, code)).collect();
@@ -166,11 +165,11 @@ struct Reader<'o> {
     profile: Profile,
 }
 
-/// The kind of a function outside of the object file.
+/// The kind of a function outside the object file.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Outside {
     Circular,
-    /// Fills with zeros: a large result that is mostly 0 starts with one.
+    /// Fills memory with zeros. This is called for large results that are mostly 0.
     Zeros,
     Memory,
     Panic,
@@ -195,11 +194,11 @@ impl Outside {
     }
 }
 
-/// As many conditional jumps as the choice between copies of a kernel takes in one function.
+/// The largest number of conditional jumps in a function that choose between copies of a kernel.
 const CHOICES: usize = 2;
 
 impl Reader<'_> {
-    /// The name of a function, the crate left out.
+    /// The name of a function, without the crate.
     fn name(&self, place: usize) -> &str {
         let names = &self.object.functions[place].names;
         let name = names.first().map_or("", String::as_str);
@@ -208,19 +207,19 @@ impl Reader<'_> {
         name.strip_prefix("model::").unwrap_or(name)
     }
 
-    /// Whether a function is one of the runtime's for sines and cosines.
+    /// Whether a function is one of the runtime's functions for sines and cosines.
     fn is_trigonometry(&self, place: usize) -> bool {
         let name = self.name(place);
         name.contains("runtime::")
             && ["sin_cos", "::trig::", "::std_trig::"].iter().any(|part| name.contains(part))
     }
 
-    /// Whether a function is one of the runtime's that ask the processor.
+    /// Whether a function is one of the runtime's functions that detect the processor.
     fn asks(&self, place: usize) -> bool {
         self.name(place).contains("runtime::processor::x86::ask")
     }
 
-    /// How many of a function's conditional jumps choose between copies of a kernel, each for another processor.
+    /// The number of a function's conditional jumps that choose between copies of a kernel for different processors.
     fn choices(&self, place: usize) -> usize {
         let choose = self
             .called(place)
@@ -228,7 +227,7 @@ impl Reader<'_> {
         if choose { self.listings[place].conditional_jumps.min(CHOICES) } else { 0 }
     }
 
-    /// The evidence of a function, and the trigonometry that it reaches.
+    /// The evidence about a function, and the functions for sines and cosines that it reaches.
     fn evidence(&self, root: usize, name: &str, takes_slices: bool) -> (Evidence, Vec<usize>) {
         let walk = self.walk(root);
         let mut measurements = Measurements {
@@ -275,7 +274,7 @@ impl Reader<'_> {
         (evidence, walk.trigonometry)
     }
 
-    /// The violations of one function.
+    /// Adds the violations in one function.
     fn judge(&self, place: usize, takes_slices: bool, violations: &mut BTreeSet<Violation>) {
         let (listing, here) = (&self.listings[place], self.name(place).to_owned());
         let jumps = if takes_slices { 0 } else { listing.conditional_jumps - self.choices(place) };
@@ -302,7 +301,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The functions of the object file that one calls.
+    /// The functions of the object file that a function calls.
     fn called(&self, place: usize) -> impl Iterator<Item = usize> {
         self.listings[place].calls.iter().filter_map(|called| match called {
             Referred::Function(place) => Some(*place),
@@ -310,8 +309,8 @@ impl Reader<'_> {
         })
     }
 
-    /// All functions that one reaches, in the order in which they are found. In dev the runtime's
-    /// trigonometry is not entered from outside.
+    /// All functions that a function reaches, in the order in which they are found. In dev, the functions for sines and
+    /// cosines are only examined on their own.
     fn walk(&self, root: usize) -> Walk {
         let (stack, recurs) = self.stack(root);
         let enters = self.profile == Profile::Release || self.is_trigonometry(root);
@@ -335,9 +334,10 @@ impl Reader<'_> {
         walk
     }
 
-    /// The stack of the deepest chain of calls, and whether a function calls itself.
+    /// The stack of the deepest chain of calls, in bytes, and whether a function calls itself.
     fn stack(&self, root: usize) -> (u64, bool) {
-        // Each function twice: when it is entered, and when all that it calls is known.
+        // Each function is visited twice: when it is entered, and when the stacks of all functions that it calls are
+        // known.
         let mut pending = vec![(root, false)];
         let (mut stacks, mut open) = (BTreeMap::<usize, u64>::new(), BTreeSet::new());
         let mut recurs = false;
@@ -360,9 +360,9 @@ impl Reader<'_> {
 
 /// The functions that a function reaches.
 struct Walk {
-    /// The functions that are looked into, itself first.
+    /// The examined functions, starting with the function itself.
     functions: Vec<usize>,
-    /// The functions of the runtime for sines and cosines.
+    /// The runtime's functions for sines and cosines.
     trigonometry: Vec<usize>,
     stack: u64,
     recurs: bool,
@@ -375,7 +375,7 @@ mod tests {
     use super::*;
     use crate::{Compiler, Probe};
 
-    /// A module that breaks the claim in every way, and functions that keep it.
+    /// A module that violates the claim in every way, with some functions that satisfy it.
     const BROKEN: &str = r#"
         pub struct Model { k: [f64; 4] }
         unsafe extern "C" { safe fn measure() -> f64; }

@@ -1,4 +1,4 @@
-//! The user's compiler.
+//! Compilation with the user's compiler.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -8,13 +8,13 @@ use robot_build::visible;
 use crate::error::Error;
 use crate::probe::{CRATE, Probe, ROOT_FILE};
 
-/// Lines of the compiler's messages that are shown.
+/// The largest number of lines of the compiler's messages that are shown.
 const SHOWN_LINES: usize = 12;
 
 /// The compiler's message about a processor that it does not know.
 const UNKNOWN_CPU: &str = "is not a recognized processor";
 
-/// The profile of compilation, as Cargo sets it by default.
+/// A profile of compilation, with the default settings of Cargo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Profile {
     /// `cargo build`: no optimization, overflow checks, debug assertions.
@@ -24,7 +24,7 @@ pub enum Profile {
 }
 
 impl Profile {
-    /// Cargo's name of the profile.
+    /// The name of the profile in Cargo.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -33,7 +33,7 @@ impl Profile {
         }
     }
 
-    /// Its arguments for the compiler.
+    /// The arguments for the compiler.
     #[must_use]
     pub fn flags(self) -> &'static [&'static str] {
         match self {
@@ -43,23 +43,23 @@ impl Profile {
     }
 }
 
-/// A compiler and what it compiles for.
+/// A compiler with its target.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Compiler {
-    /// The compiler; without it the variable `RUSTC`, or `rustc`.
+    /// The path of the compiler; `None` for the variable `RUSTC` or, if it is not set, `rustc`.
     pub rustc: Option<PathBuf>,
-    /// The target; the compiler's own machine without it.
+    /// The target; `None` for the machine on which the compiler runs.
     pub target: Option<String>,
-    /// The processor of that target; the plainest without it.
+    /// The processor of the target; `None` for the most basic one.
     pub cpu: Option<String>,
 }
 
 impl Compiler {
-    /// `rustc 1.95.0 (…) for x86_64-unknown-linux-gnu`
+    /// The description of the compiler, such as `rustc 1.95.0 (…) for x86_64-unknown-linux-gnu`.
     ///
     /// # Errors
     ///
-    /// A compiler that does not start.
+    /// If the compiler cannot be started, or if the program is not a Rust compiler.
     pub fn description(&self) -> Result<String, Error> {
         let output = self.run(Command::new(self.path()).arg("-vV"))?;
         let text = String::from_utf8_lossy(&output.stdout).into_owned();
@@ -79,7 +79,7 @@ impl Compiler {
         Ok(format!("{version} for {target}{cpu}"))
     }
 
-    /// The object file of a crate.
+    /// Compiles a crate and returns the object file.
     pub(crate) fn compile(&self, probe: &Probe, profile: Profile) -> Result<Vec<u8>, Error> {
         let folder = tempfile::tempdir()?;
         for file in &probe.files {
@@ -90,7 +90,7 @@ impl Compiler {
             std::fs::write(path, file.contents.bytes())?;
         }
         let mut command = Command::new(self.path());
-        // One unit, so that one file has all the code.
+        // With one codegen unit, all code is in one file.
         command.args([
             "--crate-type=lib",
             "--edition=2024",
@@ -109,7 +109,7 @@ impl Compiler {
         }
         command.args(["--emit=obj", "--out-dir"]).arg(folder.path());
         let output = self.run(command.arg(folder.path().join(ROOT_FILE)))?;
-        // A processor that it does not know it may ignore.
+        // The compiler can ignore a processor that it does not know.
         let is_ignored = String::from_utf8_lossy(&output.stderr).contains(UNKNOWN_CPU);
         if !output.status.success() || is_ignored {
             return Err(self.refused(&output, folder.path()));
@@ -117,7 +117,7 @@ impl Compiler {
         Ok(std::fs::read(folder.path().join(CRATE).with_extension("o"))?)
     }
 
-    /// Whether the functions are compiled for several processors, as they are with the default features on x86-64.
+    /// Whether the functions are compiled for several processors, as is the default on x86-64.
     fn dispatches(&self) -> bool {
         let target = self.target.as_deref();
         target.map_or(cfg!(target_arch = "x86_64"), |target| {
@@ -156,7 +156,7 @@ impl Compiler {
         }
     }
 
-    /// The remedy for messages of a known cause.
+    /// The remedy for messages with a known cause.
     fn advice(&self, messages: &str) -> Option<String> {
         let target = self.target.as_deref();
         if let Some(cpu) = self.cpu.as_deref().filter(|_| messages.contains(UNKNOWN_CPU)) {

@@ -1,17 +1,17 @@
-//! Errors of gathering evidence.
+//! The errors in gathering evidence.
 
 use std::path::PathBuf;
 
 use robot_build::shown;
 
-/// Why there is no evidence.
+/// The reason why there is no evidence.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The robot file, or what was asked of it.
+    /// Errors in the robot file or in the options.
     #[error("{0}")]
     Robot(#[from] robot_build::Errors),
-    /// No compiler.
+    /// The compiler cannot be started.
     #[error(
         "cannot start the compiler {}: {reason}; the generated code is compiled with `rustc`: \
          install Rust (https://rustup.rs), or set the compiler's path with the option `rustc` or \
@@ -21,10 +21,10 @@ pub enum Error {
     NoCompiler {
         /// The command.
         path: PathBuf,
-        /// The system's message.
+        /// The message of the system.
         reason: String,
     },
-    /// A program that is not a Rust compiler.
+    /// The program is not a Rust compiler.
     #[error(
         "{} is not a Rust compiler: asked for its version, it {answer}; set the compiler's path \
          with the option `rustc` or the variable RUSTC",
@@ -33,10 +33,10 @@ pub enum Error {
     OtherProgram {
         /// The command.
         path: PathBuf,
-        /// Its exit, and its first line.
+        /// The exit status of the program and its first line.
         answer: String,
     },
-    /// A compiler that gives no object file, or not the one that was asked for.
+    /// The compiler does not produce an object file, or not the requested one.
     #[error(
         "{} does not compile the generated code for {target}: {first}{}\n{messages}",
         shown(path), advice.as_ref().map(|advice| format!("; {advice}")).unwrap_or_default()
@@ -46,20 +46,20 @@ pub enum Error {
         path: PathBuf,
         /// The target.
         target: String,
-        /// The first line of what it says is wrong.
+        /// The first line of its error message.
         first: String,
         /// The remedy, if the cause is known.
         advice: Option<String>,
-        /// The compiler's message.
+        /// The messages of the compiler.
         messages: String,
     },
-    /// A folder for temporary files that cannot be used.
+    /// The folder for temporary files cannot be used.
     #[error("cannot write temporary files: {0}; set the variable TMPDIR to another folder")]
     Folder(#[from] std::io::Error),
-    /// The compiler's output is not as expected.
+    /// The object file is not as expected.
     #[error("cannot read the object file: {0}")]
     Object(String),
-    /// A processor whose instructions are not known here.
+    /// The object file is for a processor whose instructions cannot be read.
     #[error(
         "cannot read instructions of {architecture}; x86-64 and Thumb (such as \
          thumbv7em-none-eabihf) are supported"

@@ -35,14 +35,14 @@ use object_file::Object;
 use robot_build::budget::max_stack;
 use robot_build::{Options, Programs, Source, names};
 
-/// The functions of one object file.
+/// The evidence about the functions of one object file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Module {
     /// The profile under which it was compiled.
     pub profile: Profile,
-    /// Each public function, in the order of the source.
+    /// The evidence about each public function, in the order of the source.
     pub functions: Vec<Evidence>,
-    /// The runtime's functions of sine and cosine that are in the object, whatever is claimed of
+    /// The evidence about the runtime's functions for sines and cosines in the object file; nothing is claimed about
     /// them.
     pub trigonometry: Vec<Evidence>,
 }
@@ -52,13 +52,13 @@ impl Module {
     ///
     /// # Errors
     ///
-    /// An object file that cannot be read or is for another processor; one without a root.
+    /// If the object file cannot be read, is for an unsupported processor, or does not contain exactly these functions.
     pub fn read(bytes: &[u8], roots: &[Root], profile: Profile) -> Result<Module, Error> {
         let object = Object::parse(bytes)?;
         claim::module(&object, roots, profile)
     }
 
-    /// Every violation of the claim, with the function it was found in.
+    /// All violations of the claim, with the names of the functions in which they were found.
     pub fn violations(&self) -> impl Iterator<Item = (&str, &Violation)> {
         self.functions.iter().flat_map(|function| {
             function.violations.iter().map(|violation| (function.name.as_str(), violation))
@@ -66,12 +66,11 @@ impl Module {
     }
 }
 
-/// Compiles a robot's functions under each profile and reads what the compiler made of them.
+/// Compiles the functions of a robot under each profile and examines the compiled code.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the robot file or the options; no compiler, or one that refuses;
-/// a processor that this crate cannot read.
+/// All errors in the robot file or the options; a missing or failing compiler; a processor whose code cannot be read.
 pub fn prove(
     source: &Source,
     options: &Options,
@@ -91,7 +90,7 @@ pub fn prove(
     profiles.iter().map(compiled).collect()
 }
 
-/// Holds the stack of each function against its budget.
+/// Compares the stack of each function with its budget.
 fn hold_stack(module: &mut Module, programs: &Programs, options: &Options) {
     for (function, name) in programs.module.functions.iter().zip(names(programs).functions) {
         let limit = max_stack(programs, options, &function.name);

@@ -1,4 +1,4 @@
-//! The instructions of one function, in terms common to all processors.
+//! The instructions of one function, in terms that are common to all processors.
 
 use crate::object_file::{Code, Machine, Object, Referred};
 use crate::{thumb, x86};
@@ -6,34 +6,35 @@ use crate::{thumb, x86};
 /// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Instruction {
-    /// Its place in the function.
+    /// The offset in the function.
     pub(crate) place: usize,
-    /// Its length in bytes.
+    /// The length, in bytes.
     pub(crate) length: usize,
-    /// Its successors.
+    /// What is executed next.
     pub(crate) flow: Flow,
-    /// By how many bytes the stack grows.
+    /// The number of bytes by which the stack grows.
     pub(crate) grows: i64,
 }
 
-/// The successors of an instruction; targets are offsets from the start of the function.
+/// What is executed after an instruction; targets are offsets from the start of the function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Flow {
-    /// The next one.
+    /// The next instruction.
     Next,
-    /// The next one, or another: it depends.
+    /// The next instruction or another one, depending on a condition.
     Conditional,
-    /// Another one.
+    /// Another instruction.
     Jump(i64),
-    /// One that a register or memory names: what the instruction at that place refers to.
+    /// An instruction at an address in a register or memory; the instruction at the given offset refers to this
+    /// address.
     Indirect(usize),
-    /// A function, then the next one.
+    /// A function, then the next instruction.
     Call(i64),
-    /// A function that a register or memory names in the same way, then the next one.
+    /// A function at an address in a register or memory, given in the same way, then the next instruction.
     IndirectCall(usize),
     /// Returns to the caller.
     Return,
-    /// Nothing: the processor traps.
+    /// Nothing, because the processor traps.
     Trap,
 }
 
@@ -42,14 +43,14 @@ pub(crate) enum Flow {
 pub(crate) struct Listing {
     pub(crate) instructions: usize,
     pub(crate) conditional_jumps: usize,
-    /// Jumps and calls through registers or memory that no relocation names.
+    /// The number of jumps and calls through registers or memory without a relocation that names the target.
     pub(crate) indirect: usize,
-    /// Traps if no panic is called: `unreachable`, overflow of the stack.
+    /// The number of traps. Without a call of a panic, they are for `unreachable` or a stack overflow.
     pub(crate) traps: usize,
-    /// Bytes of stack, the return address included.
+    /// The stack in bytes, including the return address.
     pub(crate) frame: u64,
     pub(crate) bytes: usize,
-    /// The functions that it calls, or ends in, in the order of the code.
+    /// The functions that it calls or jumps to at its end, in the order of the code.
     pub(crate) calls: Vec<Referred>,
 }
 
@@ -70,7 +71,7 @@ impl Listing {
             deepest = deepest.max(depth);
             listing.follow(object, code, &instructions, instruction);
             if matches!(instruction.flow, Flow::Return | Flow::Jump(_) | Flow::Indirect(_)) {
-                // The next instructions are reached from before the frame was removed.
+                // The following instructions are reached from places where the frame still exists.
                 depth = deepest;
             }
         }

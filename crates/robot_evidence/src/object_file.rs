@@ -1,4 +1,4 @@
-//! Object files: the bytes of each function, and what they refer to.
+//! Object files: the bytes of each function and the symbols that they refer to.
 
 use std::ops::Range;
 
@@ -8,15 +8,15 @@ use object::{Architecture, RelocationTarget, SectionIndex, SectionKind, SymbolIn
 use crate::error::Error;
 use crate::probe::TABLE;
 
-/// The bias of a place on x86 that is counted from the end of an instruction.
+/// The bias of x86 relocations, which are relative to the end of an instruction.
 const PC_BIAS: i64 = 4;
 
-/// A processor whose instructions are read.
+/// A processor whose instructions can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Machine {
     /// 64-bit x86.
     X86,
-    /// 32-bit ARM in Thumb.
+    /// 32-bit ARM in Thumb state.
     Thumb,
 }
 
@@ -24,29 +24,29 @@ pub(crate) enum Machine {
 pub(crate) struct Object {
     pub(crate) machine: Machine,
     pub(crate) functions: Vec<Code>,
-    /// The functions whose addresses the table [`TABLE`] holds, in order.
+    /// The functions whose addresses are in the table [`TABLE`], in order.
     pub(crate) table: Vec<usize>,
 }
 
 /// The code of one function.
 pub(crate) struct Code {
-    /// The names as Rust writes them: `probe::model::Model::inverse_dynamics`. The compiler keeps
-    /// one of functions that are alike under the names of all.
+    /// The names as in Rust: `probe::model::Model::inverse_dynamics`. The compiler can keep only one of several equal
+    /// functions, which then has the names of all.
     pub(crate) names: Vec<String>,
     section: SectionIndex,
-    /// Its place in the section.
+    /// The address in the section.
     address: u64,
     pub(crate) bytes: Vec<u8>,
-    /// Places in `bytes` that the linker fills in, with what they refer to, in order.
+    /// The offsets in `bytes` that the linker fills in, in ascending order, with the targets that they refer to.
     pub(crate) references: Vec<(usize, Referred)>,
-    /// Parts of `bytes` that are data, as (start, end), in order.
+    /// The ranges of `bytes` that are data, as (start, end), in ascending order.
     pub(crate) data: Vec<(usize, usize)>,
 }
 
-/// The target of a place in a function.
+/// The target of a reference in a function.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Referred {
-    /// A function of the object file, by its index.
+    /// A function of the object file, given by its index.
     Function(usize),
     /// A symbol of another object file.
     Outside(String),
@@ -55,7 +55,7 @@ pub(crate) enum Referred {
 }
 
 impl Code {
-    /// The target of the address that the linker fills in there.
+    /// The target of the first address within these offsets that the linker fills in.
     pub(crate) fn reference_within(&self, places: Range<usize>) -> Option<Referred> {
         let mut references = self.references.iter().filter(|(place, _)| places.contains(place));
         references.next().map(|(_, referred)| referred.clone())
@@ -87,7 +87,7 @@ impl Object {
         Ok(Object { machine, functions, table })
     }
 
-    /// The function at an offset from the start of another one, in the same section.
+    /// The function at an offset from the start of another one in the same section.
     pub(crate) fn at_offset(&self, from: &Code, offset: i64) -> Option<usize> {
         let address = from.address.checked_add_signed(offset)?;
         function_at(&self.functions, from.section, address)
@@ -105,7 +105,7 @@ fn functions(file: &object::File<'_>, machine: Machine) -> object::Result<Vec<Co
         if symbol.kind() != SymbolKind::Text || symbol.name()?.starts_with('$') {
             continue;
         }
-        // The lowest bit of an ARM function says that it is Thumb.
+        // The lowest bit of the address of an ARM function indicates that it is in Thumb state.
         let mask = if machine == Machine::Thumb { !1 } else { !0 };
         let address = symbol.address() & mask;
         if let Some(known) = function_at(&functions, section, address) {
@@ -133,7 +133,7 @@ fn functions(file: &object::File<'_>, machine: Machine) -> object::Result<Vec<Co
     Ok(functions)
 }
 
-/// Formats that state no sizes: a function ends where the next one starts.
+/// The end of a function in formats without sizes of functions: the start of the next one.
 fn next_function(file: &object::File<'_>, section: SectionIndex, address: u64, mask: u64) -> u64 {
     let symbols = file.symbols().filter(|symbol| {
         symbol.kind() == SymbolKind::Text && symbol.section_index() == Some(section)
@@ -143,7 +143,7 @@ fn next_function(file: &object::File<'_>, section: SectionIndex, address: u64, m
     next.or_else(|| end().ok()).unwrap_or(address)
 }
 
-/// The parts of a function that ARM's mapping symbols `$d` … `$t` declare data.
+/// The ranges of a function that ARM's mapping symbols `$d` … `$t` mark as data.
 fn data_ranges(
     file: &object::File<'_>,
     section: SectionIndex,
@@ -166,7 +166,7 @@ fn data_ranges(
     ranges.map(|((start, _), end)| (*start, end)).collect()
 }
 
-/// The functions that the table refers to.
+/// The functions to which the table refers.
 fn table(file: &object::File<'_>, functions: &[Code]) -> object::Result<Vec<usize>> {
     let is_table = |name: &str| name.trim_start_matches('_') == TABLE;
     let Some(symbol) = file.symbols().find(|symbol| symbol.name().is_ok_and(is_table)) else {
@@ -185,7 +185,7 @@ fn table(file: &object::File<'_>, functions: &[Code]) -> object::Result<Vec<usiz
     Ok(listed.collect())
 }
 
-/// The relocations in a function or table: its section, address and size.
+/// The references from relocations in a function or table, which is given by its section, address and size.
 fn references(
     file: &object::File<'_>,
     functions: &[Code],
@@ -211,7 +211,7 @@ fn references(
     Ok(references)
 }
 
-/// The target that a symbol is; `offset` counts if it is a section's.
+/// The target of a reference to a symbol; `offset` is only used for the symbol of a section.
 fn referred(
     file: &object::File<'_>,
     functions: &[Code],
@@ -235,7 +235,7 @@ fn referred(
     })
 }
 
-/// A symbol as Rust writes it, without hash and angle brackets around the type of a method.
+/// The name of a symbol as in Rust, without the hash, and without the angle brackets around the type of a method.
 fn demangled(symbol: &str) -> String {
     let plain = symbol.strip_prefix('_').filter(|rest| rest.starts_with("_ZN"));
     let name = format!("{:#}", rustc_demangle::demangle(plain.unwrap_or(symbol)));

@@ -1,4 +1,4 @@
-//! The crate that is compiled: a robot's code, the runtime, and a table of the public functions.
+//! The crate that is compiled: the code of a robot, the runtime, and a table of the public functions.
 
 use robot_build::{File, Options, Programs, Source, Trigonometry, package};
 use syn::{FnArg, ImplItem, Item, ItemFn, Signature, Type, Visibility};
@@ -7,22 +7,22 @@ use crate::error::Error;
 
 /// The name of the compiled crate.
 pub(crate) const CRATE: &str = "probe";
-/// The file of its root.
+/// The file of the crate root.
 pub(crate) const ROOT_FILE: &str = "src/probe.rs";
 
-/// The symbol of the table of all public functions' addresses.
+/// The symbol of the table with the addresses of all public functions.
 pub(crate) const TABLE: &str = "ROBOT_FUNCTIONS";
 
 /// A public function of generated code.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Root {
-    /// Its path in the module: `Model::inverse_dynamics`.
+    /// The path in the module, such as `Model::inverse_dynamics`.
     pub path: String,
-    /// Whether it takes slices, and so loops.
+    /// Whether it takes slices and therefore loops.
     pub takes_slices: bool,
 }
 
-/// A crate of generated code whose every public function is compiled.
+/// A crate of generated code of which all public functions are compiled.
 #[derive(Clone, Debug)]
 pub struct Probe {
     /// The files.
@@ -34,17 +34,17 @@ pub struct Probe {
 }
 
 impl Probe {
-    /// The crate that `robot-symbolic crate` writes, with another root.
+    /// The crate that `robot-symbolic crate` writes, with another crate root.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the robot file or the options.
+    /// All errors in the robot file or the options.
     pub fn new(programs: &Programs, source: &Source, options: &Options) -> Result<Probe, Error> {
         let files = package::package_of(programs, source, options)?;
         Probe::of_files(files, options.trigonometry == Trigonometry::Standard)
     }
 
-    /// A crate of a module `model` and a module `runtime`.
+    /// A crate with the modules `model` and `runtime`.
     pub(crate) fn of_files(mut files: Vec<File>, needs_std: bool) -> Result<Probe, Error> {
         let model = files.iter().find(|file| file.path == "src/model.rs");
         let roots =
@@ -54,8 +54,8 @@ impl Probe {
     }
 }
 
-/// Functions for inlining are compiled where their addresses are taken; the table shows which is
-/// which where the compiler keeps one of several that are alike.
+/// The text of the crate root. Inline functions are compiled because their addresses are taken, and the table
+/// identifies each function even if the compiler keeps only one of several equal ones.
 fn root_text(roots: &[Root]) -> String {
     let addresses = roots.iter().map(|root| format!("    model::{} as *const (),\n", root.path));
     let (count, addresses) = (roots.len(), addresses.collect::<String>());

@@ -1,16 +1,16 @@
-//! Instructions of ARM in Thumb: length, flow and stack, as in the *Armv7-M Architecture Reference
-//! Manual*, chapter A5.
+//! The length, flow and stack use of ARM instructions in Thumb state, as described in the *Armv7-M Architecture
+//! Reference Manual*, chapter A5.
 
 use crate::listing::{Flow, Instruction};
 
-/// The instructions of a function; `data` are the parts of it that are not instructions.
+/// The instructions of a function; `data` are the ranges that are not instructions.
 pub(crate) fn instructions(bytes: &[u8], data: &[(usize, usize)]) -> Vec<Instruction> {
     let half = |place: usize| -> Option<u16> {
         Some(u16::from_le_bytes(bytes.get(place..place + 2)?.try_into().ok()?))
     };
     let mut instructions = vec![];
     let mut place = 0;
-    // The number of next instructions that depend on a condition.
+    // The number of following instructions that depend on a condition.
     let mut predicated = 0;
     while let Some(first) = half(place) {
         if let Some((_, end)) = data.iter().find(|(start, end)| (*start..*end).contains(&place)) {
@@ -28,7 +28,7 @@ pub(crate) fn instructions(bytes: &[u8], data: &[(usize, usize)]) -> Vec<Instruc
             Some(count) if length == 2 => count,
             _ => predicated.max(1) - 1,
         };
-        // NOP computes nothing.
+        // NOP does not count as an instruction.
         if first != 0xbf00 {
             instructions.push(Instruction { place, length, flow, grows });
         }
@@ -37,13 +37,13 @@ pub(crate) fn instructions(bytes: &[u8], data: &[(usize, usize)]) -> Vec<Instruc
     instructions
 }
 
-/// The number of instructions that an `IT` makes depend on its condition (A7.7.38).
+/// The number of instructions whose execution depends on the condition of an `IT` (A7.7.38).
 fn if_then(first: u16) -> Option<u32> {
     let mask = first & 0xf;
     (first & 0xff00 == 0xbf00 && mask != 0).then(|| 4 - mask.trailing_zeros())
 }
 
-/// Instructions of 16 bits (A5.2).
+/// Instructions with 16 bits (A5.2).
 fn narrow(first: u16, place: usize) -> (Flow, i64) {
     let from = place as i64 + 4;
     let is = |mask: u16, bits: u16| first & mask == bits;
@@ -82,7 +82,7 @@ fn narrow(first: u16, place: usize) -> (Flow, i64) {
     (Flow::Next, 0)
 }
 
-/// Instructions of 32 bits (A5.3).
+/// Instructions with 32 bits (A5.3).
 fn wide(first: u16, second: u16, place: usize) -> (Flow, i64) {
     let from = place as i64 + 4;
     if first >> 11 == 0b11110 && second & 0x8000 != 0 {
@@ -106,14 +106,14 @@ fn wide(first: u16, second: u16, place: usize) -> (Flow, i64) {
             0xf20d => -twelve_bits(first, second), // ADDW SP, SP, #
             _ => 0,
         },
-        // LDR PC jumps to what is loaded.
+        // LDR PC jumps to the loaded address.
         _ if first & 0xff70 == 0xf850 && second >> 12 == 0xf => return (Flow::Indirect(place), 0),
         _ => 0,
     };
     (Flow::Next, stack)
 }
 
-/// Branches and calls of 32 bits (A5.3.4).
+/// Branches and calls with 32 bits (A5.3.4).
 fn branch(first: u16, second: u16, from: i64) -> Flow {
     let far = from + far_offset(first, second);
     match (second & 0x4000 != 0, second & 0x1000 != 0) {
@@ -167,7 +167,7 @@ mod tests {
         (found[0].flow, found[0].grows)
     }
 
-    /// Encodings as an assembler gives them.
+    /// The encodings are those of an assembler.
     #[test]
     fn flow_and_stack_are_read() {
         assert_eq!(one(&[0xb5f0]), (Flow::Next, 20)); // push {r4-r7, lr}

@@ -1,4 +1,4 @@
-//! Instructions of x86-64.
+//! The flow and stack use of x86-64 instructions.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +9,7 @@ use iced_x86::{
 
 use crate::listing::{Flow, Instruction};
 
-/// Registers that a call may change, by any of the platforms' conventions.
+/// The registers that a call can change, by the conventions of any of the platforms.
 const VOLATILE: [Register; 9] = [
     Register::RAX,
     Register::RCX,
@@ -28,7 +28,7 @@ pub(crate) fn instructions(bytes: &[u8]) -> Vec<Instruction> {
     let mut addresses = Addresses { loads: BTreeMap::new(), info: InstructionInfoFactory::new() };
     let mut instructions: Vec<Instruction> = vec![];
     for decoded in decoder {
-        // Padding between functions and in front of loops computes nothing.
+        // Padding between functions and before loops does not count.
         if matches!(decoded.mnemonic(), Mnemonic::Nop | Mnemonic::Int3) {
             continue;
         }
@@ -43,8 +43,8 @@ pub(crate) fn instructions(bytes: &[u8]) -> Vec<Instruction> {
     instructions
 }
 
-/// Where registers were loaded from a fixed place: a function that is called several times has its
-/// address kept in one.
+/// The offsets of the instructions that loaded registers from fixed addresses: the address of a function that is called
+/// several times is kept in a register.
 struct Addresses {
     loads: BTreeMap<Register, usize>,
     info: InstructionInfoFactory,
@@ -63,7 +63,7 @@ impl Addresses {
             FlowControl::Call | FlowControl::IndirectCall => {
                 self.loads.retain(|register, _| !VOLATILE.contains(register));
             }
-            // Knowledge of registers is valid on a straight path alone.
+            // The contents of registers are only known on a path without jumps.
             FlowControl::Next => {}
             _ => self.loads.clear(),
         }
@@ -75,7 +75,7 @@ impl Addresses {
         }
     }
 
-    /// The instruction whose place says what an indirect jump or call goes to.
+    /// The offset of the instruction that determines the target of an indirect jump or call.
     fn source(&self, decoded: &Decoded) -> usize {
         let loaded = match decoded.op0_kind() {
             OpKind::Register => self.loads.get(&decoded.op0_register()),
@@ -99,17 +99,17 @@ fn flow(decoded: &Decoded, addresses: &Addresses) -> Flow {
     }
 }
 
-/// A frame of many pages is taken page by page in a loop.
+/// The size of the pages in which a loop allocates a large frame.
 const PAGE: i64 = 4096;
 
-/// By how many bytes the stack grows.
+/// The number of bytes by which the stack grows.
 fn grows(decoded: &Decoded) -> i64 {
     let of_stack = decoded.op0_register() == Register::RSP;
     let immediate = decoded.try_immediate(1).ok().map(u64::cast_signed);
     match (decoded.mnemonic(), immediate) {
         (Mnemonic::Sub, Some(bytes)) if of_stack => bytes,
         (Mnemonic::Add, Some(bytes)) if of_stack => -bytes,
-        // `lea r11, [rsp - size]` is the end of the loop; its own step is counted at its place.
+        // `lea r11, [rsp - size]` gives the end of that loop; the step of the loop itself is counted separately.
         (Mnemonic::Lea, _)
             if decoded.op0_register() == Register::R11
                 && decoded.memory_base() == Register::RSP

@@ -1,5 +1,5 @@
-//! Every robot of this project, compiled as users compile it: flat, without panics, and no calls
-//! but those of sines and cosines.
+//! Every robot of this project, compiled as users compile it, is flat and cannot panic, and its only calls are those of
+//! sines and cosines.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
@@ -22,7 +22,7 @@ fn robots() -> Vec<PathBuf> {
     files
 }
 
-/// The options of a build that takes the pinned plan.
+/// The options of a build that uses the pinned plan.
 fn options(path: &Path, trigonometry: Trigonometry, functions: Functions) -> Options {
     let options = Options { trigonometry, functions, ..Options::default() };
     RobotFile::read(path).unwrap().with_pin(&options).unwrap()
@@ -33,8 +33,8 @@ fn proved(path: &Path, options: &Options) -> Vec<Module> {
     prove(&file.source, options, &Compiler::default(), &PROFILES).unwrap()
 }
 
-/// Asserts that the estimate of the stack is no smaller than what functions take, the runtime's sines
-/// and cosines in dev apart: there they are calls.
+/// Asserts that the estimated stack is at least the stack that functions take. In dev, this excludes the runtime's
+/// sines and cosines, which are calls there.
 fn assert_estimated(path: &Path, options: &Options, modules: &[Module]) {
     let file = RobotFile::read(path).unwrap();
     for function in &programs(&file.source, options).unwrap().module.functions {
@@ -52,7 +52,7 @@ fn assert_estimated(path: &Path, options: &Options, modules: &[Module]) {
     }
 }
 
-/// Asserts the claim, and that something was read at all.
+/// Asserts the claim, and that code was read at all.
 fn assert_flat(path: &Path, module: &Module) {
     let name = path.file_stem().unwrap().to_string_lossy();
     let violations: Vec<String> = module
@@ -100,7 +100,7 @@ fn every_robot_is_flat_with_the_polynomials() {
     }
 }
 
-/// Every function that there is, of an arm whose programs have several blocks.
+/// All functions, for an arm whose programs have several blocks.
 #[test]
 fn every_function_is_flat() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/stanford.toml");
@@ -109,7 +109,7 @@ fn every_function_is_flat() {
     for module in &modules {
         assert!(module.functions.len() > 30);
         assert_flat(&path, module);
-        // Zeros are filled in by a call if there are many of them, nowhere else.
+        // Only functions with many zeros in their results call a function that fills them in.
         for function in module.functions.iter().filter(|_| module.profile == Profile::Release) {
             let fills = function.calls.iter().any(|(symbol, _)| symbol.contains("memset"));
             let slices = function.takes_slices;

@@ -1,4 +1,4 @@
-//! Compiled modules, and handles of their functions.
+//! Compiled modules, and handles to their functions.
 
 use robot_codegen::{
     Callable, Errors, Input, Interpreter, Module, Output, OutputValues, Trigonometry,
@@ -9,27 +9,27 @@ use crate::error::Error;
 use crate::memory::{LanesCode, SingleCode, place};
 use crate::processor::Registers;
 
-/// States that are gathered into columns at once.
+/// The number of states that are copied into columns at once.
 const BLOCK: usize = 64;
 
 /// The most values of a function, so that all addresses fit into 31 bits.
 const MOST_VALUES: usize = 1 << 18;
 
-/// What is compiled, and for which processor.
+/// The functions to compile, the processor, and the arithmetic.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// The registers; those of this machine if `None`.
+    /// The vector registers; those of this machine if `None`.
     pub registers: Option<Registers>,
-    /// The source of sines and cosines: the polynomials, or there is an error.
+    /// The source of sines and cosines; must be the polynomials.
     pub trigonometry: Trigonometry,
-    /// Whether multiply-adds of sines and cosines round once, as in code that rustc compiles for this processor: faster,
-    /// and of other bits than the interpreter's.
+    /// Whether multiply-adds in sines and cosines round once, as in code that rustc compiles for this processor. This
+    /// is faster, but the bits differ from those of the interpreter.
     pub fused: bool,
     /// The names of the functions; all if `None`.
     pub functions: Option<Vec<String>>,
 }
 
-/// A module with its parameters given, as machine code.
+/// A module with values of its parameters, as machine code.
 #[derive(Debug)]
 pub struct Compiled<'m> {
     interpreter: Interpreter<'m>,
@@ -47,21 +47,22 @@ pub struct Function<'c> {
     registers: Registers,
 }
 
-/// Compiles all functions: the parameters that `given` names, the others at their nominal values. The constructor runs
-/// through the interpreter.
+/// Compiles all functions with the parameter values in `given`; all other parameters have their nominal values. The
+/// interpreter runs the constructor.
 ///
 /// # Errors
 ///
-/// A machine without the registers; parameters as for [`Interpreter::new`]; memory that the system does not give.
+/// The machine does not have the registers; the parameters are invalid, see [`Interpreter::new`]; the system does not
+/// provide memory for code.
 pub fn compile<'m>(module: &'m Module, given: &[(&str, f64)]) -> Result<Compiled<'m>, Error> {
     compile_with(module, given, &Options::default())
 }
 
-/// [`compile`] with options.
+/// Does the same as [`compile`], with options.
 ///
 /// # Errors
 ///
-/// Those of [`compile`]; the standard library's sines; unknown names of functions.
+/// The errors of [`compile`]; sines of the standard library; unknown names of functions.
 pub fn compile_with<'m>(
     module: &'m Module,
     given: &[(&str, f64)],
@@ -72,11 +73,11 @@ pub fn compile_with<'m>(
     Ok(Compiled::new(interpreter, code))
 }
 
-/// [`compile_with`] with ownership of the module, for callers that cannot borrow it.
+/// Does the same as [`compile_with`], but takes ownership of the module, for callers that cannot borrow it.
 ///
 /// # Errors
 ///
-/// Those of [`compile_with`].
+/// The errors of [`compile_with`].
 pub fn compile_owned(
     module: Module,
     given: &[(&str, f64)],
@@ -87,13 +88,13 @@ pub fn compile_owned(
     Ok(Compiled::new(interpreter, code))
 }
 
-/// The code of a function for one state and for several, under its name.
+/// The name of a function, its code for one state and its code for several.
 type Placed = (String, SingleCode, LanesCode);
 
-/// The registers, and the code of functions for them.
+/// The registers, and the code of functions that uses them.
 pub(crate) type Code = (Registers, Vec<Placed>);
 
-/// The code of the functions that the options name.
+/// Makes the code of the functions that the options name.
 pub(crate) fn code_of(interpreter: &Interpreter<'_>, options: &Options) -> Result<Code, Error> {
     let module = interpreter.module();
     let registers = match options.registers {
@@ -120,7 +121,7 @@ pub(crate) fn code_of(interpreter: &Interpreter<'_>, options: &Options) -> Resul
     Ok((registers, functions.collect()))
 }
 
-/// The code of a function for one state and for several.
+/// Makes the code of a function for one state and for several.
 fn emit(
     function: &robot_codegen::module::Function,
     fields: &[f64],
@@ -147,37 +148,37 @@ fn emit(
 }
 
 impl<'m> Compiled<'m> {
-    /// `code` is that of the functions of `interpreter`.
+    /// Combines an interpreter and the code of its functions.
     pub(crate) fn new(interpreter: Interpreter<'m>, code: Code) -> Compiled<'m> {
         let (registers, functions) = code;
         Compiled { interpreter, registers, functions }
     }
 
-    /// A function by its name.
+    /// Looks up a function by its name.
     ///
     /// # Errors
     ///
-    /// A function that the module has not, or that was not compiled.
+    /// A function that the module does not have, or that was not compiled.
     pub fn function(&self, name: &str) -> Result<Function<'_>, Error> {
-        // The name of no function is told before that of one that was left out.
+        // An unknown name is reported as such, not as that of a function that was not compiled.
         self.interpreter.function(name)?;
         self.compiled(name).ok_or_else(|| Error::NotCompiled { function: name.to_owned() })
     }
 
-    /// A function by its name, if it was compiled.
+    /// Looks up a function by its name; `None` if it was not compiled.
     pub(crate) fn compiled(&self, name: &str) -> Option<Function<'_>> {
         let callable = self.interpreter.function(name).ok()?;
         let (_, single, lanes) = self.functions.iter().find(|(compiled, ..)| compiled == name)?;
         Some(Function { callable, single, lanes, registers: self.registers })
     }
 
-    /// The bytes of the code of all functions, without constants.
+    /// The size of the code of all functions in bytes, without constants.
     #[must_use]
     pub fn code_size(&self) -> usize {
         self.functions.iter().map(|(_, single, lanes)| single.size() + lanes.size()).sum()
     }
 
-    /// The registers that the code is made for.
+    /// The registers for which the code was made.
     #[must_use]
     pub fn registers(&self) -> Registers {
         self.registers
@@ -189,7 +190,7 @@ impl<'m> Compiled<'m> {
         &self.interpreter
     }
 
-    /// Calls a function; inputs by name.
+    /// Calls a function; the inputs are given by name.
     ///
     /// # Errors
     ///
@@ -205,7 +206,7 @@ impl<'m> Compiled<'m> {
 }
 
 impl<'c> Function<'c> {
-    /// The same function, interpreted.
+    /// The same function in the interpreter.
     pub(crate) fn callable(self) -> Callable<'c> {
         self.callable
     }
@@ -240,13 +241,13 @@ impl<'c> Function<'c> {
         self.callable.output_size()
     }
 
-    /// The outputs of [`Function::call`] with their names and shapes.
+    /// Splits the values returned by [`Function::call`] into outputs with their names and shapes.
     #[must_use]
     pub fn named(self, values: Vec<f64>) -> Vec<OutputValues> {
         self.callable.named(values)
     }
 
-    /// The entries of all outputs at a state; inputs by name.
+    /// Computes the entries of all outputs at one state; the inputs are given by name.
     ///
     /// # Errors
     ///
@@ -258,12 +259,12 @@ impl<'c> Function<'c> {
         Ok(found)
     }
 
-    /// Computes one state: the entries of all inputs, in their order, and those of all outputs. Nothing is allocated,
-    /// but for functions that put more than 380 numbers aside.
+    /// Computes one state. `inputs` has the entries of all inputs, in their order; `outputs` receives those of all
+    /// outputs. Nothing is allocated, except for functions that spill more than about 380 numbers.
     ///
     /// # Errors
     ///
-    /// Another number of entries.
+    /// The number of entries is wrong.
     #[inline]
     pub fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
         if self.single.call(inputs, outputs) {
@@ -272,12 +273,12 @@ impl<'c> Function<'c> {
         self.callable.check_columns(inputs.len(), outputs.len())
     }
 
-    /// Computes many states: `inputs` has a column for each entry of the inputs, in their order, `outputs` one for
-    /// each entry of the outputs; row i of all columns is of state i. Nothing is allocated for a state.
+    /// Computes many states. `inputs` has a column for each entry of the inputs, in their order, and `outputs` has one
+    /// for each entry of the outputs; row i of every column belongs to state i. Memory is not allocated for each state.
     ///
     /// # Errors
     ///
-    /// Another number of columns than there are entries; columns that are not all of one length.
+    /// The number of columns differs from the number of entries, or the columns have different lengths.
     pub fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
         let states = self.callable.check_lengths(inputs, outputs)?;
         let whole = states - states % self.registers.lanes();
@@ -292,12 +293,12 @@ impl<'c> Function<'c> {
         Ok(())
     }
 
-    /// Computes a number of states: `inputs` has for each input, by name, its entries at each state; the result for
-    /// each state the entries of all outputs.
+    /// Computes several states. `inputs` has the entries of each named input at each state; the result has, for each
+    /// state, the entries of all outputs.
     ///
     /// # Errors
     ///
-    /// Inputs that are missing, unknown, of the wrong length at a state, or of another number of states.
+    /// Inputs that are missing or unknown, have the wrong length at a state, or have different numbers of states.
     pub fn states(
         self,
         states: usize,
@@ -319,7 +320,7 @@ impl<'c> Function<'c> {
     }
 }
 
-/// Columns for a few states.
+/// Columns of inputs and outputs for a few states.
 struct Block<'c> {
     function: Function<'c>,
     length: usize,
@@ -328,14 +329,14 @@ struct Block<'c> {
 }
 
 impl<'c> Block<'c> {
-    /// `length`: the most states, a multiple of the lanes.
+    /// Allocates columns for at most `length` states, a multiple of the lanes.
     fn new(function: Function<'c>, length: usize) -> Block<'c> {
         let inputs = vec![0.0; length * function.input_size()];
         let outputs = vec![0.0; length * function.output_size()];
         Block { function, length, inputs, outputs }
     }
 
-    /// Computes so many states, at least one; the last register is filled up with the last state.
+    /// Computes `states` states, at least one; the last state is repeated to fill the last register.
     fn run(
         &mut self,
         states: usize,

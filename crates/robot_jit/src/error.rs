@@ -1,31 +1,31 @@
-//! What may go wrong before there is code.
+//! Errors of compilation.
 
 use robot_codegen::Errors;
 
-/// Why there is no code.
+/// The reason why there is no machine code.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The processor has no registers that code is made for.
+    /// The processor does not have the registers for which code is made.
     #[error(
         "machine code needs {needed}, which this machine does not have; the interpreter computes the same"
     )]
     Processor {
-        /// The processor, and its extensions.
+        /// The required processor and its extensions.
         needed: &'static str,
     },
-    /// Sines and cosines of the standard library.
+    /// The options choose sines and cosines of the standard library.
     #[error(
         "machine code has only the polynomial sines and cosines; the interpreter has the standard library's"
     )]
     Trigonometry,
-    /// A function that was left out.
+    /// A function that was not compiled.
     #[error("function `{function}` was not compiled: name it in the options")]
     NotCompiled {
         /// The function.
         function: String,
     },
-    /// A function that loads what it does not declare.
+    /// A function that loads an entry that it does not declare.
     #[error(
         "function `{function}` loads an entry that it does not have; compile it from a specification"
     )]
@@ -40,7 +40,7 @@ pub enum Error {
         function: String,
         /// The number of its values.
         values: usize,
-        /// The most that there may be.
+        /// The largest permitted number.
         most: usize,
     },
     /// A function whose values do not fit into the stack of a thread.
@@ -50,23 +50,23 @@ pub enum Error {
     Stack {
         /// The function.
         function: String,
-        /// The bytes.
+        /// The size of its stack, in bytes.
         bytes: u32,
     },
-    /// An instruction that could not be encoded: a fault of this crate.
+    /// An instruction that could not be encoded, which is a bug in this crate.
     #[error(
         "an instruction of function `{function}` has no encoding ({reason}); please report this"
     )]
     Encoding {
         /// The function.
         function: String,
-        /// What the encoder says.
+        /// The message of the encoder.
         reason: String,
     },
-    /// Memory that the system does not give, or not for code.
+    /// The system does not provide memory, or does not allow it to be executable.
     #[error("the system provides no memory for code ({0}); the interpreter computes the same")]
     Memory(#[from] std::io::Error),
-    /// What is wrong with the parameters, or an unknown function.
+    /// Errors in the parameters, or an unknown function.
     #[error(transparent)]
     Module(#[from] Errors),
 }

@@ -1,4 +1,4 @@
-//! Functions that run on every machine: as machine code where there is some for it, else interpreted.
+//! Functions that run on every machine: as machine code if the machine is supported, otherwise in the interpreter.
 
 use robot_codegen::program::Operation;
 use robot_codegen::{
@@ -8,9 +8,10 @@ use robot_codegen::{
 use crate::compiled::{Compiled, Function, Options, code_of};
 use crate::error::Error;
 
-/// A module with its parameters given. Functions are machine code if there is some for the machine and the source of sines;
-/// else they are interpreted, as are functions with multiply-adds, which machine code rounds once and the interpreter
-/// twice. So the bits are those of the interpreter on every machine, but for those of a NaN.
+/// A module with values of its parameters. Its functions are machine code if the machine and the source of sines are
+/// supported; otherwise they are interpreted. Functions with multiply-adds are always interpreted, because
+/// multiply-adds round once in machine code and twice in the interpreter. So the bits are those of the interpreter on
+/// every machine, except for those of NaN.
 #[derive(Debug)]
 pub struct Executable<'m>(Code<'m>);
 
@@ -31,8 +32,8 @@ enum Found<'e> {
 }
 
 impl<'m> Executable<'m> {
-    /// Runs the constructor, and compiles all functions: the parameters that `given` names, the others at their nominal
-    /// values.
+    /// Runs the constructor and compiles all functions with the parameter values in `given`; all other parameters have
+    /// their nominal values.
     ///
     /// # Errors
     ///
@@ -45,7 +46,7 @@ impl<'m> Executable<'m> {
         Ok(Executable::of(Interpreter::new(module, given)?, trigonometry))
     }
 
-    /// [`Executable::new`] with ownership of the module.
+    /// Does the same as [`Executable::new`], but takes ownership of the module.
     ///
     /// # Errors
     ///
@@ -63,7 +64,7 @@ impl<'m> Executable<'m> {
         let functions = interpreter.module().functions.iter();
         let plain = functions.filter(|function| !has_multiply_adds(function));
         let mut names: Vec<String> = plain.map(|function| function.name.clone()).collect();
-        // Whatever machine code lacks, the interpreter has.
+        // Functions that cannot be compiled are interpreted.
         let code = loop {
             let functions = Some(names.clone());
             match code_of(&interpreter, &Options { trigonometry, functions, ..Options::default() })
@@ -78,7 +79,7 @@ impl<'m> Executable<'m> {
         Executable(code)
     }
 
-    /// A function by its name.
+    /// Looks up a function by its name.
     ///
     /// # Errors
     ///
@@ -143,13 +144,13 @@ impl<'e> Handle<'e> {
         self.callable().output_size()
     }
 
-    /// The entries of all outputs with their names and shapes.
+    /// Splits the entries of all outputs into outputs with their names and shapes.
     #[must_use]
     pub fn named(self, values: Vec<f64>) -> Vec<OutputValues> {
         self.callable().named(values)
     }
 
-    /// The entries of all outputs at a state; inputs by name.
+    /// Computes the entries of all outputs at one state; the inputs are given by name.
     ///
     /// # Errors
     ///
@@ -161,11 +162,12 @@ impl<'e> Handle<'e> {
         }
     }
 
-    /// Computes one state: the entries of all inputs, in their order, and those of all outputs.
+    /// Computes one state. `inputs` has the entries of all inputs, in their order; `outputs` receives those of all
+    /// outputs.
     ///
     /// # Errors
     ///
-    /// Another number of entries.
+    /// The number of entries is wrong.
     pub fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
         match self.0 {
             Found::Native(function) => function.entries(inputs, outputs),
@@ -185,7 +187,7 @@ impl<'e> Handle<'e> {
         }
     }
 
-    /// Computes a number of states, as [`Callable::states`] does.
+    /// Computes several states, as [`Callable::states`] does.
     ///
     /// # Errors
     ///

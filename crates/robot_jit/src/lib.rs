@@ -1,13 +1,14 @@
 //! Straight-line programs as machine code in memory.
 //!
-//! [`compile`] makes code for the functions of a module, for one state and for several side by side in the lanes of
-//! vector registers, in a tenth of a millisecond to about twenty milliseconds for the longest. A [`Function`] is
-//! called like the interpreter's [`Callable`](robot_codegen::Callable) and gives the same bits, with two exceptions:
-//! a multiply-add of the program rounds once, as in code compiled for the processor, as do those in sines if
-//! [`Options::fused`] asks for it; and a NaN may have other bits.
+//! [`compile`] makes code for the functions of a module, for one state and for several states in the lanes of
+//! vector registers. It takes between a tenth of a millisecond and, for the longest functions, about twenty
+//! milliseconds. A [`Function`] is called like the interpreter's [`Callable`](robot_codegen::Callable) and returns the
+//! same bits, with two exceptions: multiply-adds of the program round once, as in code compiled for the processor, and
+//! so do those in sines and cosines if [`Options::fused`] is set; and NaN can have other bits.
 //!
-//! The code is for x86-64 with AVX2 and FMA, or with AVX-512 F, DQ and VL, chosen at run time, and by cranelift for 64-bit
-//! ARM. On other processors [`compile`] returns an error; an [`Executable`] then runs the interpreter.
+//! The code is for x86-64 with AVX2 and FMA, or with AVX-512 F, DQ and VL, chosen at run time; for 64-bit ARM,
+//! cranelift makes the code. On other processors [`compile`] returns an error, and an [`Executable`] uses the
+//! interpreter.
 
 mod compiled;
 mod cranelift;

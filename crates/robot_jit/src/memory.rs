@@ -1,9 +1,9 @@
-//! Code in memory, and the calls of it: the `unsafe` of this crate.
+//! Code in memory, and calls of this code. All `unsafe` code of this crate is here.
 //!
-//! Code reads and writes by the pointers that it is given, and below the stack pointer where cranelift made it. What it
-//! may reach follows from the function that it was made from, and is checked before each call: the number of inputs, of
-//! outputs, of states.
-//! Pages are written first and executable after; they are never both, and are unmapped when the last owner goes.
+//! Code reads and writes through the pointers that it gets as arguments and, if cranelift made it, below the stack
+//! pointer. The range of its accesses follows from the function from which it was made; the numbers of inputs, outputs
+//! and states are checked before each call. Pages are first writable and then executable, never both at the same time.
+//! They are unmapped when their last owner is dropped.
 
 #![allow(unsafe_code)]
 
@@ -15,7 +15,7 @@ use memmap2::{Mmap, MmapMut};
 use crate::emit::{Entry, LanesEntry, SingleEntry};
 use crate::error::Error;
 
-/// Working memory, aligned so that no register crosses a cache line.
+/// A line of working memory, aligned so that no stored register crosses a cache line.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 struct Line([MaybeUninit<u64>; 8]);
@@ -23,10 +23,10 @@ struct Line([MaybeUninit<u64>; 8]);
 const EMPTY: Line = Line([MaybeUninit::uninit(); 8]);
 const NUMBERS_OF_LINE: usize = 8;
 
-/// Lines of working memory that a call of one state has on the stack; more are allocated.
+/// The number of lines of working memory that a call for one state has on the stack; more are allocated on the heap.
 const LINES_ON_STACK: usize = 48;
 
-/// The types of the code: on x86-64 by the ABI of System V on every system, elsewhere by that of C.
+/// Defines the function types of the code: with the System V ABI on x86-64 on every system, elsewhere with the C ABI.
 macro_rules! types {
     ($abi:literal) => {
         type Single = unsafe extern $abi fn(*const f64, *mut f64, *const u64, *mut Line);
@@ -52,7 +52,7 @@ struct Code<F> {
     /// The start of the code, in `pages`.
     run: F,
     entry: Entry,
-    /// The pages of all functions, kept while one lives.
+    /// The pages of all functions, which are kept as long as one of the functions exists.
     _pages: Arc<Mmap>,
 }
 
@@ -60,19 +60,19 @@ struct Code<F> {
 #[derive(Debug)]
 pub(crate) struct SingleCode(Code<Single>);
 
-/// Code for several states side by side.
+/// Code for several states in lanes.
 #[derive(Debug)]
 pub(crate) struct LanesCode(Code<Lanes>);
 
-/// Between pieces of code: traps.
+/// The byte between pieces of code, which traps.
 const TRAP: u8 = 0xcc;
 const ALIGNMENT: usize = 64;
 
-/// Puts code for one state and for several, of some functions, into executable memory.
+/// Copies the code of functions, for one state and for several, into executable memory.
 ///
 /// # Errors
 ///
-/// A machine that does not have the registers; what the system says.
+/// The machine does not have the registers, or the system returns an error.
 pub(crate) fn place(
     functions: Vec<(SingleEntry, LanesEntry)>,
 ) -> Result<Vec<(SingleCode, LanesCode)>, Error> {
@@ -97,8 +97,8 @@ pub(crate) fn place(
     };
     let functions = functions.into_iter();
     let placed = functions.map(|(SingleEntry(single), LanesEntry(lanes))| {
-        // SAFETY: at these addresses lies code that `emit_single` and `emit_lanes` made with these signatures, in pages
-        // that live as long as the pointers to them; the machine has its registers.
+        // SAFETY: these addresses contain code that `emit_single` and `emit_lanes` made with these signatures, in pages
+        // that live as long as the pointers to them, and the machine has its registers.
         let (run_single, run_lanes) = unsafe {
             (
                 transmute::<*const u8, Single>(start(&single)),
@@ -114,22 +114,22 @@ pub(crate) fn place(
     Ok(placed.collect())
 }
 
-/// Has all processors fetch the instructions of these pages anew, which an ARM does not do by itself.
+/// Makes all processors fetch the instructions of these pages again, which ARM processors do not do automatically.
 #[cfg(target_arch = "aarch64")]
 fn renew_instructions(pages: &Mmap) -> std::io::Result<()> {
     use wasmtime_internal_jit_icache_coherence::{clear_cache, pipeline_flush_mt};
-    // SAFETY: the pages are mapped, and nothing runs in them yet; the pipelines are flushed after it.
+    // SAFETY: the pages are mapped, and no code runs in them yet; the pipelines are flushed afterwards.
     unsafe { clear_cache(pages.as_ptr().cast(), pages.len()) }.map_err(std::io::Error::other)?;
     pipeline_flush_mt().map_err(std::io::Error::other)
 }
 
 impl SingleCode {
-    /// The bytes of the code.
+    /// The size of the code, in bytes.
     pub(crate) fn size(&self) -> usize {
         self.0.entry.code.len()
     }
 
-    /// Computes one state; false, and nothing else, if a length is not the function's.
+    /// Computes one state. If a length is wrong, does nothing and returns false.
     #[inline]
     pub(crate) fn call(&self, inputs: &[f64], outputs: &mut [f64]) -> bool {
         let entry = &self.0.entry;
@@ -147,9 +147,9 @@ impl SingleCode {
 
     #[inline]
     fn enter(&self, inputs: &[f64], outputs: &mut [f64], working: &mut [Line]) {
-        // SAFETY: `call` checked the lengths, and `place` that the machine has the registers. The code reads entries of
-        // inputs and writes entries of outputs below them, reads constants of the pool that was made with it, and has as
-        // much working memory as it uses, which it writes before it reads.
+        // SAFETY: `call` checked the lengths, and `place` checked that the machine has the registers. The code reads
+        // only entries of inputs below the lengths and writes only such entries of outputs. It reads constants of the
+        // pool that was made with it. It has as much working memory as it uses, and writes it before it reads it.
         unsafe {
             (self.0.run)(
                 inputs.as_ptr(),
@@ -162,13 +162,13 @@ impl SingleCode {
 }
 
 impl LanesCode {
-    /// The bytes of the code.
+    /// The size of the code, in bytes.
     pub(crate) fn size(&self) -> usize {
         self.0.entry.code.len()
     }
 
-    /// Computes the states from 0 to `states`, a multiple of the lanes; false, and nothing else, if it is not, or if
-    /// columns are missing or shorter.
+    /// Computes the states below `states`, which must be a multiple of the lanes. If it is not, or if columns are
+    /// missing or too short, does nothing and returns false.
     pub(crate) fn call(
         &self,
         inputs: &[&[f64]],
@@ -187,8 +187,8 @@ impl LanesCode {
         let inputs: Vec<*const f64> = inputs.iter().map(|column| column.as_ptr()).collect();
         let outputs: Vec<*mut f64> = outputs.iter_mut().map(|column| column.as_mut_ptr()).collect();
         let mut working = vec![EMPTY; entry.working.div_ceil(NUMBERS_OF_LINE)];
-        // SAFETY: each column has at least `states` numbers, and the code touches those of whole registers from 0 below
-        // `states`, which is a multiple of them and not 0; the rest as in `SingleCode::enter`.
+        // SAFETY: each column has at least `states` numbers. The code accesses whole registers from 0 up to `states`,
+        // which is a multiple of their length and not 0. Otherwise as in `SingleCode::enter`.
         unsafe {
             (self.0.run)(
                 inputs.as_ptr(),

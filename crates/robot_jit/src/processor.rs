@@ -1,33 +1,33 @@
-//! What the processor at hand can do.
+//! The registers of the current processor.
 
 use crate::error::Error;
 
-/// The vector registers that code is made for.
+/// The vector registers for which code is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Registers {
     /// 16 registers of 256 bits with fused multiply-adds: AVX2 and FMA.
     Avx2,
     /// 32 registers of 512 bits: AVX-512 F, DQ and VL.
     Avx512,
-    /// Registers of 128 bits of a 64-bit ARM, for which cranelift makes the code; with the feature `cranelift` those of
-    /// x86-64 with AVX2 and FMA, too, which are taken only if they are asked for.
+    /// The 128-bit registers of a 64-bit ARM processor, for which cranelift makes the code. With the feature
+    /// `cranelift` also those of x86-64 with AVX2 and FMA, which are used only if the options name them.
     Bits128,
 }
 
 impl Registers {
-    /// The widest registers of this machine.
+    /// Finds the widest registers of this machine.
     ///
     /// # Errors
     ///
-    /// Another architecture than x86-64 and 64-bit ARM, or an x86-64 without AVX2 and FMA: the interpreter computes the
-    /// same.
+    /// An architecture other than x86-64 and 64-bit ARM, or an x86-64 without AVX2 and FMA. The interpreter computes
+    /// the same there.
     pub fn detect() -> Result<Registers, Error> {
         let widest = [Registers::Avx512, Registers::Avx2, Registers::Bits128];
         let here = widest.into_iter().find(|registers| registers.are_here());
         here.ok_or(Error::Processor { needed: Registers::Avx2.needed() })
     }
 
-    /// What the processor must be, or have.
+    /// The processor and the extensions that are needed, for the message.
     fn needed(self) -> &'static str {
         match self {
             Registers::Avx2 => "an x86-64 processor with AVX2 and FMA, or a 64-bit ARM",
@@ -36,17 +36,17 @@ impl Registers {
         }
     }
 
-    /// These registers, if this machine has them.
+    /// Returns these registers, if this machine has them.
     ///
     /// # Errors
     ///
-    /// A machine without them.
+    /// The machine does not have them.
     pub fn check(self) -> Result<Registers, Error> {
         let needed = self.needed();
         if self.are_here() { Ok(self) } else { Err(Error::Processor { needed }) }
     }
 
-    /// The numbers of a register: as many states are computed side by side.
+    /// The number of lanes of a register, which is also the number of states that are computed at once.
     #[must_use]
     pub const fn lanes(self) -> usize {
         match self {

@@ -9,11 +9,11 @@ use robot_runtime::trig::double::{COSINE, HALF_PI, LIMIT, SHIFT, SINE};
 use robot_runtime::{Scalar, trig};
 use robot_symbolic::{Function as Call, Random};
 
-/// Every function that a program may call.
+/// All functions that a program can call.
 const CALLS: [Call; 7] =
     [Call::Sin, Call::Cos, Call::Sqrt, Call::Abs, Call::Sign, Call::Tanh, Call::RecipPositive];
 
-/// Numbers at which something is different.
+/// Special numbers, which need separate handling.
 const SPECIAL: [f64; 20] = [
     f64::NAN,
     f64::INFINITY,
@@ -37,7 +37,7 @@ const SPECIAL: [f64; 20] = [
     1e5,
 ];
 
-/// A number, special in one case of so many.
+/// A random number; one of `rarely` numbers is a special one.
 pub(crate) fn number(random: &mut Random, rarely: usize) -> f64 {
     match random.index(rarely) {
         0 => SPECIAL[random.index(SPECIAL.len())],
@@ -46,16 +46,17 @@ pub(crate) fn number(random: &mut Random, rarely: usize) -> f64 {
     }
 }
 
-/// How long functions are.
+/// The length of functions.
 #[derive(Clone, Copy)]
 pub(crate) enum Size {
     /// From one operation to 2,500.
     Any,
-    /// From ten operations to sixty, of up to eight inputs and three angles, with few calls: many in little time.
+    /// From ten operations to sixty, with up to eight inputs and three angles and with few calls, so that many can be
+    /// tested quickly.
     Small,
 }
 
-/// A module without parameters of so many random functions, `f0` and so on; with multiply-adds if `fused`.
+/// A module without parameters, with random functions `f0`, `f1` and so on; with multiply-adds if `fused`.
 pub(crate) fn module(seed: u64, functions: usize, size: Size, fused: bool) -> Module {
     let mut random = Random::new(seed);
     let functions = (0..functions).map(|index| function(&mut random, index, size, fused)).collect();
@@ -101,7 +102,7 @@ fn function(random: &mut Random, index: usize, size: Size, fused: bool) -> Funct
     }
 }
 
-/// Angles: up to so many neighboring inputs, then up to two that are computed.
+/// A program of angles: up to `most` neighboring inputs, then up to two computed angles.
 fn angles(random: &mut Random, inputs: usize, most: usize) -> Program {
     let mut builder = Builder::new();
     let plain = random.index(most + 1).min(inputs);
@@ -117,11 +118,11 @@ fn angles(random: &mut Random, inputs: usize, most: usize) -> Program {
     builder.finish(results)
 }
 
-/// So many operations.
+/// A random number of operations.
 fn length(random: &mut Random, size: Size) -> usize {
     let longest = match size {
         Size::Small => return 10 + random.index(51),
-        // The longest are ordered otherwise.
+        // The longest functions are ordered in another way.
         Size::Any => match random.index(60) {
             0 => 2500,
             short => [10, 60, 300][short % 3],
@@ -130,7 +131,7 @@ fn length(random: &mut Random, size: Size) -> usize {
     1 + random.index(longest)
 }
 
-/// Operations whose operands are from anywhere before or from near.
+/// A program of random operations, whose operands are recent values or, in some programs, any earlier ones.
 fn core(random: &mut Random, inputs: usize, angles: usize, size: Size, fused: bool) -> Program {
     let mut builder = Builder::new();
     let mut pool: Vec<Value> =
@@ -145,7 +146,7 @@ fn core(random: &mut Random, inputs: usize, angles: usize, size: Size, fused: bo
     }
     let length = length(random, size);
     let window = [8, 40, 1000][random.index(3)];
-    // Calls are long as code.
+    // Calls become long code, so small functions have fewer.
     let kinds = if let Size::Any = size { 24 } else { 23 };
     for _ in 0..length {
         let [a, b, c] = [0; 3].map(|_| pool[pool.len() - 1 - random.index(window.min(pool.len()))]);
@@ -165,7 +166,7 @@ fn core(random: &mut Random, inputs: usize, angles: usize, size: Size, fused: bo
     let mut results: Vec<Value> =
         (0..1 + random.index(12)).map(|_| pool[random.index(pool.len())]).collect();
     results.extend(pool.last());
-    // Constants one after the other, as in the matrices of poses.
+    // Neighboring constants, as in the matrices of poses.
     for _ in 0..random.index(3) {
         let at = random.index(results.len() + 1);
         let constants = [0.0, 1.0].map(|number| builder.constant(number));
@@ -176,7 +177,7 @@ fn core(random: &mut Random, inputs: usize, angles: usize, size: Size, fused: bo
     builder.finish(results)
 }
 
-/// Sine and cosine with multiply-adds that round once, as the runtime has them on targets that have these.
+/// Sine and cosine with multiply-adds that round once, as in the runtime on targets that have the instruction.
 fn fused_sin_cos(x: f64) -> (f64, f64) {
     let shifted = x.mul_add(FRAC_2_PI, SHIFT);
     let k = shifted - SHIFT;
@@ -232,7 +233,7 @@ fn values(program: &Program, fused: bool, load: impl Fn(Source) -> f64) -> Vec<f
     program.results().iter().map(|value| values[value.index()]).collect()
 }
 
-/// The outputs of a function at a state, with multiply-adds that round once; those of sines too if `fused`.
+/// The outputs of a function at a state, with multiply-adds that round once, also those in sines if `fused`.
 pub(crate) fn reference(function: &Function, inputs: &[f64], fused: bool) -> Vec<f64> {
     let input = |source| match source {
         Source::Input(entry) => inputs[entry as usize],

@@ -1,4 +1,4 @@
-//! Random functions against the interpreter and a reference, and what code reads and writes.
+//! Random functions compared with the interpreter and a reference, and checks of all addresses that code accesses.
 
 use iced_x86::{Decoder, DecoderOptions, InstructionInfoFactory, Mnemonic, OpAccess, Register};
 use robot_codegen::module::Function;
@@ -10,15 +10,15 @@ use crate::emit::{Entry, Target, emit_lanes, emit_single};
 use crate::testing::{Size, module, number, reference};
 use crate::{Compiled, Error, Executable, Options, Registers, compile_with};
 
-/// Modules of so many functions each, one half with multiply-adds.
+/// The number of modules, with `FUNCTIONS` functions each; one half has multiply-adds.
 const MODULES: u64 = 250;
 const FUNCTIONS: usize = 40;
 const STATES: usize = 13;
 
-/// Modules of so many small functions each.
+/// The number of modules with small functions, `SMALL_FUNCTIONS` each.
 const SMALL_MODULES: u64 = 20;
 const SMALL_FUNCTIONS: usize = 50;
-/// A register of eight numbers and one state more, or two of four.
+/// The number of states: one more than a register of eight numbers has, or than two of four have.
 const SMALL_STATES: usize = 9;
 
 fn registers() -> Vec<Registers> {
@@ -30,7 +30,7 @@ fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
-/// What is rounded once: the program's multiply-adds, and those of sines.
+/// Which multiply-adds round once: those of the program, and those in sines.
 #[derive(Clone, Copy)]
 struct Fused {
     program: bool,
@@ -42,12 +42,12 @@ impl Fused {
         Fused { program: seed.is_multiple_of(2), sines: seed.is_multiple_of(5) }
     }
 
-    /// Three in sixty.
+    /// Three of sixty seeds have multiply-adds that round once.
     fn rarely(seed: u64) -> Fused {
         Fused { program: [0, 1].contains(&(seed % 60)), sines: [1, 2].contains(&(seed % 60)) }
     }
 
-    /// Whether the interpreter gives other bits: it rounds each product.
+    /// Whether the interpreter has other bits, because it rounds each product.
     fn any(self) -> bool {
         self.program || self.sines
     }
@@ -59,8 +59,8 @@ struct Expected {
     outputs: Vec<Vec<f64>>,
 }
 
-/// So many states with what is expected: the values of the reference, which are those of the interpreter unless
-/// something is fused.
+/// Random states with their expected outputs, which are those of the reference; checks that they equal those of the
+/// interpreter if nothing is fused.
 fn expected(
     function: Callable<'_>,
     program: &Function,
@@ -86,11 +86,11 @@ fn expected(
     Expected { inputs, outputs }
 }
 
-/// Calls a function state by state and over columns.
+/// Calls a function state by state and over columns, and compares the results with the expected ones.
 fn compare(place: &str, function: crate::Function<'_>, expected: &Expected) {
     let states = expected.outputs.len();
     let inputs: Vec<&[f64]> = expected.inputs.iter().map(Vec::as_slice).collect();
-    // A number before and behind each column that nobody may write.
+    // A number before and one after each column, which must not be written.
     let size = function.output_size();
     let mut lanes = vec![vec![7.5; states + 2]; size];
     let mut outputs: Vec<&mut [f64]> =
@@ -111,7 +111,7 @@ fn compare(place: &str, function: crate::Function<'_>, expected: &Expected) {
     assert!(lanes.iter().all(|column| column[0] == 7.5 && column[states + 1] == 7.5));
 }
 
-/// All functions of a module, for all registers of this machine.
+/// Compares all functions of a module, for all registers of this machine.
 fn compare_module(
     module: &Module,
     registers: &[Registers],
@@ -139,12 +139,12 @@ fn compare_module(
     }
 }
 
-/// A number of the environment.
+/// Reads a number from an environment variable.
 fn variable(name: &str) -> Option<u64> {
     std::env::var(name).ok().map(|number| number.parse().unwrap())
 }
 
-/// `ROBOT_JIT_MODULES`: how many, where 250 take too long.
+/// `ROBOT_JIT_MODULES` sets the number of modules, if 250 take too long.
 #[test]
 fn random_functions_have_the_bits_of_the_reference() {
     let registers = registers();
@@ -160,9 +160,9 @@ fn random_functions_have_the_bits_of_the_reference() {
     }
 }
 
-/// Millions of small functions: `ROBOT_JIT_FUNCTIONS=10000000` is so many that have no multiply-adds, against the
-/// interpreter, and more that have some, against the reference; `ROBOT_JIT_FIRST` is the first seed, of fifty functions.
-/// Each seed is for one kind of registers, in turn:
+/// Millions of small functions: `ROBOT_JIT_FUNCTIONS=10000000` is the number of functions without multiply-adds, which
+/// are compared with the interpreter; further functions with multiply-adds are compared with the reference.
+/// `ROBOT_JIT_FIRST` is the first seed; each seed makes fifty functions for one kind of registers, in turn:
 ///
 /// ```text
 /// cargo test --release -p robot_jit --lib -- --ignored --nocapture
@@ -174,7 +174,7 @@ fn many_random_functions_have_the_bits_of_the_interpreter() {
     let asked = variable("ROBOT_JIT_FUNCTIONS").unwrap_or(100_000);
     let registers = registers();
     assert!(!registers.is_empty());
-    // Functions against the interpreter, and against the reference alone.
+    // The number of functions compared with the interpreter, and of those compared only with the reference.
     let mut compared = [0u64; 2];
     for seed in first.. {
         let fused = Fused::rarely(seed);
@@ -196,15 +196,15 @@ fn many_random_functions_have_the_bits_of_the_interpreter() {
     }
 }
 
-/// Decodes code and checks every address that it may touch.
+/// Decodes code and checks every address that it can access.
 fn check_addresses(entry: &Entry, lanes: usize, place: &str) {
     let mut decoder = Decoder::new(64, &entry.code, DecoderOptions::NONE);
     let mut information = InstructionInfoFactory::new();
     let in_columns = lanes > 1;
-    // What the register for pointers to columns points to: inputs or outputs.
+    // Says whether the register for pointers to columns points to an input or an output.
     let mut column = Register::None;
     let mut instructions = 0;
-    // Long code moves two pointers before it uses them.
+    // Long code advances two pointers before it uses them.
     let mut moved = [0u64; 2];
     for instruction in &mut decoder {
         assert!(!instruction.is_invalid(), "{place}");
@@ -343,7 +343,7 @@ fn what_cannot_be_compiled_is_an_error() {
     assert!(matches!(compiled.function("f0"), Err(Error::NotCompiled { .. })));
     assert!(matches!(compiled.function("g"), Err(Error::Module(_))));
     assert_eq!(compiled.registers(), Registers::detect().unwrap());
-    // A function that says to have fewer inputs than it loads.
+    // A function that declares fewer inputs than it loads.
     module.functions[0].inputs.clear();
     let options = Options { registers: Some(registers), ..Options::default() };
     assert!(matches!(compile_with(&module, &[], &options), Err(Error::Load { .. })));

@@ -1,4 +1,4 @@
-//! Memory over many compilations, in a process of its own.
+//! Memory use over many compilations, in a process of its own.
 
 #![cfg(target_os = "linux")]
 #![allow(clippy::unwrap_used)]
@@ -8,7 +8,7 @@ use robot_codegen::program::{Builder, Operation, Source};
 use robot_codegen::{Input, Module, Output};
 use robot_jit::{Registers, compile};
 
-/// The sine of the only input, squared.
+/// A module with a function that returns the squared sine of its only input.
 fn module() -> Module {
     let mut angles = Builder::new();
     let angle = angles.load(Source::Input(0));
@@ -42,7 +42,7 @@ fn module() -> Module {
     }
 }
 
-/// Pages in memory, and mappings, of this process.
+/// The numbers of resident pages and of mappings of this process.
 fn memory() -> [usize; 2] {
     let pages = std::fs::read_to_string("/proc/self/statm").unwrap();
     let maps = std::fs::read_to_string("/proc/self/maps").unwrap();

@@ -1,4 +1,4 @@
-//! Machine code against the interpreter, to the bit: all robots, all functions.
+//! All functions of all robots: machine code has the bits of the interpreter.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -12,7 +12,7 @@ use robot_jit::Executable;
 use robot_symbolic::Random;
 use support::{assert_same_function, registers};
 
-/// The states of each function, unless `ROBOT_JIT_STATES` says otherwise.
+/// The number of states for each function, unless `ROBOT_JIT_STATES` sets another.
 const STATES: usize = 203;
 
 #[test]

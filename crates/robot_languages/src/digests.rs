@@ -7,10 +7,10 @@ use robot_codegen::Scalar;
 use crate::files;
 use crate::work::Work;
 
-/// The file of the digests.
+/// The path of the file with the digests.
 pub const FILE: &str = "crates/robot_languages/digests.txt";
 
-/// The first 16 digits of the SHA-256 of the results as bytes; every NaN counts as one.
+/// The first 16 digits of the SHA-256 of the results as bytes; all NaN have the same bytes.
 #[must_use]
 pub fn digest(results: &[f64]) -> String {
     let bytes = results.iter().flat_map(|value| {
@@ -21,11 +21,11 @@ pub fn digest(results: &[f64]) -> String {
     hash[..8].iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// The digests that are committed, by robot, type and function.
+/// Reads the committed digests, by robot, type and function.
 ///
 /// # Errors
 ///
-/// What the system says of the file.
+/// The file cannot be read.
 pub fn committed() -> Result<BTreeMap<String, String>, String> {
     let path = files::root().join(FILE);
     let text = std::fs::read_to_string(path).map_err(|error| format!("{FILE}: {error}"))?;
@@ -33,7 +33,7 @@ pub fn committed() -> Result<BTreeMap<String, String>, String> {
     Ok(lines.map(|(name, digest)| (name.to_owned(), digest.to_owned())).collect())
 }
 
-/// The text of the file.
+/// Prints the file of digests.
 #[must_use]
 pub fn text(digests: &BTreeMap<String, String>) -> String {
     let lines = digests.iter().map(|(name, digest)| format!("{name} {digest}\n"));

@@ -1,4 +1,4 @@
-//! Files and programs.
+//! Helpers that write files and run programs.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,11 +9,11 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Writes a file below a folder, with the folders that it needs.
+/// Writes a file in a folder, and creates the folders that it needs.
 ///
 /// # Errors
 ///
-/// What the system says.
+/// An error of the system.
 pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), String> {
     let path = folder.join(name);
     let parent = path.parent().unwrap_or(folder);
@@ -22,11 +22,11 @@ pub fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), String> {
     std::fs::write(&path, bytes).map_err(said)
 }
 
-/// Runs a program in a folder; its output if it ends well.
+/// Runs a program in a folder; returns its output if it succeeds.
 ///
 /// # Errors
 ///
-/// What it said, if it did not.
+/// The messages of the program, if it fails.
 pub fn run(folder: &Path, program: &str, arguments: &[&str]) -> Result<String, String> {
     let ran = Command::new(program).args(arguments).current_dir(folder).output();
     let ran = ran.map_err(|error| format!("{program}: {error}"))?;
@@ -39,7 +39,7 @@ pub fn run(folder: &Path, program: &str, arguments: &[&str]) -> Result<String, S
     }
 }
 
-/// Whether a program can be run with arguments that only make it tell about itself.
+/// Whether a program can be run; with these arguments it should only print information about itself.
 #[must_use]
 pub fn is_there(program: &str, arguments: &[&str]) -> bool {
     Command::new(program).args(arguments).output().is_ok_and(|ran| ran.status.success())

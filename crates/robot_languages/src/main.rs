@@ -1,7 +1,7 @@
-//! `cargo run --release -p robot_languages [-- [--write | --standard] [--robot=NAME]… [RUNNER…]]`: runs every language
-//! whose tools are installed on all robots and says which are not; `--standard` takes sines and cosines of the languages'
-//! libraries, in double precision. `--write` writes the digests anew, from the interpreter. Names of robots and runners run
-//! those alone.
+//! `cargo run --release -p robot_languages [-- [--write | --standard] [--robot=NAME]… [RUNNER…]]` runs every language
+//! whose tools are installed on all robots, and prints which tools are not installed. `--standard` uses sines and
+//! cosines of the languages' libraries, in double precision. `--write` writes the digests of the interpreter again. If
+//! robots or runners are named, only these are run.
 
 use std::collections::BTreeMap;
 use std::num::NonZero;
@@ -28,7 +28,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// The number of functions whose bits differ.
+/// Runs the check; returns the number of functions whose bits differ.
 fn run() -> Result<usize, String> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let (flags, names): (Vec<_>, Vec<_>) =
@@ -61,7 +61,7 @@ fn run() -> Result<usize, String> {
     Ok(different)
 }
 
-/// The runners of these names, or all, whose tools are installed.
+/// The runners with these names, or all runners, whose tools are installed.
 fn chosen(names: &[String]) -> Vec<Box<dyn Runner>> {
     let mut chosen = vec![];
     for runner in runners::all() {
@@ -75,16 +75,17 @@ fn chosen(names: &[String]) -> Vec<Box<dyn Runner>> {
     chosen
 }
 
-/// The farthest that sines of a library put a result from the interpreter's, in units in the last place of the function's
-/// largest output over all states.
+/// The largest permitted distance of a result with a library's sines from that of the interpreter, in units in the last
+/// place of the function's largest output over all states.
 const STANDARD: f64 = 4.0;
 
-/// The same of functions with quotients: a solution with the mass matrix amplifies a last bit of a sine by the matrix's
-/// condition. The farthest that was seen are the derivatives of forward dynamics of the Panda in node, 28.
+/// The same for functions with quotients: a solution with the mass matrix amplifies errors in the last bit of a sine by
+/// the condition number. The largest distance so far was 28, for the derivatives of the Panda's forward dynamics in
+/// Node.js.
 const SOLVED: f64 = 32.0;
 
-/// Compares with the interpreter: bits in double precision, or units in the last place. In single precision, which the
-/// interpreter does not have, it compares bits with the first runner.
+/// Compares results with those of the interpreter, by bits in double precision or in units in the last place. In single
+/// precision, which the interpreter does not support, compares bits with those of the first runner.
 struct Comparison {
     scalar: Scalar,
     trigonometry: Trigonometry,
@@ -92,7 +93,7 @@ struct Comparison {
     reference: BTreeMap<String, String>,
     compared: usize,
     different: usize,
-    /// The farthest seen, and the functions.
+    /// The largest distances, and their functions.
     farthest: [(f64, String); 2],
 }
 
@@ -112,7 +113,7 @@ impl Comparison {
         runner.has(self.scalar) && has_sines
     }
 
-    /// Runs a runner on all robots; the number of functions that differ.
+    /// Runs a runner on all robots; returns the number of functions that differ.
     fn run(&mut self, runner: &dyn Runner, works: &[Work]) -> Result<usize, String> {
         let start = Instant::now();
         (self.compared, self.different, self.farthest) = Default::default();
@@ -184,7 +185,7 @@ impl Comparison {
     }
 }
 
-/// Runs one of them on all robots, as many at a time as there are cores; the results in the order of the robots.
+/// Runs a runner on all robots, as many at a time as there are cores; returns the results in the order of the robots.
 fn run_all(runner: &dyn Runner, works: &[Work]) -> Vec<Result<Vec<Found>, String>> {
     let next = AtomicUsize::new(0);
     let run = || {
@@ -209,7 +210,7 @@ fn run_all(runner: &dyn Runner, works: &[Work]) -> Vec<Result<Vec<Found>, String
     all.into_iter().map(|(_, found)| found).collect()
 }
 
-/// Writes the digests of what the interpreter gives.
+/// Writes the digests of the interpreter's results.
 fn write() -> Result<usize, String> {
     let mut digests = BTreeMap::new();
     for robot in robots()? {

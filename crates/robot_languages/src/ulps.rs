@@ -4,7 +4,8 @@ use robot_codegen::Scalar;
 
 use crate::work::Calls;
 
-/// The unit in the last place of a number's size in a type; that of the smallest normal number below it.
+/// The unit in the last place of a number of this size in a type; for smaller sizes, that of the smallest normal
+/// number.
 #[must_use]
 pub fn unit(size: f64, scalar: Scalar) -> f64 {
     let (smallest, bits) = match scalar {
@@ -15,17 +16,17 @@ pub fn unit(size: f64, scalar: Scalar) -> f64 {
     f64::from_bits(exponent << 52) / f64::from(2.0_f32).powi(bits)
 }
 
-/// The largest distances of results from those of the interpreter.
+/// The largest distances between results and those of the interpreter.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Distances {
-    /// In units of the function's largest output over all states.
+    /// The distance in units in the last place of the function's largest output over all states.
     pub of_function: f64,
-    /// In units of the largest output of the state at which it is.
+    /// The distance in units in the last place of the largest output at its state.
     pub of_state: f64,
 }
 
-/// The distances of a function's results. Where the interpreter gives no finite number, the result must be none; if `any`,
-/// it may be any.
+/// Computes the distances of a function's results. If the interpreter's result is not finite, the other must not be
+/// finite either, unless `any` is set.
 #[must_use]
 pub fn distances(calls: &Calls, results: &[f64], scalar: Scalar, any: bool) -> Distances {
     let width = calls.given.max(1);
@@ -46,7 +47,7 @@ pub fn distances(calls: &Calls, results: &[f64], scalar: Scalar, any: bool) -> D
     found
 }
 
-/// The largest finite size.
+/// The largest finite absolute value.
 fn size(values: &[f64]) -> f64 {
     let sizes = values.iter().map(|value| value.abs()).filter(|size| size.is_finite());
     sizes.fold(0.0, f64::max)

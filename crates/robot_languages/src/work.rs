@@ -6,14 +6,14 @@ use robot_symbolic::Random;
 
 use crate::files;
 
-/// The states at which each function is called.
+/// The number of states at which each function is called.
 pub const STATES: usize = 200;
 
-/// A robot, its programs, and for each function inputs and results.
+/// A robot, its programs, and the inputs and results of each function.
 pub struct Work {
     /// The robot file.
     pub source: Source,
-    /// The options that it is generated with.
+    /// The options with which it is generated.
     pub options: Options,
     /// The programs.
     pub programs: Programs,
@@ -33,18 +33,18 @@ pub struct Calls {
     pub given: usize,
     /// The entries of all inputs, state by state.
     pub inputs: Vec<f64>,
-    /// What the interpreter gives, state by state.
+    /// The results of the interpreter, state by state.
     pub expected: Vec<f64>,
 }
 
-/// A robot whose names are words of languages.
+/// The name of a robot whose names are reserved words of languages.
 const HOSTILE: &str = "hostile";
 
 /// The names of the robots.
 ///
 /// # Errors
 ///
-/// What the system says of the folder.
+/// The folder cannot be read.
 pub fn robots() -> Result<Vec<String>, String> {
     let folder = files::root().join("robots");
     let entries = std::fs::read_dir(&folder).map_err(|error| error.to_string())?;
@@ -58,20 +58,20 @@ pub fn robots() -> Result<Vec<String>, String> {
 }
 
 impl Work {
-    /// All functions of a robot of the repository, with the runtime's sines.
+    /// Prepares all functions of a robot of the repository, with the runtime's sines.
     ///
     /// # Errors
     ///
-    /// What is wrong with its file.
+    /// All errors in its file.
     pub fn new(robot: &str, scalar: Scalar) -> Result<Work, String> {
         Work::with(robot, scalar, Trigonometry::Polynomial)
     }
 
-    /// [`Work::new`] with sines of either source.
+    /// Does the same as [`Work::new`], with sines of either source.
     ///
     /// # Errors
     ///
-    /// What is wrong with its file.
+    /// All errors in its file.
     pub fn with(robot: &str, scalar: Scalar, trigonometry: Trigonometry) -> Result<Work, String> {
         let name = format!("{robot}.toml");
         let folder = if robot == HOSTILE { "crates/robot_languages" } else { "robots" };
@@ -114,7 +114,7 @@ impl Work {
     }
 }
 
-/// The calls of a function at pseudo-random states, which single precision holds exactly.
+/// The calls of a function at pseudo-random states, which are exact in single precision.
 fn calls(interpreter: &Interpreter<'_>, name: &str, scalar: Scalar) -> Result<Calls, String> {
     let callable = interpreter.function(name).map_err(|error| error.to_string())?;
     let mut random = Random::new(1);

@@ -1,4 +1,4 @@
-//! The committed digests are those of the interpreter, which tests elsewhere hold to generated Rust.
+//! The committed digests are those of the interpreter, which other tests compare with generated Rust.
 
 use std::collections::BTreeMap;
 

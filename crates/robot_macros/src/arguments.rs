@@ -8,10 +8,11 @@ use robot_symbolic::nearest_word;
 use syn::parse::{Parse, ParseStream};
 use syn::{Expr, ExprLit, Ident, Lit, LitStr, Token, UnOp};
 
-/// `"path", key = value, …`
+/// The arguments, such as `"path", key = value, …`.
 pub(crate) struct Arguments {
     pub(crate) path: LitStr,
-    /// The options but for the functions, which the robot must be known for: see [`Arguments::options_for`].
+    /// The options except for the functions, which can only be checked when the robot is known; see
+    /// [`Arguments::options_for`].
     pub(crate) options: Options,
     pub(crate) allow_outside: bool,
     functions: Option<Vec<LitStr>>,
@@ -66,11 +67,11 @@ impl Arguments {
         Ok(())
     }
 
-    /// The options with the functions of a robot.
+    /// The options, including the functions of a robot.
     ///
     /// # Errors
     ///
-    /// Each name that is not a function's, at its place.
+    /// An error for each name that is not the name of a function, at its place.
     pub(crate) fn options_for(&self, robot: &Robot) -> syn::Result<Options> {
         let mut options = self.options.clone();
         if let Some(names) = &self.functions {
@@ -104,7 +105,7 @@ impl Arguments {
                 self.functions = Some(list(value, Some(ALL_FUNCTIONS))?);
                 return Ok(());
             }
-            // They have a syntax of their own, see `Arguments::parse`.
+            // Bundles have a syntax of their own, which `Arguments::parse` reads.
             Kind::Bundles => return Ok(()),
             Kind::Flag => Value::Flag(boolean(value)?),
             Kind::Count { .. } => Value::Count(size(value)?),
@@ -124,7 +125,7 @@ impl Arguments {
     }
 }
 
-/// `{ dynamics = ["mass_matrix", "bias"], … }`
+/// The bundles, such as `{ dynamics = ["mass_matrix", "bias"], … }`.
 struct Bundles(Vec<(Ident, Expr)>);
 
 impl Parse for Bundles {
@@ -144,7 +145,7 @@ impl Parse for Bundles {
     }
 }
 
-/// The functions of a robot by their names.
+/// The functions of a robot with the given names.
 fn kinds<'n>(
     names: impl IntoIterator<Item = &'n LitStr>,
     robot: &Robot,
@@ -165,8 +166,8 @@ fn kinds<'n>(
     errors.map_or(Ok(kinds), Err)
 }
 
-/// A list of names of functions or a further word, not an empty one. The functions of frames are looked
-/// for when the robot is known.
+/// Reads a list of names of functions, or the word `more` if it is given; it must not be empty. Functions of single
+/// frames are resolved when the robot is known.
 fn list(value: &Expr, more: Option<&'static str>) -> syn::Result<Vec<LitStr>> {
     let Expr::Array(array) = value else {
         return Err(syn::Error::new_spanned(
@@ -200,7 +201,7 @@ fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
     })
 }
 
-/// `` (did you mean `functions`?)`` if one of the words is near.
+/// The hint `` (did you mean `functions`?)`` if one of the known words resembles the given one.
 fn meant(word: &str, known: &[&str]) -> String {
     let near = nearest_word(word, known.iter().copied());
     near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
@@ -246,7 +247,7 @@ fn number(value: &Expr) -> syn::Result<f64> {
         .ok_or_else(|| syn::Error::new_spanned(value, "expected a number"))
 }
 
-/// Refuses the type behind a number, as in `4u8`, which would have no effect.
+/// Refuses a type suffix on a number, as in `4u8`, because it would have no effect.
 fn without_type(suffix: &str, value: &Expr) -> syn::Result<()> {
     if suffix.is_empty() {
         return Ok(());

@@ -1,4 +1,4 @@
-//! `include_robot!`: a robot file becomes a module at compile time.
+//! `include_robot!` generates a module from a robot file at compile time.
 
 mod arguments;
 mod expand;
@@ -13,41 +13,41 @@ use proc_macro::TokenStream;
 /// let model = trttr1::Model::NOMINAL;
 /// ```
 ///
-/// The path is relative to the package's `Cargo.toml`. The module has the robot's name in lower
-/// case and is the same that `robot_build` generates in a build script. The crate `robot_runtime`
-/// must be a dependency. A change of the file builds again; each thing that is wrong with it is a compile
-/// error, the place in the file and the reason on its first line.
+/// The path is relative to the package's `Cargo.toml`. The module is named like the robot, in lower case, and is the
+/// same that `robot_build` generates in a build script. The crate `robot_runtime` must be a dependency. A change of the
+/// robot file causes a new build; each problem in it is a compile error, whose first line contains the place in the
+/// file and the reason.
 ///
-/// A plan that `robot-symbolic search` pinned beside the file is taken and watched too. The search sets the
-/// file's time, so that the first plan is seen; after a plan came in another way, such as a checkout, touch the
-/// file.
+/// If a plan is pinned beside the robot file by `robot-symbolic search`, it is used and tracked as well. The search
+/// updates the time of the robot file, so that a new plan is noticed. If the plan was created in another way, for
+/// example by a checkout, touch the robot file.
 ///
 /// Options follow the path:
 ///
 /// ```ignore
 /// include_robot!(
 ///     "robots/trttr1.toml",
-///     functions = ["inverse_dynamics", "jacobian_tool"], // ["all"] for all; the file's without this
+///     functions = ["inverse_dynamics", "jacobian_tool"], // ["all"] for all; default: those of the robot file
 ///     bundles = { dynamics = ["mass_matrix", "bias"] }, // several functions in one call
-///     snap = 1e-8,                  // rad; constant angles this near to π/2 · n become that
-///     base_frames = "denavit_hartenberg", // of the base parameters; "file" without this
-///     scalar = "f32",               // "f64" without this
-///     generic = true,               // forms `…_generic` over any scalar of the runtime, lanes too
-///     batch = 8,                    // forms `…_batch` over slices of states, in blocks of so many
-///     parallel = true,              // forms `…_batch_parallel` over the threads of the crate rayon
-///     fused = true,                 // multiply-adds where the target has the instruction
-///     trigonometry = "standard",    // "polynomial" without this
-///     max_operations = 300,         // of a call of each function; more is an error
-///     max_stack = 2048,             // bytes, estimated; more is an error
+///     snap = 1e-8,                  // rad; tolerance within which constant angles become multiples of π/2
+///     base_frames = "denavit_hartenberg", // of the base parameters; default: "file"
+///     scalar = "f32",               // default: "f64"
+///     generic = true,               // functions `…_generic` over any scalar of the runtime, including lanes
+///     batch = 8,                    // functions `…_batch` over slices of states, in blocks of this size
+///     parallel = true,              // functions `…_batch_parallel` over the threads of the crate rayon
+///     fused = true,                 // multiply-add instructions if the target has them
+///     trigonometry = "standard",    // default: "polynomial"
+///     max_operations = 300,         // maximum for a call of each function; more is an error
+///     max_stack = 2048,             // maximum estimated stack, bytes; more is an error
 ///     runtime = "::robot_runtime",
-///     allow_outside = true,         // the file may lie outside of the package
-///     allow_unphysical = true,      // masses and inertias that no body has are warnings
-///     allow_massless = true,        // moving links without mass are warnings
+///     allow_outside = true,         // the file may be outside the package
+///     allow_unphysical = true,      // impossible masses and inertias are warnings, not errors
+///     allow_massless = true,        // moving links without mass are warnings, not errors
 /// );
 /// ```
 ///
-/// The whole code passes through the editor's analysis: for robots of many joints a build script
-/// suits better.
+/// An editor analyzes all of the generated code. For robots with many joints, a build script is therefore more
+/// suitable.
 #[proc_macro]
 pub fn include_robot(input: TokenStream) -> TokenStream {
     expand::include_robot(input.into()).into()

@@ -1,15 +1,15 @@
-//! Physical limits of bodies: principal moments of inertia and how they can be wrong.
+//! Physical limits of bodies: the conditions on principal moments of inertia.
 
 use crate::diagnostic::{code, significant};
 use crate::space::eigenvalues;
 
-/// Values are rounded: this part of the largest principal moment is not a violation.
+/// The fraction of the largest principal moment by which rounded values may violate a condition.
 pub(crate) const TOLERANCE: f64 = 1e-3;
 
-/// The verdict on an inertia tensor. Principal moments ascend, kg m².
+/// The verdict on an inertia tensor. Principal moments are in ascending order, kg m².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// It is possible; all zeros describe a point mass.
+    /// The tensor is possible; a tensor of zeros describes a point mass.
     Possible,
     /// A principal moment is negative.
     Negative([f64; 3]),
@@ -36,7 +36,7 @@ pub fn judge(tensor: [f64; 6]) -> Verdict {
 }
 
 impl Verdict {
-    /// The code of the fault.
+    /// The code of the diagnostic for the verdict.
     pub(crate) fn code(&self) -> &'static str {
         match self {
             Verdict::Triangle(..) => code::INERTIA_TRIANGLE,
@@ -44,7 +44,7 @@ impl Verdict {
         }
     }
 
-    /// The fault in a line.
+    /// The message of the diagnostic, on one line.
     pub(crate) fn message(&self) -> &'static str {
         match self {
             Verdict::Possible => "the inertia is physically possible",
@@ -59,7 +59,7 @@ impl Verdict {
         }
     }
 
-    /// The label with the values, for the place.
+    /// The principal moments, as a label for the place in the file.
     pub(crate) fn label(&self) -> String {
         match self {
             Verdict::Possible => String::new(),
@@ -73,7 +73,7 @@ impl Verdict {
 /// The eigenvalues of the tensor `[xx, yy, zz, xy, xz, yz]` in ascending order; `None` if all
 /// entries are 0.
 pub(crate) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
-    // Scaled, so that no square overflows.
+    // Scaled so that no square overflows.
     let scale = tensor.iter().fold(0.0_f64, |scale, entry| scale.max(entry.abs()));
     if scale == 0.0 {
         return None;
@@ -104,7 +104,7 @@ mod tests {
         for tensor in [[0.0; 6], [1.0, 2.0, 3.0, 0.0, 0.0, 0.0], [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]] {
             assert_eq!(verdict(tensor), Verdict::Possible, "{tensor:?}");
         }
-        // Rounded to three digits, a flat plate of 1/3 and 2/3 exceeds by 0.1 %.
+        // A flat plate with moments 1/3, 1/3 and 2/3, rounded to three digits, exceeds the limit by 0.1 %.
         assert_eq!(verdict([0.333, 0.333, 0.6666, 0.0, 0.0, 0.0]), Verdict::Possible);
         assert!(matches!(verdict([1.0, 1.0, 1.0, 1.5, 0.0, 0.0]), Verdict::Negative(_)));
         assert!(matches!(verdict([-1e-9, 1.0, 1.0, 0.0, 0.0, 0.0]), Verdict::Negative(_)));

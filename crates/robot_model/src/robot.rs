@@ -1,4 +1,4 @@
-//! The checked robot: what a robot file says, as plain data.
+//! The checked robot: the content of a robot file as plain data.
 //!
 //! Values are [`Formula`]s over the robot's parameters, exactly as the file gives them; nothing is evaluated, merged
 //! or repaired here. Units are SI, with angles in radians.
@@ -7,24 +7,24 @@ use robot_symbolic::{Formula, Rational};
 
 use crate::unit::Unit;
 
-/// The number of inertial parameters of a link: mass, first moment, inertia tensor.
+/// The number of inertial parameters of a link: mass, first moment and inertia tensor.
 pub const LINK_PARAMETERS: usize = 10;
 
-/// A robot with a fixed base: links in a tree, each moved by one joint.
+/// A robot with a fixed base: a tree of links, each moved by one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// The robot's name, an identifier.
     pub name: String,
-    /// The file's description: source of the values, remarks.
+    /// The description in the file, such as the source of the values.
     pub description: Option<String>,
-    /// Acceleration of gravity in the base frame, m/s²: it points down.
+    /// The acceleration of gravity in the base frame, m/s². The vector points down.
     pub gravity: [Formula; 3],
-    /// Constant angles within this many radians of a multiple of π/2 stand for that multiple; `None` if the file does
-    /// not say.
+    /// Constant angles within this tolerance of a multiple of π/2, rad, are taken as that multiple; `None` if the file
+    /// does not specify it.
     pub snap: Option<f64>,
     /// The frames of the link parameters that the base parameters combine.
     pub base_frames: BaseFrames,
-    /// The symbols that stay parameters of equations and code, in the file's order.
+    /// The symbols that remain parameters of equations and code, in the order of the file.
     pub parameters: Vec<Parameter>,
     /// The generalized coordinates q₁ … qₙ.
     pub coordinates: Vec<Coordinate>,
@@ -32,25 +32,26 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
-    /// The body that the robot may carry, if the file has one; it is also a body of its link.
+    /// The body that the robot may carry, if the file has one. It is also one of the bodies of the link that carries
+    /// it.
     pub payload: Option<Payload>,
 }
 
 /// The frames of the link parameters that base parameters combine.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BaseFrames {
-    /// Mass, first moment and inertia tensor about the origin and in the axes of the link's frame in
-    /// the file.
+    /// The link's frame in the file; the parameters are the mass, the first moment, and the inertia tensor about the
+    /// frame's origin, in its axes.
     #[default]
     File,
-    /// Mass, first and second moments in Denavit–Hartenberg frames, in which the regressor needs fewer operations: z
-    /// is the joint axis, and the origin lies on it where the common normal with the axis of the parent's joint meets
-    /// it.
+    /// Denavit–Hartenberg frames; the parameters are the mass and the first and second moments. The regressor needs
+    /// fewer operations in these frames. Axis z is the joint axis; the origin is the point of the joint axis at which
+    /// the common normal with the axis of the parent's joint meets it.
     DenavitHartenberg,
 }
 
 impl BaseFrames {
-    /// All choices.
+    /// Both choices.
     pub const ALL: [BaseFrames; 2] = [BaseFrames::File, BaseFrames::DenavitHartenberg];
 
     /// The name in robot files and options.
@@ -62,36 +63,36 @@ impl BaseFrames {
         }
     }
 
-    /// The choice of that name.
+    /// The choice with the given name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<BaseFrames> {
         BaseFrames::ALL.into_iter().find(|frames| frames.name() == name)
     }
 }
 
-/// The names of the parameters of a body that is to be set at run time, all of them 0 by default.
+/// The names of the parameters of a body that is set at run time. By default, all of them are 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Payload {
-    /// Mass, kg.
+    /// The mass, kg.
     pub mass: String,
-    /// Center of mass in the carrying frame of the file, m.
+    /// The center of mass in the frame of the file that carries the payload, m.
     pub center_of_mass: [String; 3],
-    /// Tensor about the center of mass, axes of that frame: xx, yy, zz, xy, xz, yz, kg m².
+    /// The inertia tensor about the center of mass in the axes of that frame: xx, yy, zz, xy, xz, yz, kg m².
     pub inertia: [String; 6],
 }
 
 /// A symbol of the robot file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The name, an identifier: a symbol in equations, a field of `Parameters` in code.
+    /// The name, an identifier: a symbol in equations and a field of `Parameters` in code.
     pub name: String,
-    /// The nominal value, exact, in [`Parameter::unit`].
+    /// The exact nominal value, in [`Parameter::unit`].
     pub value: Option<Rational>,
     /// The unit; `None` if the file gives none.
     pub unit: Option<Unit>,
-    /// Its LaTeX, from a small checked grammar.
+    /// The LaTeX of the symbol, from a small checked grammar.
     pub latex: Option<String>,
-    /// Its meaning, in the file's words.
+    /// The documentation in the file.
     pub doc: Option<String>,
 }
 
@@ -100,13 +101,13 @@ pub struct Parameter {
 pub struct Coordinate {
     /// The name of the joint that it moves.
     pub joint: String,
-    /// Radians for a rotation, meters for a translation.
+    /// The kind of the joint: the coordinate is in radians for a revolute joint and in meters for a prismatic one.
     pub kind: JointKind,
-    /// Lower and upper limits if the file gives them; they bound only test states.
+    /// The lower and upper limits, if the file gives them. They only restrict the states at which tests are made.
     pub limits: Option<[Rational; 2]>,
 }
 
-/// Rotation about or translation along the joint axis.
+/// The kind of a joint: rotation about the joint axis or translation along it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum JointKind {
     /// A rotation: the paper's Δ = 1.
@@ -117,53 +118,53 @@ pub enum JointKind {
 
 /// A moving link.
 ///
-/// Its frame is the parent's frame (or the base) moved by `placement`, then by the joint. The
-/// frame's origin therefore lies on the joint axis.
+/// Its frame is the parent's frame (or the base frame) moved by `placement` and then by the joint. The origin of the
+/// frame therefore lies on the joint axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// The name in the file.
     pub name: String,
-    /// The parent link, by index; `None` for the base. Always below the link's own index.
+    /// The index of the parent link, which is always below the link's own index; `None` for the base.
     pub parent: Option<usize>,
-    /// The frame at joint position 0, in the parent's frame.
+    /// The link's frame at joint position 0, relative to the parent's frame.
     pub placement: Placement,
     /// The joint that moves the link.
     pub joint: Joint,
-    /// The rigid bodies that make up the link: one, or several if fixed links were merged.
+    /// The rigid bodies of the link: one, or several if fixed links were merged.
     pub bodies: Vec<Body>,
     /// Friction in the joint.
     pub friction: Friction,
-    /// The drive's inertia.
+    /// The inertia of the drive.
     pub drive: Drive,
 }
 
 /// The joint between a link and its parent.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Joint {
-    /// The name; the link's if the file names no joints.
+    /// The name of the joint; that of the link if the file names no joint.
     pub name: String,
     /// Rotation or translation.
     pub kind: JointKind,
-    /// The axis in the link's frame, of any length but 0.
+    /// The joint axis in the link's frame, a vector of any length except 0.
     pub axis: [Formula; 3],
-    /// The coordinate that moves it, an index into [`Robot::coordinates`].
+    /// The coordinate that moves the joint: an index into [`Robot::coordinates`].
     pub coordinate: usize,
-    /// Joint position = `ratio` · q + `offset`; the ratio is 1 except for a joint that mimics another.
+    /// The ratio in joint position = `ratio` · q + `offset`. It is 1 except for a joint that mimics another.
     pub ratio: Formula,
-    /// See `ratio`; 0 except for a joint that mimics another.
+    /// The offset in the same equation. It is 0 except for a joint that mimics another.
     pub offset: Formula,
 }
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
-    /// The name: that of the link, or of the fixed link that was merged.
+    /// The name: that of the link, or of the fixed link that was merged into it.
     pub name: String,
-    /// Mass, kg.
+    /// The mass, kg.
     pub mass: Formula,
-    /// The frame in which `inertia` holds: its origin is the center of mass, in the link's frame.
+    /// The frame of the body relative to the link's frame. Its origin is the center of mass.
     pub placement: Placement,
-    /// Inertia tensor about the center of mass, axes of `placement`, kg m².
+    /// The inertia tensor about the center of mass in the axes of `placement`, kg m².
     pub inertia: Inertia,
 }
 
@@ -196,7 +197,7 @@ impl Inertia {
     }
 }
 
-/// A rigid displacement: a sequence of elementary moves, each in the frame reached by the preceding ones.
+/// A rigid displacement: a sequence of elementary moves, each relative to the frame that the preceding ones reach.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Placement(pub Vec<Move>);
 
@@ -212,11 +213,11 @@ pub enum Move {
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
-    /// The first.
+    /// The first axis.
     X,
-    /// The second.
+    /// The second axis.
     Y,
-    /// The third.
+    /// The third axis.
     Z,
 }
 
@@ -243,39 +244,39 @@ impl Placement {
 /// Friction in a joint; all values are 0 if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
-    /// b of equation (4), N m s/rad or N s/m.
+    /// The coefficient b of equation (4), N m s/rad or N s/m.
     pub viscous: Formula,
-    /// c of equation (5): dry friction per contact force across the axis.
+    /// The coefficient c of equation (5): dry friction divided by the contact force across the axis.
     pub coulomb: Formula,
-    /// d of equation (5): the journal diameter of a revolute joint, m (the paper's spindle diameter).
+    /// The diameter d in equation (5): the journal diameter of a revolute joint, m (the paper's spindle diameter).
     pub spindle_diameter: Formula,
-    /// Constant dry friction for positive velocities, N m or N.
+    /// The constant dry friction at positive velocities, N m or N.
     pub coulomb_positive: Formula,
-    /// Constant dry friction for negative velocities, N m or N, as a positive value.
+    /// The constant dry friction at negative velocities, N m or N, as a positive value.
     pub coulomb_negative: Formula,
-    /// Constant offset, N m or N.
+    /// A constant offset, N m or N.
     pub offset: Formula,
-    /// Width v of the smooth sign tanh(q̇ / v), rad/s or m/s; `None` for the exact sign function.
+    /// The width v of the smooth sign tanh(q̇ / v), rad/s or m/s; `None` for the exact sign function.
     pub smoothing: Option<Formula>,
 }
 
-/// The drive's inertia; all values are 0 if the file has none.
+/// The inertia of a drive; all values are 0 if the file has none.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// Inertia already reflected to the joint, kg m² or kg.
+    /// The inertia already reflected to the joint, kg m² or kg.
     pub armature: Formula,
-    /// The rotor's inertia about its own axis, kg m².
+    /// The inertia of the rotor about its own axis, kg m².
     pub rotor_inertia: Formula,
-    /// The rotor's turns per turn of the joint; the reflected inertia is the square of this ratio times the rotor's
-    /// inertia.
+    /// The number of turns of the rotor per turn of the joint. The reflected inertia is the rotor's inertia times the
+    /// square of this ratio.
     pub gear_ratio: Formula,
-    /// Whether the spinning rotor's gyroscopic moments are part of the model: the rotor's axis is
-    /// then the joint axis and the rotor is carried by the parent link.
+    /// Whether the gyroscopic moments of the spinning rotor are part of the model. In this case the rotor's axis is the
+    /// joint axis, and the parent link carries the rotor.
     pub gyroscopic: bool,
 }
 
 impl Friction {
-    /// No friction.
+    /// Creates a friction in which all values are 0.
     #[must_use]
     pub fn none() -> Friction {
         let zero = || Formula::number(&Rational::ZERO);
@@ -292,7 +293,7 @@ impl Friction {
 }
 
 impl Drive {
-    /// No inertia in the drive.
+    /// Creates a drive without inertia.
     #[must_use]
     pub fn none() -> Drive {
         let zero = || Formula::number(&Rational::ZERO);
@@ -310,23 +311,23 @@ impl Drive {
 pub struct Frame {
     /// The name; `tip` if the file gives none.
     pub name: String,
-    /// The link that carries it; `None` for the base.
+    /// The index of the link that carries the frame; `None` for the base.
     pub link: Option<usize>,
-    /// Its pose in that link's frame.
+    /// The pose of the frame relative to that link's frame.
     pub placement: Placement,
     /// The wrench that the frame exerts on its surroundings, if it is a tip.
     pub wrench: Option<Wrench>,
 }
 
-/// The names of a wrench's components, in the axes of its frame, with the moment about its origin: the wrench that
-/// the tip exerts on its surroundings, the paper's payload wrench (25).
+/// The names of the components of the wrench that a tip exerts on its surroundings, in the axes of the tip's frame; the
+/// moment is about the origin of this frame. This is the paper's payload wrench (25).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrench {
-    /// Force, N.
+    /// The components of the force, N.
     pub force: [String; 3],
-    /// Moment, N m.
+    /// The components of the moment, N m.
     pub moment: [String; 3],
-    /// The LaTeX of the components, force first, if the file has it.
+    /// The LaTeX of the components, force first, if the file gives it.
     pub latex: [Option<String>; 6],
 }
 
@@ -348,13 +349,13 @@ impl Robot {
         self.links.iter().any(|link| link.friction != Friction::none())
     }
 
-    /// The parameter of that name.
+    /// The parameter with the given name.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&Parameter> {
         self.parameters.iter().find(|parameter| parameter.name == name)
     }
 
-    /// The nominal value of the parameter of that name; NaN if it has none, or does not exist.
+    /// The nominal value of the parameter with the given name; NaN if the parameter has none or does not exist.
     #[must_use]
     pub fn nominal_value(&self, name: &str) -> f64 {
         let value = self.parameter(name).and_then(|parameter| parameter.value.as_ref());

@@ -1,4 +1,4 @@
-//! Which constant angles are taken for multiples of π/2.
+//! The tolerance within which a constant angle is taken as a multiple of π/2.
 
 /// The tolerance if neither a caller nor the robot file gives one, rad.
 pub const DEFAULT: f64 = 1e-9;
@@ -10,7 +10,7 @@ pub const MAX: f64 = 0.1;
 ///
 /// # Errors
 ///
-/// A tolerance below 0 or above [`MAX`], and NaN.
+/// An error if the tolerance is below 0, above [`MAX`], or NaN.
 pub fn check(tolerance: f64) -> Result<f64, InvalidSnap> {
     if (0.0..=MAX).contains(&tolerance) {
         Ok(tolerance)

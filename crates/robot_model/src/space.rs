@@ -1,6 +1,6 @@
-//! Vectors and matrices of space in numbers, as little of them as reading needs.
+//! Vectors and matrices of numbers in space: only the operations that reading robot files needs.
 
-/// A vector of space.
+/// A vector in space.
 pub(crate) type Vector = [f64; 3];
 
 /// A 3 × 3 matrix, row by row.
@@ -16,9 +16,9 @@ pub(crate) fn cross(a: &Vector, b: &Vector) -> Vector {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The vector of length 1 in the direction of `a`, of any length that is not 0; NaN for the vector 0.
+/// The unit vector in the direction of `a`; NaN for the zero vector.
 pub(crate) fn direction(a: &Vector) -> Vector {
-    // Divided by the largest component first, so that no square overflows or vanishes.
+    // Division by the largest component first ensures that no square overflows or underflows.
     let largest = a.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
     let scaled = a.map(|component| component / largest);
     let length = dot(&scaled, &scaled).sqrt();
@@ -29,18 +29,18 @@ pub(crate) fn transpose(a: &Matrix) -> Matrix {
     [0, 1, 2].map(|row| [a[0][row], a[1][row], a[2][row]])
 }
 
-/// A b of a matrix and a vector.
+/// The product A b of a matrix and a vector.
 pub(crate) fn apply(a: &Matrix, b: &Vector) -> Vector {
     a.each_ref().map(|row| dot(row, b))
 }
 
-/// A B of two matrices.
+/// The product A B of two matrices.
 pub(crate) fn product(a: &Matrix, b: &Matrix) -> Matrix {
     let columns = transpose(b);
     a.each_ref().map(|row| columns.each_ref().map(|column| dot(row, column)))
 }
 
-/// The rotation by `angle` (rad) about the coordinate axis of that number.
+/// The rotation by `angle` (rad) about the coordinate axis with the given index.
 pub(crate) fn rotation_about(axis: usize, angle: f64) -> Matrix {
     let (sine, cosine) = angle.sin_cos();
     let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -52,10 +52,10 @@ pub(crate) fn rotation_about(axis: usize, angle: f64) -> Matrix {
     rotation
 }
 
-/// The eigenvalues of a symmetric matrix in ascending order, by Jacobi's rotations (G. H. Golub, C. F. Van
-/// Loan, "Matrix Computations", section 8.5). Entries are to be finite and far from overflow.
+/// The eigenvalues of a symmetric matrix in ascending order, by Jacobi rotations (G. H. Golub, C. F. Van Loan, "Matrix
+/// Computations", section 8.5). The entries must be finite and far from overflow.
 pub(crate) fn eigenvalues(mut a: Matrix) -> Vector {
-    // Each sweep squares what is left beside the diagonal: five are enough for 53 bits.
+    // Convergence is quadratic: five sweeps are enough for 53 bits.
     const SWEEPS: usize = 12;
     for _ in 0..SWEEPS {
         for (p, q) in [(0, 1), (0, 2), (1, 2)] {
@@ -69,7 +69,7 @@ pub(crate) fn eigenvalues(mut a: Matrix) -> Vector {
     values
 }
 
-/// Jᵀ A J with the rotation J that makes the entry (p, q) zero.
+/// Jᵀ A J, in which the rotation J makes the entry (p, q) zero.
 fn without_entry(a: &Matrix, p: usize, q: usize) -> Matrix {
     let slope = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
     let tangent = slope.signum() / (slope.abs() + slope.hypot(1.0));

@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use robot_symbolic::Rational;
 
-/// A unit as products of powers of the SI base units of mechanics and the radian.
+/// A unit: a product of powers of the SI base units of mechanics and the radian.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// The text in the file, `kg m^2`.
+    /// The text in the file, such as `kg m^2`.
     pub text: String,
     /// The exponents of kilogram, meter and second; radians are dimensionless.
     pub dimension: Dimension,
@@ -28,14 +28,14 @@ pub struct Dimension {
 impl Dimension {
     /// A pure number or an angle.
     pub const NONE: Dimension = Dimension::new(0, 0, 0);
-    /// m/s².
+    /// An acceleration, m/s².
     pub const ACCELERATION: Dimension = Dimension::new(0, 1, -2);
-    /// N.
+    /// A force, N.
     pub const FORCE: Dimension = Dimension::new(1, 1, -2);
-    /// N m.
+    /// A moment, N m.
     pub const MOMENT: Dimension = Dimension::new(1, 2, -2);
 
-    /// kg^`mass` m^`length` s^`time`.
+    /// The dimension kg^`mass` m^`length` s^`time`.
     #[must_use]
     pub const fn new(mass: i8, length: i8, time: i8) -> Dimension {
         Dimension { mass, length, time }
@@ -62,7 +62,7 @@ impl Dimension {
     }
 }
 
-/// `kg m^2 s^-2`; `1` for none.
+/// The dimension as text, such as `kg m^2 s^-2`; `1` for a pure number.
 impl fmt::Display for Dimension {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let factors = [("kg", self.mass), ("m", self.length), ("s", self.time)];
@@ -81,7 +81,7 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// The units of a robot file, with their dimensions.
+/// The units that robot files may contain, with their dimensions.
 const UNITS: &[(&str, Dimension)] = &[
     ("1", Dimension::new(0, 0, 0)),
     ("rad", Dimension::new(0, 0, 0)),
@@ -95,8 +95,7 @@ const UNITS: &[(&str, Dimension)] = &[
     ("W", Dimension::new(1, 2, -3)),
 ];
 
-/// Other units in use, each `numerator / denominator` of a unit above; 0 / 1 if the factor is
-/// not rational.
+/// Other common units. Each is `numerator / denominator` of a unit above, or 0 / 1 if the factor is not rational.
 const OTHERS: &[(&str, &str, i64, i64)] = &[
     ("mm", "m", 1, 1000),
     ("cm", "m", 1, 100),
@@ -124,37 +123,38 @@ const OTHERS: &[(&str, &str, i64, i64)] = &[
     ("rpm", "rad/s", 0, 1),
 ];
 
-/// Why a text is not a unit.
+/// The reason why a text is not a valid unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum UnitError {
-    /// An unknown unit, or an invalid notation; the bytes and the problem.
+    /// An unknown unit or invalid notation: the bytes and the problem.
     Unknown(Range<usize>, String),
-    /// A unit outside the SI.
+    /// A unit that is not an SI unit.
     NotSi {
         /// The bytes of the first such unit.
         span: Range<usize>,
-        /// The SI unit to write.
+        /// The SI unit to write instead.
         unit: String,
-        /// The factor by which values are to be multiplied; `None` if it is not rational.
+        /// The factor by which values must be multiplied; `None` if it is not rational.
         factor: Option<Rational>,
     },
 }
 
-/// The names of all known units.
+/// The names of the units that robot files may contain.
 #[must_use]
 pub fn known_units() -> Vec<&'static str> {
     UNITS.iter().map(|(name, _)| *name).collect()
 }
 
 impl Unit {
-    /// Reads a unit: names with powers, separated by spaces or `*`, at most one `/`, which divides
-    /// by the one factor that follows it.
+    /// Reads a unit: names with powers, separated by spaces or `*`, and at most one `/`, which applies only to the
+    /// factor that follows it.
     ///
-    /// Only units in which values need no factor are known: 1, rad, kg, m, s, Hz, N, Pa, J, W.
+    /// Only coherent SI units, whose values need no factor, are accepted: 1, rad, kg, m, s, Hz, N, Pa, J, W.
     ///
     /// # Errors
     ///
-    /// Text that is not a unit, or a unit outside the SI, with the replacement.
+    /// An error if the text is not a unit, or is not an SI unit; in the latter case, the error contains the
+    /// replacement.
     pub fn parse(text: &str) -> Result<Unit, UnitError> {
         let mut dimension = Dimension::default();
         let mut foreign: Option<Range<usize>> = None;
@@ -214,7 +214,7 @@ impl Factor<'_> {
         UnitError::Unknown(self.span.clone(), what.into())
     }
 
-    /// Its dimension, and what to write for it if it is not SI.
+    /// The dimension of the factor, and its replacement if it is not an SI unit.
     #[allow(clippy::type_complexity)]
     fn resolve(&self) -> Result<(Dimension, Option<(&'static str, i64, i64)>), UnitError> {
         let si = |name: &str| UNITS.iter().find(|(known, _)| *known == name);
@@ -232,7 +232,7 @@ impl Factor<'_> {
     }
 }
 
-/// Splits a text into factors; exponents after `/` change their sign.
+/// Splits a text into factors; the exponent of the factor after `/` is negated.
 fn factors(text: &str) -> Result<Vec<Factor<'_>>, UnitError> {
     let mut found = Vec::new();
     let mut divided = None;

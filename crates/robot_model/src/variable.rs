@@ -1,21 +1,21 @@
 //! The variables of a robot: their kinds, names, order and number.
 //!
-//! Equations, code, files of states and trajectories name them alike: `q1` for the first joint position, `qd1`
-//! its velocity, `qdd1` its acceleration, `tau1` the joint torque or force, numbers from 1 in the order of
-//! [`Robot::coordinates`]; parameters and the components of wrenches by the names of the robot file.
+//! Equations, code, and files of states and trajectories use the same names: `q1` for the first joint position, `qd1`
+//! for its velocity, `qdd1` for its acceleration and `tau1` for the joint torque or force, with numbers from 1 in the
+//! order of [`Robot::coordinates`]. Parameters and the components of wrenches have the names of the robot file.
 
 use crate::robot::{Frame, JointKind, Robot, Wrench};
 
 /// A quantity with one value for each coordinate; functions take it as an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum JointVariable {
-    /// q: rad or m.
+    /// The joint position q: rad or m.
     Position,
-    /// q̇: rad/s or m/s.
+    /// The joint velocity q̇: rad/s or m/s.
     Velocity,
-    /// q̈: rad/s² or m/s².
+    /// The joint acceleration q̈: rad/s² or m/s².
     Acceleration,
-    /// τ, the generalized force at the joint: N m or N.
+    /// The joint torque or force τ: N m or N.
     Torque,
 }
 
@@ -24,7 +24,7 @@ use JointVariable::{Acceleration, Position, Torque, Velocity};
 impl JointVariable {
     /// All variables, in the order in which functions take them.
     pub const ALL: [JointVariable; 4] = [Position, Velocity, Acceleration, Torque];
-    /// The motion of a joint: its position and its time derivatives.
+    /// The motion of a joint: its position, velocity and acceleration.
     pub const MOTION: [JointVariable; 3] = [Position, Velocity, Acceleration];
 
     /// The name of the array: `q`, `qd`, `qdd`, `tau`.
@@ -38,7 +38,7 @@ impl JointVariable {
         }
     }
 
-    /// The symbol of a coordinate, an index from 0: `q1` for the first position.
+    /// The symbol of a coordinate with an index from 0: `q1` for the first position.
     #[must_use]
     pub fn symbol(self, coordinate: usize) -> String {
         format!("{}{}", self.name(), coordinate + 1)
@@ -50,7 +50,7 @@ impl JointVariable {
         (0..count).map(|coordinate| self.symbol(coordinate)).collect()
     }
 
-    /// The variable that a symbol is, for a robot with any number of coordinates.
+    /// The variable and the index of a symbol, for a robot with any number of coordinates.
     #[must_use]
     pub fn parse(symbol: &str) -> Option<(JointVariable, usize)> {
         let letters = symbol.trim_end_matches(|letter: char| letter.is_ascii_digit());
@@ -61,13 +61,13 @@ impl JointVariable {
         Some((variable, number.checked_sub(1)?))
     }
 
-    /// The array of that name.
+    /// The variable whose array has the given name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<JointVariable> {
         JointVariable::ALL.into_iter().find(|one| one.name() == name)
     }
 
-    /// The number of times that the position is differentiated with respect to time; `None` for the torque.
+    /// The order of the variable as a time derivative of the position; `None` for the torque.
     #[must_use]
     pub const fn order(self) -> Option<i8> {
         match self {
@@ -78,7 +78,7 @@ impl JointVariable {
         }
     }
 
-    /// The meaning of the array, in words.
+    /// The meaning of the array in words.
     #[must_use]
     pub const fn meaning(self) -> &'static str {
         match self {
@@ -89,7 +89,7 @@ impl JointVariable {
         }
     }
 
-    /// The unit of an entry.
+    /// The unit of an entry for a kind of joint.
     #[must_use]
     pub const fn unit(self, kind: JointKind) -> &'static str {
         match (self, kind) {
@@ -108,22 +108,23 @@ impl JointVariable {
 /// A variable of a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Variable {
-    /// A quantity of a coordinate, an index into [`Robot::coordinates`].
+    /// A joint variable of a coordinate: an index into [`Robot::coordinates`].
     Joint(JointVariable, usize),
-    /// A parameter, an index into [`Robot::parameters`].
+    /// A parameter: an index into [`Robot::parameters`].
     Parameter(usize),
-    /// A component of the wrench at a frame, an index into [`Robot::frames`]: force x y z, moment x y z.
+    /// A component of the wrench at a frame: an index into [`Robot::frames`], and the component in the order force x y
+    /// z, moment x y z.
     Wrench(usize, usize),
 }
 
-/// The name of the input that holds a wrench, or the beginning of the names of several.
+/// The name of the input that holds the wrench, or the prefix of the names if there are several.
 pub const WRENCH: &str = "wrench";
 
-/// The components of a wrench in columns of files: force, N, then moment, N m.
+/// The names of the components of a wrench in columns of files: force, N, then moment, N m.
 pub const WRENCH_COMPONENTS: [&str; 6] = ["fx", "fy", "fz", "mx", "my", "mz"];
 
 impl Wrench {
-    /// The names of the components: force x y z, moment x y z.
+    /// The names of the components: force x y z, then moment x y z.
     pub fn components(&self) -> impl Iterator<Item = &str> {
         self.force.iter().chain(&self.moment).map(String::as_str)
     }
@@ -134,7 +135,7 @@ impl Robot {
     #[must_use]
     pub fn count(&self, variable: JointVariable) -> usize {
         match variable {
-            // Each coordinate is one rate; a ball joint's position would have more entries than rates.
+            // Each coordinate has one velocity. (A ball joint's position would have more entries than its velocity.)
             Position | Velocity | Acceleration | Torque => self.coordinates.len(),
         }
     }
@@ -145,7 +146,7 @@ impl Robot {
         variable.symbols(self.count(variable))
     }
 
-    /// The variable of a symbol.
+    /// The variable that a symbol denotes in this robot.
     #[must_use]
     pub fn variable(&self, symbol: &str) -> Option<Variable> {
         if let Some(index) = self.parameters.iter().position(|one| one.name == symbol) {
@@ -162,8 +163,7 @@ impl Robot {
         })
     }
 
-    /// The suffix of the names of a tip's wrench and its components: nothing for the only tip, `_NAME`
-    /// of one of several.
+    /// The suffix of the names of a tip's wrench and of its components: empty if it is the only tip, otherwise `_NAME`.
     #[must_use]
     pub fn wrench_suffix(&self, tip: &Frame) -> String {
         match self.tips().count() {

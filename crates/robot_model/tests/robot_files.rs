@@ -60,7 +60,7 @@ fn the_doctor_finds_what_is_odd_and_nothing_else() {
         }
         let found = examine(&read(name)).found;
         let codes: Vec<_> = found.iter().map(|one| one.code).collect();
-        // As published, the wrists of the UR5 have the inertia of far larger bodies.
+        // The published wrist links of the UR5 have the inertia of far larger bodies.
         let expected = if name == "ur5.toml" { vec![code::TOO_WIDE; 2] } else { vec![] };
         assert_eq!(codes, expected, "{found}");
     }
@@ -89,7 +89,7 @@ fn trttr1_has_the_symbols_of_the_paper() {
     assert_eq!(wrench.moment, ["Mx6", "My6", "Mz6"]);
 }
 
-/// The largest difference between two lists of numbers.
+/// The largest difference between corresponding numbers of two lists.
 fn difference(found: &[f64], expected: &serde_json::Value) -> f64 {
     let expected: Vec<f64> =
         expected.as_array().unwrap().iter().map(|one| one.as_f64().unwrap()).collect();
@@ -98,7 +98,7 @@ fn difference(found: &[f64], expected: &serde_json::Value) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// Torques and placements of the file's robot at the states of a fixture, against its values.
+/// Compares torques and placements of the file's robot, at the states of a fixture, with the values of the fixture.
 fn agrees_with_pinocchio(name: &str) {
     let described = read(&format!("{name}.toml"));
     let mechanism = Mechanism::nominal(&described.robot).unwrap();

@@ -13,13 +13,13 @@ use super::{
     spatial::{cross_force, cross_motion, cross_on, rigid_body_inertia},
 };
 
-/// The contribution of the links outside a joint, gathered inwards.
+/// The contribution of the links outward of a joint, gathered inward.
 struct Composite {
     inertia: Matrix6<f64>,
     coriolis: Matrix6<f64>,
 }
 
-/// B with B v = v×* I v for which the sum of Jᵀ (I J̇ + B J) is the matrix of Christoffel symbols:
+/// The matrix B with B v = v×* I v for which the sum of Jᵀ (I J̇ + B J) is the Coriolis matrix by Christoffel symbols:
 /// ½ ((v×*) I + (I v)×̄* − I (v×)).
 fn body_coriolis(inertia: &Matrix6<f64>, velocity: &Vector6<f64>) -> Matrix6<f64> {
     let turning = cross_force(velocity) * inertia - inertia * cross_motion(velocity);
@@ -27,11 +27,11 @@ fn body_coriolis(inertia: &Matrix6<f64>, velocity: &Vector6<f64>) -> Matrix6<f64
 }
 
 impl Mechanism {
-    /// Coriolis matrix C(q, q̇), n × n: C q̇ is the bias without gravity, and the elements are those
-    /// of the Christoffel symbols, so that Ṁ − 2 C is skew.
+    /// The Coriolis matrix C(q, q̇), n × n. C q̇ is the bias without gravity. The elements are those of the Christoffel
+    /// symbols, so that Ṁ − 2 C is skew-symmetric.
     ///
-    /// By the recursion of S. Echeandia, P. M. Wensing, "Numerical Methods to Compute the Coriolis
-    /// Matrix and Christoffel Symbols for Rigid-Body Systems", J. Comput. Nonlinear Dynam. 16 (2021).
+    /// The recursion is that of S. Echeandia, P. M. Wensing, "Numerical Methods to Compute the Coriolis Matrix and
+    /// Christoffel Symbols for Rigid-Body Systems", J. Comput. Nonlinear Dynam. 16 (2021).
     ///
     /// # Errors
     ///
@@ -85,7 +85,7 @@ impl Mechanism {
         Ok(matrix)
     }
 
-    /// ∂M/∂q_k for each coordinate k, exact to rounding (complex step).
+    /// The derivatives ∂M/∂q_k for each coordinate k, exact to within rounding errors (complex step).
     ///
     /// # Errors
     ///
@@ -96,9 +96,9 @@ impl Mechanism {
         Ok((0..self.coordinates()).map(along).collect())
     }
 
-    /// Christoffel symbols of the first kind, a symmetric matrix Γ_k for each coordinate k:
-    /// the k-th element of C q̇ is q̇ᵀ Γ_k q̇, and C_kj is the j-th element of Γ_k q̇, with
-    /// (Γ_k)_ij = ½ (∂M_ki/∂q_j + ∂M_kj/∂q_i − ∂M_ij/∂q_k), exact to rounding.
+    /// The Christoffel symbols of the first kind: a symmetric matrix Γ_k for each coordinate k. The k-th element of C
+    /// q̇ is q̇ᵀ Γ_k q̇, and C_kj is the j-th element of Γ_k q̇, with (Γ_k)_ij = ½ (∂M_ki/∂q_j + ∂M_kj/∂q_i −
+    /// ∂M_ij/∂q_k). They are exact to within rounding errors.
     ///
     /// # Errors
     ///

@@ -10,7 +10,7 @@ use super::{
     scalar::{derivative, step},
 };
 
-/// Derivatives of the torques τ(q, q̇, q̈), n × n each, row i for τ_i.
+/// The derivatives of the joint torques τ(q, q̇, q̈), n × n each; row i belongs to τ_i.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InverseDynamicsDerivatives {
     /// ∂τ/∂q.
@@ -21,7 +21,7 @@ pub struct InverseDynamicsDerivatives {
     pub dqdd: DMatrix<f64>,
 }
 
-/// Derivatives of the accelerations q̈(q, q̇, τ), n × n each, row i for q̈_i.
+/// The derivatives of the accelerations q̈(q, q̇, τ), n × n each; row i belongs to q̈_i.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForwardDynamicsDerivatives {
     /// ∂q̈/∂q.
@@ -33,9 +33,9 @@ pub struct ForwardDynamicsDerivatives {
 }
 
 impl Mechanism {
-    /// Derivatives of [`Mechanism::inverse_dynamics`], with wrenches that stay constant in the axes
-    /// of their frames (one for each frame, or none at all), without friction. They are as exact as
-    /// the torques: complex steps through the same recursion, no differences.
+    /// The derivatives of [`Mechanism::inverse_dynamics`], without friction, with wrenches that are constant in the
+    /// axes of their frames (one for each frame, or none at all). They are as exact as the torques, because complex
+    /// steps are propagated through the same recursion instead of taking differences.
     ///
     /// # Errors
     ///
@@ -59,10 +59,10 @@ impl Mechanism {
         })
     }
 
-    /// Derivatives of [`Mechanism::forward_dynamics`], with wrenches as for
-    /// [`Mechanism::inverse_dynamics_derivatives`]: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that
-    /// the torques give (J. Carpentier, N. Mansard, "Analytical Derivatives of Rigid Body Dynamics
-    /// Algorithms", RSS 2018). Exact up to the condition of M.
+    /// The derivatives of [`Mechanism::forward_dynamics`], with wrenches as for
+    /// [`Mechanism::inverse_dynamics_derivatives`]: ∂q̈/∂x = −M⁻¹ ∂τ/∂x at the accelerations that the torques cause (J.
+    /// Carpentier, N. Mansard, "Analytical Derivatives of Rigid Body Dynamics Algorithms", RSS 2018). Their accuracy is
+    /// limited by the condition number of M.
     ///
     /// # Errors
     ///
@@ -89,7 +89,7 @@ fn plain(numbers: &[f64]) -> Vec<Complex<f64>> {
     numbers.iter().map(|&x| Complex::new(x, 0.0)).collect()
 }
 
-/// The matrix of derivatives, given what a step on each coordinate yields.
+/// The matrix of derivatives; `stepped` computes the results of a complex step on one coordinate.
 fn columns(n: usize, stepped: impl Fn(usize) -> Vec<Complex<f64>>) -> DMatrix<f64> {
     let mut matrix = DMatrix::zeros(n, n);
     for k in 0..n {

@@ -6,18 +6,19 @@ use super::{
 };
 use robot_model::variable::JointVariable::{Position, Velocity};
 
-/// Energies in joules.
+/// The kinetic and potential energy, J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energies {
-    /// Of the links and rotors.
+    /// The kinetic energy of the links and rotors.
     pub kinetic: f64,
-    /// −Σ m gᵀ c with the centers of mass c in the base frame: zero at the origin of the base.
+    /// The potential energy −Σ m gᵀ c, with the centers of mass c in the base frame; it is zero at the origin of the
+    /// base.
     pub potential: f64,
 }
 
 impl Mechanism {
-    /// Kinetic and potential energy at positions q and velocities q̇, summed over the links from the
-    /// velocities of their centers of mass.
+    /// The kinetic and potential energy at positions q and velocities q̇, summed over the links from the velocities of
+    /// their centers of mass.
     ///
     /// # Errors
     ///

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
-/// One thing that is wrong with the data of a mechanism.
+/// One problem in the data of a mechanism.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {reason}")]
 pub struct Fault {
-    /// Its place: `gravity`, `link 3`, `frame 0`.
+    /// The place of the problem: `gravity`, `link 3`, `frame 0`.
     pub place: String,
     /// The problem and what was expected.
     pub reason: String,
@@ -16,7 +16,7 @@ pub struct Fault {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{argument}` must have {expected} elements, not {found}")]
 pub struct Mismatch {
-    /// Name of the argument.
+    /// The name of the argument.
     pub argument: &'static str,
     /// The number of elements that it must have.
     pub expected: usize,
@@ -24,46 +24,47 @@ pub struct Mismatch {
     pub found: usize,
 }
 
-/// Why a quantity could not be computed.
+/// The reason why a quantity could not be computed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NumericError {
-    /// The mechanism cannot be: every fault that was found.
+    /// The mechanism is not valid: all its faults.
     #[error("no such mechanism: {}", listed(.0))]
     Mechanism(Vec<Fault>),
-    /// The mechanism cannot be at nominal values, for these parameters have none.
+    /// The mechanism cannot be evaluated at nominal values, because these parameters have none.
     #[error("`{}` has no nominal value", .0.join("`, `"))]
     WithoutValues(Vec<String>),
-    /// Arguments of wrong length: every one of them.
+    /// Arguments have the wrong length: all of them.
     #[error("{}", listed(.0))]
     Lengths(Vec<Mismatch>),
-    /// A link or frame of this index does not exist.
+    /// A link or frame with this index does not exist.
     #[error("{kind} {index} does not exist: the mechanism has {count}, counted from 0")]
     NoSuchBody {
         /// `link` or `frame`.
         kind: &'static str,
-        /// The index asked for.
+        /// The requested index.
         index: usize,
-        /// Their number.
+        /// The number of links or frames.
         count: usize,
     },
-    /// The mass matrix is not positive definite at this position (a coordinate that moves no mass,
-    /// an inertia that no body can have, or a number that is not finite), so that torques do not
+    /// The mass matrix is not positive definite in this configuration, so torques do not determine accelerations.
+    /// Possible reasons are a coordinate that moves no mass, an inertia that no body can have, and a number that is not
+    /// finite.
     /// determine accelerations.
     #[error(
         "the mass matrix is not positive definite in this configuration: check that every coordinate \
          moves mass and that inertias and arguments are finite and physically possible"
     )]
     NotPositiveDefinite,
-    /// The articulated-body algorithm needs a coordinate of its own for each joint, and this
-    /// coordinate drives several. [`Mechanism::forward_dynamics`] has no such limit.
+    /// The articulated-body algorithm requires that each coordinate drives only one joint, but this coordinate drives
+    /// several. [`Mechanism::forward_dynamics`] has no such restriction.
     ///
     /// [`Mechanism::forward_dynamics`]: super::Mechanism::forward_dynamics
     #[error(
         "coordinate {coordinate} drives several joints, which the articulated-body algorithm \
-         does not support: use forward dynamics by the mass matrix"
+         does not support: call `forward_dynamics`, which uses the mass matrix"
     )]
     SharedCoordinate {
-        /// The coordinate.
+        /// The index of the coordinate.
         coordinate: usize,
     },
 }
@@ -73,7 +74,7 @@ fn listed(items: &[impl fmt::Display]) -> String {
     lines.join("; ")
 }
 
-/// Checks the lengths of arguments, given as (name, expected, found).
+/// Checks the lengths of arguments, which are given as (name, expected, found).
 pub(super) fn check_lengths(
     arguments: &[(&'static str, usize, usize)],
 ) -> Result<(), NumericError> {

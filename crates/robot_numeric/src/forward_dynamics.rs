@@ -1,4 +1,4 @@
-//! Forward dynamics: by the mass matrix, and by the articulated-body algorithm.
+//! Forward dynamics by the mass matrix and by the articulated-body algorithm.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix6, Vector3, Vector6};
 use robot_model::variable::JointVariable::Torque;
@@ -12,27 +12,26 @@ use super::{
     spatial::{cross_force, cross_motion, rigid_body_inertia, spatial},
 };
 
-/// A link with all that it carries: the force to accelerate it by a is
-/// `inertia` a + `bias`.
+/// A link with everything that it carries: the force that accelerates it by a is `inertia` a + `bias`.
 #[derive(Clone, Copy)]
 struct Articulated<T: Number> {
     inertia: Matrix6<T>,
     bias: Vector6<T>,
 }
 
-/// The results of the inward pass for the outward one.
+/// The results of the inward pass that the outward pass needs.
 #[derive(Clone, Copy)]
 struct Resistance<T: Number> {
-    /// I^A S
+    /// I^A S.
     force: Vector6<T>,
-    /// Sᵀ I^A S + rotor, and what of the torque is left to accelerate the joint.
+    /// Sᵀ I^A S plus the rotor inertia, and the part of the torque that accelerates the joint.
     inertia: T,
     torque: T,
 }
 
-/// Accelerations by the articulated-body algorithm on any numbers, Table 7.1 of R. Featherstone,
-/// "Rigid Body Dynamics Algorithms", 2008; the lengths must be right and each coordinate must drive
-/// one joint. `None` if a joint resists with no inertia.
+/// The accelerations by the articulated-body algorithm for any kind of numbers, Table 7.1 of R. Featherstone, "Rigid
+/// Body Dynamics Algorithms", 2008. The lengths must be right, and each coordinate must drive only one joint. `None` if
+/// a joint has no inertia.
 pub(super) fn articulated_body<T: Number>(
     mechanism: &Mechanism,
     q: &[T],
@@ -76,7 +75,7 @@ pub(super) fn articulated_body<T: Number>(
     Some(qdd)
 }
 
-/// The first pass: each link by itself, and its velocity-product acceleration.
+/// The first pass: the inertia and bias of each link alone, and its velocity-product acceleration.
 fn free_bodies<T: Number>(
     mechanism: &Mechanism,
     transforms: &[Matrix6<T>],
@@ -113,9 +112,9 @@ fn resist<T: Number>(link: &Link, body: &Articulated<T>, tau: T) -> Option<Resis
 }
 
 impl Mechanism {
-    /// Accelerations q̈ that the torques and forces τ give at positions q and velocities q̇, with one
-    /// wrench for each frame (or none at all), without friction (take what the friction is from τ):
-    /// M q̈ = τ − h, by Cholesky's decomposition of M.
+    /// The accelerations q̈ that the joint torques τ cause at positions q and velocities q̇, with one wrench for each
+    /// frame (or none at all) and without friction (subtract friction from τ to include it): the solution of M q̈ = τ −
+    /// h by a Cholesky decomposition of M.
     ///
     /// # Errors
     ///
@@ -134,7 +133,7 @@ impl Mechanism {
         Ok(self.decomposed_mass_matrix(q)?.solve(&excess))
     }
 
-    /// The accelerations by the articulated-body algorithm, which forms no mass matrix.
+    /// The accelerations by the articulated-body algorithm, which does not compute the mass matrix.
     ///
     /// # Errors
     ///
@@ -160,7 +159,7 @@ impl Mechanism {
             .ok_or(NumericError::NotPositiveDefinite)
     }
 
-    /// M⁻¹(q), n × n: the accelerations for unit torques.
+    /// The inverse mass matrix M⁻¹(q), n × n: its columns are the accelerations for unit torques.
     ///
     /// # Errors
     ///

@@ -11,48 +11,49 @@ use super::{
 /// The form of the sign of a velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Sign {
-    /// sgn q̇, with sgn 0 = 0.
+    /// The exact sign sgn q̇, with sgn 0 = 0.
     #[default]
     Exact,
-    /// tanh(q̇ / w) with the width w > 0 (rad/s or m/s): 0.76 of the full friction at q̇ = w.
+    /// The smooth sign tanh(q̇ / w) with the width w > 0 (rad/s or m/s): at q̇ = w, friction has 0.76 of its full
+    /// value.
     Smooth(f64),
 }
 
-/// Friction in a joint, as the force or torque that the drive must overcome.
+/// The friction in a joint, as the torque or force that the drive must overcome.
 ///
-/// With the joint's velocity q̇, its axis k and the force F_l that it carries:
+/// With the joint velocity q̇, the joint axis k and the force F_l that the joint transmits:
 ///
-/// Q_f = b q̇ + c (d/2) |k × F_l| sgn q̇ + C± sgn q̇ + o for a rotation,
-/// Q_f = b q̇ + c |k × F_l| sgn q̇ + C± sgn q̇ + o for a translation.
+/// Q_f = b q̇ + c (d/2) |k × F_l| sgn q̇ + C± sgn q̇ + o for a revolute joint,
+/// Q_f = b q̇ + c |k × F_l| sgn q̇ + C± sgn q̇ + o for a prismatic joint.
 ///
-/// The first two terms are equations (4) and (5) of the paper on TRTTR1. The constant friction C±
-/// is `constant[0]` for q̇ > 0 and `constant[1]` for q̇ < 0; with a smooth sign s in the place of
-/// sgn q̇ its term is s (C₊ + C₋)/2 + s² (C₊ − C₋)/2, which for s = ±1 is the same.
+/// The first two terms are equations (4) and (5) of the paper on TRTTR1. The constant friction C± is `constant[0]` for
+/// q̇ > 0 and `constant[1]` for q̇ < 0. With a smooth sign s instead of sgn q̇, its term is s (C₊ + C₋)/2 + s² (C₊ −
+/// C₋)/2, which is the same for s = ±1.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Friction {
-    /// Viscous friction b, in N m s/rad or N s/m.
+    /// The coefficient of viscous friction b, N m s/rad or N s/m.
     pub viscous: f64,
-    /// Coefficient of dry friction c, without unit; its friction grows with the load of the joint.
+    /// The coefficient of load-dependent dry friction c, without unit.
     pub coulomb: f64,
-    /// Journal diameter d of a revolute joint, in meters.
+    /// The journal diameter d of a revolute joint, m.
     pub spindle_diameter: f64,
-    /// Dry friction that does not depend on the load, C₊ and C₋, each ≥ 0, in N m or N.
+    /// The constant dry friction, C₊ and C₋, each ≥ 0, N m or N.
     pub constant: [f64; 2],
-    /// A force or torque that is always there, o, in N m or N.
+    /// A constant torque or force o, N m or N.
     pub offset: f64,
     /// The form of the sign of the velocity.
     pub sign: Sign,
 }
 
 impl Friction {
-    /// Every number of it.
+    /// All numbers of the friction.
     pub(super) fn numbers(&self) -> [f64; 7] {
         let width = if let Sign::Smooth(width) = self.sign { width } else { 0.0 };
         let [forward, backward] = self.constant;
         [self.viscous, self.coulomb, self.spindle_diameter, forward, backward, self.offset, width]
     }
 
-    /// The sign of a velocity in the sense of this friction.
+    /// The sign of a velocity in the form of this friction.
     pub(super) fn sign_of(&self, velocity: f64) -> f64 {
         match self.sign {
             Sign::Smooth(width) => (velocity / width).tanh(),
@@ -61,7 +62,7 @@ impl Friction {
         }
     }
 
-    /// Q_f of a joint of the given kind and axis that moves with the velocity and carries the force.
+    /// The friction Q_f of a joint of the given kind and axis with the given velocity and transmitted force.
     fn torque(
         &self,
         kind: JointKind,
@@ -83,7 +84,7 @@ impl Friction {
     }
 }
 
-/// Q_f of each coordinate, given what each joint carries.
+/// The friction Q_f of each coordinate, for the given loads of the joints.
 pub(super) fn torques(mechanism: &Mechanism, qd: &[f64], loads: &[LinkDynamics]) -> DVector<f64> {
     let mut torques = DVector::zeros(mechanism.coordinates());
     for (link, load) in mechanism.links().iter().zip(loads) {
@@ -98,8 +99,8 @@ pub(super) fn torques(mechanism: &Mechanism, qd: &[f64], loads: &[LinkDynamics])
 }
 
 impl Mechanism {
-    /// Generalized friction forces Q_f (N m or N), to be overcome by the drives, at positions q,
-    /// velocities q̇ and accelerations q̈, with one wrench for each frame (or none at all).
+    /// The friction torques Q_f (N m or N), which the drives must overcome, at positions q, velocities q̇ and
+    /// accelerations q̈, with one wrench for each frame (or none at all).
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! From the checked robot to numbers: every formula evaluated in floating point at once.
+//! Conversion of the checked robot to numbers: every formula is evaluated in floating point at once.
 
 use nalgebra::{Matrix3, Vector3};
 use robot_model::robot;
@@ -10,15 +10,14 @@ use super::mechanism::{Frame, Joint, JointKind, Link, Mechanism};
 use super::pose::{Pose, rotation_about};
 
 impl Mechanism {
-    /// The robot with its parameters at the values that `value` gives by name.
+    /// Evaluates the robot with the values of parameters that `value` returns for their names.
     ///
-    /// Links and frames keep the order of [`robot::Robot`]; gyroscopic rotors follow the links, each
-    /// as a link of its own without mass that turns with its joint's coordinate.
+    /// Links and frames keep the order of [`robot::Robot`]. They are followed by the gyroscopic rotors, each of which
+    /// is a separate link without mass that turns with the coordinate of its joint.
     ///
     /// # Errors
     ///
-    /// [`NumericError::Mechanism`] with every fault found; a parameter without a value (NaN) is one
-    /// wherever it is used.
+    /// [`NumericError::Mechanism`] with all faults; a parameter without a value (NaN) is a fault wherever it is used.
     pub fn from_robot(
         robot: &robot::Robot,
         value: &dyn Fn(&str) -> f64,
@@ -39,12 +38,12 @@ impl Mechanism {
         )
     }
 
-    /// The robot with its parameters at their nominal values.
+    /// Evaluates the robot at the nominal values of its parameters.
     ///
     /// # Errors
     ///
-    /// The errors of [`Mechanism::from_robot`]; if parameters have no nominal value,
-    /// [`NumericError::WithoutValues`] in their place.
+    /// The errors of [`Mechanism::from_robot`], or [`NumericError::WithoutValues`] instead if parameters have no
+    /// nominal value.
     pub fn nominal(robot: &robot::Robot) -> Result<Self, NumericError> {
         Mechanism::from_robot(robot, &|name| robot.nominal_value(name)).map_err(|error| {
             let without = robot.parameters.iter().filter(|parameter| parameter.value.is_none());
@@ -54,14 +53,14 @@ impl Mechanism {
     }
 }
 
-/// Takes the locked rotor out of its carrier's inertia, which includes it in the file.
+/// Subtracts the inertia of the locked rotor from that of its carrier, which includes it in the robot file.
 fn take_from(carrier: &mut Link, rotor: &Link) {
     let rotation = rotor.placement.rotation;
     carrier.inertia -= rotation * rotor.inertia * rotation.transpose();
 }
 
-/// The vector scaled to length 1; one that is very long or short is scaled first, so that no square
-/// leaves the range of numbers.
+/// The unit vector in the direction of a vector. A very long or short vector is scaled first, so that no square
+/// overflows or underflows.
 #[must_use]
 pub fn direction(vector: Vector3<f64>) -> Vector3<f64> {
     let largest = vector.amax();
@@ -69,7 +68,7 @@ pub fn direction(vector: Vector3<f64>) -> Vector3<f64> {
     vector.normalize()
 }
 
-/// Formulas in numbers.
+/// Evaluates formulas.
 #[derive(Clone, Copy)]
 pub struct Evaluation<'v> {
     /// The values of parameters by name.
@@ -89,7 +88,7 @@ impl Evaluation<'_> {
         Vector3::new(self.number(x), self.number(y), self.number(z))
     }
 
-    /// The pose that the steps of a placement add up to.
+    /// The pose that results from the moves of a placement.
     #[must_use]
     pub fn pose(&self, placement: &robot::Placement) -> Pose {
         placement.0.iter().fold(Pose::identity(), |pose, step| {
@@ -124,7 +123,7 @@ impl Evaluation<'_> {
         let (mass, center, inertia) = self.bodies(&link.bodies);
         let drive = &link.drive;
         let turns = self.number(&drive.gear_ratio);
-        // A gyroscopic rotor with a carrier that moves is a link of its own.
+        // A gyroscopic rotor on a moving carrier becomes a separate link.
         let locked = drive.gyroscopic && link.parent.is_some();
         let reflected =
             if locked { 0.0 } else { turns * turns * self.number(&drive.rotor_inertia) };
@@ -135,8 +134,8 @@ impl Evaluation<'_> {
         }
     }
 
-    /// The rotor of a joint: it turns about the joint axis, N times as fast as the joint, and has
-    /// inertia about that axis alone.
+    /// The rotor of a joint as a link: it turns about the joint axis N times as fast as the joint, and only has an
+    /// inertia about this axis.
     fn rotor(&self, link: &robot::Link, carrier: usize) -> Link {
         let (joint, drive) = (&link.joint, &link.drive);
         let turns = self.number(&drive.gear_ratio);
@@ -153,7 +152,7 @@ impl Evaluation<'_> {
         Link::new(Some(carrier), placement, motion, 0.0, Vector3::zeros(), inertia)
     }
 
-    /// Mass, center of mass and central inertia of rigidly connected bodies.
+    /// The mass, center of mass and inertia tensor about the center of mass of rigidly connected bodies.
     fn bodies(&self, bodies: &[robot::Body]) -> (f64, Vector3<f64>, Matrix3<f64>) {
         let parts: Vec<_> = bodies
             .iter()
@@ -177,8 +176,7 @@ impl Evaluation<'_> {
         (mass, center, inertia.sum())
     }
 
-    /// The tensor in its own axes.
-    /// The tensor of an inertia.
+    /// The inertia tensor in its own axes.
     #[must_use]
     pub fn tensor(&self, inertia: &robot::Inertia) -> Matrix3<f64> {
         let robot::Inertia { xx, yy, zz, xy, xz, yz } = inertia;

@@ -12,39 +12,37 @@ use super::{
     spatial::{angular, linear, motion_transform},
 };
 
-/// A column with the rows of a Jacobian: the linear half, then the angular one (the force, then the
-/// moment), in the opposite order to spatial vectors.
+/// A column in the order of the rows of a Jacobian: the linear half, then the angular half (the force, then the
+/// moment). The order of spatial vectors is the opposite.
 fn rows(linear: &Vector3<f64>, angular: &Vector3<f64>) -> Vector6<f64> {
     Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
 }
 
 impl Mechanism {
-    /// Geometric Jacobian J of a frame, 6 × n: J q̇ is the velocity of the frame's origin (rows
-    /// 0-2) and the angular velocity of the frame (rows 3-5), both in the axes of the base.
+    /// The geometric Jacobian J of a frame, 6 × n: J q̇ is the velocity of the frame's origin (rows 0-2) and the
+    /// angular velocity of the frame (rows 3-5), both in base axes.
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length, [`NumericError::NoSuchBody`] where
-    /// the frame does not exist.
+    /// [`NumericError::Lengths`] if q has the wrong length, [`NumericError::NoSuchBody`] if the frame does not exist.
     pub fn frame_jacobian(&self, q: &[f64], frame: usize) -> Result<Matrix6xX<f64>, NumericError> {
         check_index("frame", frame, self.frames().len())?;
         let frame = &self.frames()[frame];
         self.jacobian(q, frame.link, &frame.placement.translation)
     }
 
-    /// Geometric Jacobian of a link frame, 6 × n, with the rows of [`Mechanism::frame_jacobian`].
+    /// The geometric Jacobian of a link frame, 6 × n, with the rows of [`Mechanism::frame_jacobian`].
     ///
     /// # Errors
     ///
-    /// [`NumericError::Lengths`] where q has the wrong length, [`NumericError::NoSuchBody`] where
-    /// the link does not exist.
+    /// [`NumericError::Lengths`] if q has the wrong length, [`NumericError::NoSuchBody`] if the link does not exist.
     pub fn link_jacobian(&self, q: &[f64], link: usize) -> Result<Matrix6xX<f64>, NumericError> {
         check_index("link", link, self.links().len())?;
         self.jacobian(q, Some(link), &Vector3::zeros())
     }
 
-    /// J̇ q̇ of a frame: the part of the acceleration of its origin (rows 0-2, m/s²) and of its
-    /// angular acceleration (rows 3-5, rad/s²) that does not come from q̈, in the axes of the base.
+    /// J̇ q̇ of a frame: the acceleration of its origin (rows 0-2, m/s²) and its angular acceleration (rows 3-5,
+    /// rad/s²) at q̈ = 0, in base axes.
     ///
     /// # Errors
     ///
@@ -75,8 +73,8 @@ impl Mechanism {
         self.jacobian_dot_qd(q, qd, Some(link), &Pose::identity())
     }
 
-    /// A column for each coordinate: the axes of the joints towards the base that it moves,
-    /// and their moments about the point.
+    /// The Jacobian of a point: the column of a coordinate contains the axes of the joints that it moves between the
+    /// link and the base, and their moments about the point.
     fn jacobian(
         &self,
         q: &[f64],
@@ -127,15 +125,15 @@ impl Mechanism {
         let x = motion_transform(placement);
         let velocity = x * motions.velocities[carrier];
         let acceleration = x * motions.accelerations[carrier];
-        // A spatial acceleration is that of the point of the body that passes through the origin;
-        // the acceleration of the moving origin itself has ω × v more.
+        // A spatial acceleration contains the acceleration of the point of the body that coincides with the origin; the
+        // acceleration of the moving origin has the additional term ω × v.
         let of_origin = linear(&acceleration) + angular(&velocity).cross(&linear(&velocity));
         let rotation = configuration.in_base(self)[carrier].rotation * placement.rotation;
         Ok(rows(&(rotation * of_origin), &(rotation * angular(&acceleration))))
     }
 
-    /// Torques that wrenches exerted by the frames (one for each frame) need at rest and without
-    /// weight: the sum of Jᵀ w.
+    /// The joint torques that wrenches exerted by the frames (one for each frame) require at rest and without gravity:
+    /// the sum of Jᵀ w.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Positions: where the links and frames are.
+//! The placements of links and frames.
 
 use nalgebra::{Matrix6, Vector3};
 use robot_model::variable::JointVariable::Position;
@@ -11,11 +11,11 @@ use super::{
     spatial::motion_transform,
 };
 
-/// The mechanism at one position.
+/// The mechanism in one configuration.
 pub(super) struct Configuration<T: Number> {
-    /// Placement of each link frame in its parent's.
+    /// The placement of each link frame in that of its parent.
     pub(super) in_parent: Vec<Pose<T>>,
-    /// Transform X of motion vectors from the parent to the link, for each link.
+    /// The transform X of motion vectors from the parent to the link, for each link.
     pub(super) transforms: Vec<Matrix6<T>>,
 }
 
@@ -26,7 +26,7 @@ impl<T: Number> Configuration<T> {
         Self { in_parent, transforms }
     }
 
-    /// Placement of each link frame in the base frame.
+    /// The placement of each link frame in the base frame.
     pub(super) fn in_base(&self, mechanism: &Mechanism) -> Vec<Pose<T>> {
         let mut poses: Vec<Pose<T>> = Vec::with_capacity(self.in_parent.len());
         for (link, pose) in mechanism.links().iter().zip(&self.in_parent) {
@@ -36,7 +36,7 @@ impl<T: Number> Configuration<T> {
     }
 }
 
-/// Placement of a link frame in its parent's: the joint frame, moved by the joint.
+/// The placement of a link frame in its parent's: the joint frame, moved by the joint.
 fn place<T: Number>(link: &Link, q: &[T]) -> Pose<T> {
     let joint = &link.joint;
     let mut motion = Pose::identity();
@@ -54,14 +54,14 @@ fn place<T: Number>(link: &Link, q: &[T]) -> Pose<T> {
 /// The poses of all links and frames, in the base frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placements {
-    /// Placement of each link frame.
+    /// The placement of each link frame.
     pub links: Vec<Pose>,
-    /// Placement of each frame of interest.
+    /// The placement of each frame of interest.
     pub frames: Vec<Pose>,
 }
 
 impl Mechanism {
-    /// Placements of all link frames and frames in the base frame at positions q (rad or m).
+    /// The placements of all link frames and frames of interest in the base frame at positions q (rad or m).
     ///
     /// # Errors
     ///
@@ -79,8 +79,7 @@ impl Mechanism {
         Ok(Placements { links, frames })
     }
 
-    /// Center of mass of all links in the base frame, in meters, weighted by their masses; where
-    /// the masses sum to zero, no numbers.
+    /// The center of mass of all links in the base frame, m; NaN if the sum of the masses is zero.
     ///
     /// # Errors
     ///

@@ -1,20 +1,19 @@
-//! The numeric recursive solver: rigid-body dynamics in 6-D spatial vectors, numeric from the start, after R.
-//! Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
+//! The numeric recursive solver: rigid-body dynamics with 6-D spatial vectors, computed in numbers from the start,
+//! following R. Featherstone, "Rigid Body Dynamics Algorithms", Springer 2008.
 //!
-//! It is independent of the symbolic derivations of this project, so it can check them: the project's tests compare
-//! every generated function with it. It is written for reliability, not for speed.
+//! It is independent of the symbolic derivations of this project and therefore suitable for checking them: the
+//! project's tests compare every generated function with it. It is written for reliability rather than speed.
 //!
 //! # Conventions
 //!
-//! - Units are SI, with angles in radians. Frames are right-handed. Gravity is the acceleration of gravity in the base
-//!   frame: it points down.
-//! - The frame of a link is its joint frame ([`Link::placement`] in the frame of the parent), moved
-//!   by the joint about or along an axis through its origin.
+//! - Units are SI, with angles in radians. Frames are right-handed. The acceleration of gravity in the base frame
+//!   points down.
+//! - The frame of a link is its joint frame ([`Link::placement`] in the frame of the parent), moved by the joint about
+//!   or along an axis through its origin.
 //! - Inertia tensors are about the center of mass, in the axes of the link frame.
 //! - A wrench is the force and moment that a frame exerts on its surroundings ([`Wrench`]).
 //! - τ = M(q) q̈ + C(q, q̇) q̇ + g(q), with friction and wrenches only if requested.
-//! - q, q̇, q̈ and τ are slices over the coordinates; matrices have a row for each torque or
-//!   acceleration.
+//! - q, q̇, q̈ and τ are slices over the coordinates; matrices have one row for each torque or acceleration.
 //!
 //! # Example
 //!

@@ -12,7 +12,7 @@ use super::{
     spatial::rigid_body_inertia,
 };
 
-/// The mass matrix on any numbers.
+/// The mass matrix for any kind of numbers.
 pub(super) fn mass_matrix<T: Number>(
     mechanism: &Mechanism,
     configuration: &Configuration<T>,
@@ -49,7 +49,7 @@ pub(super) fn mass_matrix<T: Number>(
 }
 
 impl Mechanism {
-    /// Mass matrix M(q), n × n, symmetric, rotors included: τ = M q̈ + h.
+    /// The mass matrix M(q), n × n, symmetric, including rotors: τ = M q̈ + h.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The mechanism: links in a tree, one joint each.
+//! The mechanism: a tree of links, each with one joint.
 
 use nalgebra::{Matrix3, Vector3, Vector6};
 
@@ -9,46 +9,46 @@ use super::{
 /// The kind of a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointKind {
-    /// Not at all: the link is part of its parent.
+    /// No motion: the link is rigidly connected to its parent.
     Fixed,
-    /// A rotation about the axis; the position of the joint is an angle in radians.
+    /// Rotation about the axis; the joint position is an angle in radians.
     Revolute,
-    /// A translation along the axis; the position of the joint is a distance in meters.
+    /// Translation along the axis; the joint position is a distance in meters.
     Prismatic,
 }
 
 /// The joint between a link and its parent.
 ///
-/// The position of the joint is `ratio * q[coordinate] + offset`. Several joints may have one
-/// coordinate (a mimic joint, a spinning rotor with its gyroscopic coupling as a link of its own):
-/// the torque of the coordinate then is the sum of the torques of the joints, each times its ratio.
+/// The joint position is `ratio * q[coordinate] + offset`. Several joints may share a coordinate: a mimic joint, for
+/// example, or a gyroscopic rotor, which is represented by a separate link. The torque of the coordinate is then the
+/// sum of the torques of these joints, each times its ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Joint {
     /// The kind of the joint.
     pub kind: JointKind,
-    /// Unit vector in the link frame, of no account for a fixed joint. The axis passes through the
+    /// The unit vector of the axis in the link frame; it has no effect for a fixed joint. The axis passes through the
     /// origin of the link frame.
     pub axis: Vector3<f64>,
-    /// Index of the coordinate, of no account for a fixed joint.
+    /// The index of the coordinate; it has no effect for a fixed joint.
     pub coordinate: usize,
-    /// Movement of the joint for one unit of the coordinate.
+    /// The motion of the joint for a unit of the coordinate.
     pub ratio: f64,
-    /// Position of the joint where the coordinate is zero (rad or m).
+    /// The joint position if the coordinate is zero (rad or m).
     pub offset: f64,
 }
 
 impl Joint {
-    /// A rigid connection.
+    /// Creates a fixed joint.
     pub fn fixed() -> Self {
         Self::of(JointKind::Fixed, Vector3::z(), 0)
     }
 
-    /// A rotation about the unit vector `axis` by the coordinate.
+    /// Creates a revolute joint about the unit vector `axis`, moved by the coordinate with the index `coordinate`.
     pub fn revolute(axis: Vector3<f64>, coordinate: usize) -> Self {
         Self::of(JointKind::Revolute, axis, coordinate)
     }
 
-    /// A translation along the unit vector `axis` by the coordinate.
+    /// Creates a prismatic joint along the unit vector `axis`, moved by the coordinate with the index `coordinate`.
     pub fn prismatic(axis: Vector3<f64>, coordinate: usize) -> Self {
         Self::of(JointKind::Prismatic, axis, coordinate)
     }
@@ -57,13 +57,13 @@ impl Joint {
         Self { kind, axis, coordinate, ratio: 1.0, offset: 0.0 }
     }
 
-    /// The coordinate that moves the joint, if one does.
+    /// The index of the coordinate that moves the joint; `None` for a fixed joint.
     pub fn driver(&self) -> Option<usize> {
         (self.kind != JointKind::Fixed).then_some(self.coordinate)
     }
 
-    /// The motion of the link, in its own coordinates, for a unit rate of the coordinate:
-    /// Featherstone's motion subspace S (section 4.4), times the ratio.
+    /// The motion of the link, in its own axes, at unit velocity of the coordinate: Featherstone's motion subspace S
+    /// (section 4.4) times the ratio.
     pub(super) fn subspace<T: Number>(&self) -> Vector6<T> {
         let axis = (self.axis * self.ratio).map(T::from_real);
         match self.kind {
@@ -79,30 +79,29 @@ impl Joint {
 /// The link frame is the joint frame `placement`, moved by the joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
-    /// Index of the parent, smaller than the link's own; `None` for the base.
+    /// The index of the parent, which is smaller than the link's own; `None` for the base.
     pub parent: Option<usize>,
-    /// Placement of the joint frame in the link frame of the parent (in the base frame for a child
-    /// of the base): the link frame where the joint's position is zero.
+    /// The placement of the joint frame in the link frame of the parent, or in the base frame for a link on the base.
+    /// The link frame coincides with it at joint position zero.
     pub placement: Pose,
     /// The joint.
     pub joint: Joint,
-    /// Mass in kilograms.
+    /// The mass, kg.
     pub mass: f64,
-    /// Center of mass in the link frame, in meters.
+    /// The center of mass in the link frame, m.
     pub center_of_mass: Vector3<f64>,
-    /// Inertia tensor about the center of mass in the axes of the link frame, in kg m²; the
-    /// elements beside the diagonal are those of the tensor (−∫xy dm).
+    /// The inertia tensor about the center of mass in the axes of the link frame, kg m². Off-diagonal elements are
+    /// elements of the tensor (−∫xy dm).
     pub inertia: Matrix3<f64>,
-    /// The inertia that the spinning parts of the drive add at the joint (armature,
-    /// N² J), in kg m² or kg: an element of the diagonal of the mass matrix, without gyroscopic
-    /// effects.
+    /// The inertia that the spinning parts of the drive add at the joint (armature, N² J), kg m² or kg. It is only
+    /// added to the diagonal of the mass matrix, without gyroscopic effects.
     pub rotor_inertia: f64,
-    /// Friction in the joint, used if it is asked for.
+    /// The friction in the joint, which is only used if it is requested.
     pub friction: Friction,
 }
 
 impl Link {
-    /// A link without rotor and friction.
+    /// Creates a link without rotor and friction.
     pub fn new(
         parent: Option<usize>,
         placement: Pose,
@@ -115,19 +114,19 @@ impl Link {
         Self { parent, placement, joint, mass, center_of_mass, inertia, rotor_inertia, friction }
     }
 
-    /// First moment m c, in kg m.
+    /// The first moment m c, kg m.
     pub fn first_moment(&self) -> Vector3<f64> {
         self.center_of_mass * self.mass
     }
 
-    /// Inertia tensor about the origin of the link frame, in kg m².
+    /// The inertia tensor about the origin of the link frame, kg m².
     pub fn inertia_about_origin(&self) -> Matrix3<f64> {
         let c = &self.center_of_mass;
         let spread = Matrix3::identity() * c.dot(c) - c * c.transpose();
         self.inertia + spread * self.mass
     }
 
-    /// The reflected inertia of the drive on the side of the coordinate.
+    /// The rotor inertia with respect to the coordinate.
     pub(super) fn rotor_on_coordinate(&self) -> f64 {
         self.joint.ratio * self.joint.ratio * self.rotor_inertia
     }
@@ -136,31 +135,31 @@ impl Link {
 /// A frame of interest fixed to a link or to the base: a tip, a sensor, a tool.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
-    /// Index of the link that carries it; `None` for the base.
+    /// The index of the link that carries it; `None` for the base.
     pub link: Option<usize>,
-    /// Placement in the link frame.
+    /// The placement in the link frame.
     pub placement: Pose,
 }
 
 /// The wrench that a frame exerts on its surroundings, in the axes of the frame.
 ///
-/// A hanging mass m, with the z axis of the frame upright, is the force (0, 0, +m g).
+/// For example, a frame with an upright z axis that holds a mass m against gravity exerts the force (0, 0, +m g).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wrench {
-    /// Force in newtons.
+    /// The force, N.
     pub force: Vector3<f64>,
-    /// Moment about the origin of the frame, in newton meters.
+    /// The moment about the origin of the frame, N m.
     pub moment: Vector3<f64>,
 }
 
 impl Wrench {
-    /// No load.
+    /// The zero wrench.
     pub fn zero() -> Self {
         Self { force: Vector3::zeros(), moment: Vector3::zeros() }
     }
 }
 
-/// A tree of links on a fixed base, valid by construction.
+/// A tree of links on a fixed base. Its data are checked when it is created.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mechanism {
     gravity: Vector3<f64>,
@@ -170,15 +169,15 @@ pub struct Mechanism {
 }
 
 impl Mechanism {
-    /// A mechanism, given the acceleration of gravity in the base frame (it points down, m/s²), the
-    /// links with parents before children, and frames of interest.
+    /// Creates a mechanism from the acceleration of gravity in the base frame (it points down, m/s²), the links with
+    /// parents before children, and frames of interest.
     ///
     /// # Errors
     ///
-    /// [`NumericError::Mechanism`] with every fault found: a parent that does not come before its
-    /// child, a coordinate that no joint or too large an index for one, an axis that is not a unit
-    /// vector, a rotation that is not one, an inertia that is not symmetric, a number that is not
-    /// finite. Whether a body can have these masses and inertias is not asked.
+    /// [`NumericError::Mechanism`] with all faults: a parent that does not precede its child, a coordinate without a
+    /// joint, a coordinate index that is too large, an axis that is not a unit vector, a rotation matrix that is not a
+    /// rotation, an inertia that is not symmetric, or a number that is not finite. It is not checked whether a body can
+    /// have these masses and inertias.
     pub fn new(
         gravity: Vector3<f64>,
         links: Vec<Link>,
@@ -191,14 +190,14 @@ impl Mechanism {
         Ok(Self::assemble(gravity, links, frames))
     }
 
-    /// A mechanism of data that are known to be valid.
+    /// Creates a mechanism from data that are known to be valid.
     pub(super) fn assemble(gravity: Vector3<f64>, links: Vec<Link>, frames: Vec<Frame>) -> Self {
         let drivers = links.iter().filter_map(|link| link.joint.driver());
         let coordinates = drivers.max().map_or(0, |last| last + 1);
         Self { gravity, links, frames, coordinates }
     }
 
-    /// Acceleration of gravity in the base frame, m/s².
+    /// The acceleration of gravity in the base frame, m/s².
     pub fn gravity(&self) -> &Vector3<f64> {
         &self.gravity
     }

@@ -15,13 +15,13 @@ use super::{
     },
 };
 
-/// Spatial velocities and accelerations of the links, in link coordinates.
+/// The spatial velocities and accelerations of the links, in link coordinates.
 pub(super) struct Motions<T: Number> {
     pub(super) velocities: Vec<Vector6<T>>,
     pub(super) accelerations: Vec<Vector6<T>>,
 }
 
-/// The outward pass, with a base that has the given linear acceleration.
+/// The outward pass, for a base with the given linear acceleration.
 pub(super) fn outward<T: Number>(
     mechanism: &Mechanism,
     configuration: &Configuration<T>,
@@ -68,8 +68,7 @@ pub(super) fn inward<T: Number>(
     forces
 }
 
-/// The wrench that each link exerts on its surroundings through the frames that it carries, in link
-/// coordinates.
+/// The wrench that each link exerts on its surroundings through the frames on it, in link coordinates.
 pub(super) fn exerted<T: Number>(mechanism: &Mechanism, wrenches: &[Wrench]) -> Vec<Vector6<T>> {
     let mut forces = vec![Vector6::zeros(); mechanism.links().len()];
     for (frame, wrench) in mechanism.frames().iter().zip(wrenches) {
@@ -82,8 +81,8 @@ pub(super) fn exerted<T: Number>(mechanism: &Mechanism, wrenches: &[Wrench]) -> 
     forces
 }
 
-/// Generalized forces of the coordinates: what the joints transmit along their axes, and what the
-/// rotors take.
+/// The joint torques of the coordinates: the components of the transmitted forces along the joints, plus the torques
+/// that accelerate the rotors.
 pub(super) fn project<T: Number>(
     mechanism: &Mechanism,
     forces: &[Vector6<T>],
@@ -99,7 +98,7 @@ pub(super) fn project<T: Number>(
     torques
 }
 
-/// Inverse dynamics on any numbers; the lengths must be right.
+/// Inverse dynamics for any kind of numbers; the lengths must be right.
 pub(super) fn inverse_dynamics<T: Number>(
     mechanism: &Mechanism,
     q: &[T],
@@ -112,7 +111,7 @@ pub(super) fn inverse_dynamics<T: Number>(
     project(mechanism, &inward(mechanism, &configuration, &motions, wrenches), qdd)
 }
 
-/// Checks the wrenches: one for each frame, or none at all.
+/// The name, expected length and actual length of the wrenches: there must be one for each frame, or none at all.
 pub(super) fn wrench_length(
     mechanism: &Mechanism,
     wrenches: &[Wrench],
@@ -126,12 +125,12 @@ pub(super) fn wrench_length(
 pub struct Loads {
     /// The wrench that each frame exerts on its surroundings: one for each frame, or none at all.
     pub wrenches: Vec<Wrench>,
-    /// Whether the friction in the joints counts.
+    /// Whether the friction in the joints is included.
     pub friction: bool,
 }
 
-/// Motion and load of a link in the terms of the paper on TRTTR1: vectors in the axes of the link
-/// frame, in a base that is accelerated by −gravity.
+/// The motion and load of a link in the notation of the paper on TRTTR1: vectors are in the axes of the link frame, and
+/// the base has the acceleration −g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkDynamics {
     /// Angular velocity ω, rad/s.
@@ -140,18 +139,18 @@ pub struct LinkDynamics {
     pub velocity: Vector3<f64>,
     /// Angular acceleration ε, rad/s².
     pub angular_acceleration: Vector3<f64>,
-    /// Acceleration a of the origin of the link frame, less gravity, m/s².
+    /// Acceleration a of the origin of the link frame minus the acceleration of gravity, m/s².
     pub acceleration: Vector3<f64>,
-    /// Acceleration of the center of mass, less gravity, m/s²:
-    /// a_c = a + ε × r_c + ω × (ω × r_c), equation (8).
+    /// Acceleration of the center of mass minus the acceleration of gravity, m/s²: a_c = a + ε × r_c + ω × (ω × r_c),
+    /// equation (8).
     pub center_acceleration: Vector3<f64>,
-    /// F = M a_c in newtons, equations (14)-(19).
+    /// F = M a_c, N, equations (14)-(19).
     pub inertial_force: Vector3<f64>,
-    /// M_c = J ε + ω × J ω in newton meters, about the center of mass, equations (20)-(24).
+    /// M_c = J ε + ω × J ω about the center of mass, N m, equations (20)-(24).
     pub inertial_moment: Vector3<f64>,
-    /// F_l in newtons: what the joint transmits from the parent to the link, equations (26)-(35).
+    /// F_l: the force that the joint transmits from the parent to the link, N, equations (26)-(35).
     pub contact_force: Vector3<f64>,
-    /// M_l in newton meters, about the origin of the link frame, equations (36)-(51).
+    /// M_l: the moment that the joint transmits, about the origin of the link frame, N m, equations (36)-(51).
     pub contact_moment: Vector3<f64>,
 }
 
@@ -180,8 +179,8 @@ impl LinkDynamics {
 }
 
 impl Mechanism {
-    /// Torques (N m) and forces (N) τ of the coordinates that give the accelerations q̈ at positions
-    /// q and velocities q̇, without wrenches and friction.
+    /// The joint torques τ (N m or N) that cause the accelerations q̈ at positions q and velocities q̇, without
+    /// wrenches and friction.
     ///
     /// # Errors
     ///
@@ -217,7 +216,7 @@ impl Mechanism {
         Ok(torques)
     }
 
-    /// Torques that hold the mechanism still against gravity, g(q).
+    /// The joint torques g(q) that hold the mechanism at rest against gravity.
     ///
     /// # Errors
     ///
@@ -228,7 +227,7 @@ impl Mechanism {
         self.inverse_dynamics(q, &still, &still)
     }
 
-    /// Torques at zero acceleration, h = C(q, q̇) q̇ + g(q).
+    /// The bias torques h = C(q, q̇) q̇ + g(q): the joint torques at zero acceleration.
     ///
     /// # Errors
     ///
@@ -239,8 +238,8 @@ impl Mechanism {
         self.inverse_dynamics(q, qd, &vec![0.0; n])
     }
 
-    /// Motion and load of every link, with one wrench for each frame (or none at all), without
-    /// friction: ω, ε, a, a_c, F, M_c, F_l and M_l of the paper.
+    /// The motion and load of every link, with one wrench for each frame (or none at all), without friction: ω, ε, a,
+    /// a_c, F, M_c, F_l and M_l of the paper.
     ///
     /// # Errors
     ///
@@ -268,7 +267,7 @@ impl Mechanism {
         Ok(forces.iter().enumerate().map(of_link).collect())
     }
 
-    /// Checks the arguments that most functions have; the third is q̈ or τ.
+    /// Checks the lengths of the arguments that most functions have in common; the third is q̈ or τ.
     pub(super) fn check_state(
         &self,
         q: &[f64],

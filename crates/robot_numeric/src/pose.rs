@@ -9,19 +9,19 @@ use super::scalar::Number;
 /// A point with coordinates p in B has the coordinates `rotation * p + translation` in A.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pose<T = f64> {
-    /// Rotation matrix whose columns are the axes of B in the axes of A.
+    /// The rotation matrix, whose columns are the axes of B in the axes of A.
     pub rotation: Matrix3<T>,
-    /// Origin of B in A, in meters.
+    /// The origin of B in A, m.
     pub translation: Vector3<T>,
 }
 
 impl<T: Number> Pose<T> {
-    /// The frame itself.
+    /// The identity: B coincides with A.
     pub fn identity() -> Self {
         Self { rotation: Matrix3::identity(), translation: Vector3::zeros() }
     }
 
-    /// The placement of C in A, where `self` is that of B in A and `next` that of C in B.
+    /// The placement of C in A, for the placement `self` of B in A and `next` of C in B.
     pub fn then(&self, next: &Self) -> Self {
         Self {
             rotation: self.rotation * next.rotation,
@@ -37,8 +37,8 @@ impl<T: Number> Pose<T> {
 }
 
 impl Pose {
-    /// A frame moved by `xyz` (m) and turned by roll, pitch and yaw (rad) about the fixed axes:
-    /// R = Rz(yaw) Ry(pitch) Rx(roll).
+    /// The placement of a frame that is translated by `xyz` (m) and rotated by roll, pitch and yaw (rad) about fixed
+    /// axes: R = Rz(yaw) Ry(pitch) Rx(roll).
     pub fn from_xyz_rpy(xyz: [f64; 3], rpy: [f64; 3]) -> Self {
         let [roll, pitch, yaw] = rpy;
         let turn = |axis, angle| rotation_about(&axis, angle);
@@ -50,20 +50,20 @@ impl Pose {
         }
     }
 
-    /// Roll, pitch and yaw (rad) that give this rotation by [`Pose::from_xyz_rpy`] to rounding, the
-    /// pitch in −π/2 … π/2. At a pitch of ±π/2, where only a combination of roll and yaw is
-    /// determined, the roll is zero.
+    /// Roll, pitch and yaw (rad) from which [`Pose::from_xyz_rpy`] computes this rotation to within rounding errors,
+    /// with the pitch in −π/2 … π/2. At a pitch of ±π/2, only a combination of roll and yaw is determined, and the roll
+    /// is set to zero.
     pub fn rpy(&self) -> [f64; 3] {
         let r = &self.rotation;
         let cos_pitch = r[(2, 1)].hypot(r[(2, 2)]);
         let roll = if cos_pitch < 1e-15 { 0.0 } else { r[(2, 1)].atan2(r[(2, 2)]) };
-        // The yaw is read from R Rx(roll)ᵀ = Rz Ry, whose second column never vanishes: what a
-        // small cos(pitch) leaves uncertain in the roll is then made good by the yaw.
+        // The yaw is computed from R Rx(roll)ᵀ = Rz Ry, whose second column never vanishes. It thus compensates for the
+        // error of the roll at small cos(pitch).
         let second = r.column(1) * roll.cos() - r.column(2) * roll.sin();
         [roll, (-r[(2, 0)]).atan2(cos_pitch), (-second[0]).atan2(second[1])]
     }
 
-    /// This placement over other numbers.
+    /// This placement in another kind of numbers.
     pub(super) fn cast<T: Number>(&self) -> Pose<T> {
         Pose {
             rotation: self.rotation.map(T::from_real),
@@ -72,7 +72,7 @@ impl Pose {
     }
 }
 
-/// Rodrigues' formula: the rotation by `angle` about the unit vector `axis`.
+/// The rotation by `angle` about the unit vector `axis` (Rodrigues' formula).
 pub(super) fn rotation_about<T: Number>(axis: &Vector3<f64>, angle: T) -> Matrix3<T> {
     let (sin, cos) = angle.sin_cos();
     let along = (axis * axis.transpose()).map(T::from_real);

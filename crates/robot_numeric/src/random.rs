@@ -1,4 +1,4 @@
-//! Random mechanisms and states for tests and checks, the same on every machine for one seed.
+//! Random mechanisms and states for tests and checks. They are the same on every machine for equal seeds.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -10,7 +10,7 @@ use super::{
     pose::Pose,
 };
 
-/// Random numbers, vectors, bodies and mechanisms.
+/// A generator of random numbers, vectors, bodies and mechanisms.
 #[derive(Debug, Clone)]
 pub struct Random {
     numbers: robot_symbolic::Random,
@@ -19,91 +19,92 @@ pub struct Random {
 /// The properties of random mechanisms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Recipe {
-    /// The number of moving joints; each has a coordinate of its own unless `mimic` is set.
+    /// The number of moving joints. Each has its own coordinate unless `mimic` is set.
     pub joints: usize,
-    /// Whether a link's parent may be any link before it, or the base, instead of the last one.
+    /// Whether the parent of a link may be any preceding link or the base, instead of the last link.
     pub branching: bool,
-    /// Whether some joints follow the coordinate of another, with a ratio and an offset.
+    /// Whether some joints share the coordinate of another joint, with a ratio and an offset.
     pub mimic: bool,
-    /// Whether some further links are fixed to others.
+    /// Whether some additional links are fixed to others.
     pub fixed: bool,
     /// Whether the joints have rotors and friction.
     pub drives: bool,
 }
 
 impl Recipe {
-    /// A chain of links, each with a coordinate of its own, without rotors and friction.
+    /// A chain of links, each with its own coordinate, without rotors and friction.
     pub fn serial(joints: usize) -> Self {
         Self { joints, branching: false, mimic: false, fixed: false, drives: false }
     }
 
-    /// A tree of links, otherwise like a chain.
+    /// A tree of links that is otherwise like [`Recipe::serial`].
     pub fn tree(joints: usize) -> Self {
         Self { branching: true, ..Self::serial(joints) }
     }
 }
 
-/// A state of a mechanism with everything that a function may ask for.
+/// A state of a mechanism, with all inputs that its functions can take.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
-    /// Positions, rad or m.
+    /// The joint positions, rad or m.
     pub q: Vec<f64>,
-    /// Velocities, rad/s or m/s.
+    /// The joint velocities, rad/s or m/s.
     pub qd: Vec<f64>,
-    /// Accelerations, rad/s² or m/s².
+    /// The joint accelerations, rad/s² or m/s².
     pub qdd: Vec<f64>,
-    /// Torques in N m and forces in N, independent of the accelerations.
+    /// The joint torques, N m or N, which are independent of the accelerations.
     pub tau: Vec<f64>,
-    /// A wrench for each frame.
+    /// The wrenches, one for each frame.
     pub wrenches: Vec<Wrench>,
 }
 
 impl Random {
-    /// A generator; equal seeds give equal numbers.
+    /// Creates a generator; equal seeds give equal numbers.
     pub fn new(seed: u64) -> Self {
         Self { numbers: robot_symbolic::Random::new(seed) }
     }
 
-    /// 64 random bits.
+    /// Returns 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.numbers.bits()
     }
 
-    /// A number from `low` to `high`, `high` excluded but for rounding.
+    /// Returns a number between `low` and `high`; `high` is excluded except for rounding.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         self.numbers.uniform(low, high)
     }
 
-    /// An index below `count`; 0 if `count` is 0.
+    /// Returns an index below `count`, or 0 if `count` is 0.
     pub fn index(&mut self, count: usize) -> usize {
         self.numbers.index(count)
     }
 
-    /// True once in `every` times on average.
+    /// Returns true on average once in `every` calls.
     pub fn once_in(&mut self, every: usize) -> bool {
         self.index(every) == 0
     }
 
-    /// A vector whose elements are from −`size` to `size`.
+    /// Returns a vector whose elements are between −`size` and `size`.
     pub fn vector(&mut self, size: f64) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.uniform(-size, size))
     }
 
-    /// A unit vector, every direction as likely.
+    /// Returns a unit vector; all directions have the same probability.
     pub fn unit_vector(&mut self) -> Vector3<f64> {
         let (z, angle) = (self.uniform(-1.0, 1.0), self.uniform(0.0, TAU));
         let radius = (1.0 - z * z).sqrt();
         Vector3::new(radius * angle.cos(), radius * angle.sin(), z).normalize()
     }
 
-    /// A placement: any rotation (as roll, pitch, yaw), up to half a meter away in each direction.
+    /// Returns a placement with an arbitrary rotation (from roll, pitch and yaw) and up to half a meter of translation
+    /// along each axis.
     pub fn pose(&mut self) -> Pose {
         let rpy =
             [self.uniform(-PI, PI), self.uniform(-FRAC_PI_2, FRAC_PI_2), self.uniform(-PI, PI)];
         Pose::from_xyz_rpy(self.vector(0.5).into(), rpy)
     }
 
-    /// A placement as robots often have it: turned by right angles, moved along some axes only.
+    /// Returns a placement as it is common in robots: rotated by right angles and translated along some axes only.
     fn square_pose(&mut self) -> Pose {
         let mut right_angle = || (self.index(4) as f64 - 1.0) * FRAC_PI_2;
         let rpy = [right_angle(), 0.0, right_angle()];
@@ -113,8 +114,8 @@ impl Random {
         pose
     }
 
-    /// The inertia tensor about the center of mass of a body of the given mass: any box of 2 to
-    /// 30 cm in any orientation, so positive definite and within the triangle inequality.
+    /// Returns the inertia tensor about the center of mass of a body with the given mass: a box with sides of 2 to 30
+    /// cm in an arbitrary orientation. It is therefore positive definite and satisfies the triangle inequality.
     pub fn inertia(&mut self, mass: f64) -> Matrix3<f64> {
         let squares = Vector3::from_fn(|_, _| self.uniform(0.02, 0.3).powi(2)) * (mass / 12.0);
         let principal = Matrix3::from_diagonal(&squares.map(|square| squares.sum() - square));
@@ -123,9 +124,9 @@ impl Random {
         (tensor + tensor.transpose()) / 2.0
     }
 
-    /// A mechanism: links of 0.2 to 5 kg with offset centers of mass and tilted inertias, joints of
-    /// both kinds about any axes (one in three a coordinate axis, one placement in three at right
-    /// angles), gravity in any direction, a frame on the last link, one on a random link.
+    /// Returns a mechanism: links of 0.2 to 5 kg with offset centers of mass and rotated inertias; joints of both kinds
+    /// about arbitrary axes (one in three is a coordinate axis, and one placement in three is at right angles); gravity
+    /// in an arbitrary direction; one frame on the last link and one on a random link.
     pub fn mechanism(&mut self, recipe: &Recipe) -> Mechanism {
         let mut links: Vec<Link> = Vec::new();
         let mut coordinates = 0;
@@ -164,7 +165,7 @@ impl Random {
     fn link(&mut self, recipe: &Recipe, joint: Joint, index: usize) -> Link {
         let mut parent = index.checked_sub(1);
         if recipe.branching {
-            // Counted from 1, so that 0 is the base.
+            // The index is counted from 1, so that 0 stands for the base.
             parent = self.index(index + 1).checked_sub(1);
         }
         let placement = if self.once_in(3) { self.square_pose() } else { self.pose() };
@@ -189,8 +190,8 @@ impl Random {
         link
     }
 
-    /// A state: angles in ±π, distances in ±0.5 m, velocities in ±2, accelerations in ±5, torques
-    /// in ±20, forces of wrenches in ±10 N and their moments in ±3 N m.
+    /// Returns a state: angles within ±π, distances within ±0.5 m, velocities within ±2, accelerations within ±5,
+    /// torques within ±20, forces of wrenches within ±10 N and their moments within ±3 N m.
     pub fn state(&mut self, mechanism: &Mechanism) -> State {
         let n = mechanism.coordinates();
         let mut ranges = vec![PI; n];

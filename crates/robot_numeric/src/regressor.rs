@@ -12,14 +12,14 @@ use super::{
     pose::skew,
 };
 
-/// Number of drive parameters of a joint.
+/// The number of drive parameters of a joint.
 pub const DRIVE_PARAMETERS: usize = 5;
 
 type LinkRegressor = SMatrix<f64, 6, LINK_PARAMETERS>;
 
 impl Link {
-    /// The ten inertial parameters m, m c_x, m c_y, m c_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz, with
-    /// the inertia tensor about the origin and in the axes of the link frame.
+    /// The ten inertial parameters m, m c_x, m c_y, m c_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz. The inertia tensor is
+    /// about the origin and in the axes of the link frame.
     pub fn parameters(&self) -> [f64; LINK_PARAMETERS] {
         let h = self.first_moment();
         let i = self.inertia_about_origin();
@@ -28,8 +28,8 @@ impl Link {
     }
 }
 
-/// The moment about the origin of the link frame (rows 0-2) and the force (rows 3-5) that move a
-/// link, per unit of each of its parameters.
+/// The moment about the origin of the link frame (rows 0-2) and the force (rows 3-5) that the motion of a link requires
+/// for a unit of each of its parameters.
 fn of_link(motion: &LinkDynamics) -> LinkRegressor {
     let (omega, epsilon) = (&motion.angular_velocity, &motion.angular_acceleration);
     let acceleration = &motion.acceleration;
@@ -57,14 +57,13 @@ fn tensor_columns(v: &Vector3<f64>) -> SMatrix<f64, 3, 6> {
 }
 
 impl Mechanism {
-    /// The inertial parameters π of all links in order, ten for each ([`Link::parameters`]).
+    /// The inertial parameters π of all links in order, ten for each link ([`Link::parameters`]).
     pub fn parameters(&self) -> DVector<f64> {
         let all: Vec<f64> = self.links().iter().flat_map(Link::parameters).collect();
         DVector::from_vec(all)
     }
 
-    /// Regressor Y(q, q̇, q̈), n × 10 links, with τ = Y π: inverse dynamics without rotors, wrenches
-    /// and friction.
+    /// The regressor Y(q, q̇, q̈), n × 10 links, with τ = Y π: inverse dynamics without rotors, wrenches and friction.
     ///
     /// # Errors
     ///
@@ -96,8 +95,8 @@ impl Mechanism {
         Ok(regressor)
     }
 
-    /// The drive parameters of all links in order, five for each: rotor inertia, viscous friction,
-    /// constant friction forwards and backwards, offset. Those of a fixed joint are of no account.
+    /// The drive parameters of all links in order, five for each link: rotor inertia, viscous friction, constant
+    /// friction forward and backward, offset. Those of a fixed joint have no effect.
     pub fn drive_parameters(&self) -> DVector<f64> {
         let of_drive = |link: &Link| {
             let [forward, backward] = link.friction.constant;
@@ -107,8 +106,8 @@ impl Mechanism {
         DVector::from_vec(self.links().iter().flat_map(of_drive).collect())
     }
 
-    /// Regressor of the drives, n × 5 links: times [`Mechanism::drive_parameters`] it gives what
-    /// rotors and friction add to the torques, but for the dry friction that grows with the load.
+    /// The regressor of the drives, n × 5 links. Its product with [`Mechanism::drive_parameters`] is the contribution
+    /// of rotors and friction to the torques, except for load-dependent dry friction.
     ///
     /// # Errors
     ///

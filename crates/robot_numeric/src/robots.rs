@@ -1,6 +1,6 @@
-//! Random robots for tests and checks, the same on every machine for one seed.
+//! Random robots for tests and checks. They are the same on every machine for equal seeds.
 //!
-//! Values are short decimals, hence exact; the numeric solver reads the same robot through
+//! The values are short decimals and therefore exact; the numeric solver reads the same robot with
 //! [`crate::Mechanism::nominal`].
 
 use robot_symbolic::{Formula, Rational};
@@ -12,13 +12,12 @@ use robot_model::robot::{
     Parameter, Placement, Robot, Wrench,
 };
 
-/// A robot: links of 0.2 to 5 kg with offset centers of mass and tilted inertias, joints of both kinds
-/// about any axes (half of them coordinate axes; of the placements one in three at right angles),
-/// gravity in any direction, a tip with a wrench on the last link, a frame `sensor` on any link or
-/// on the base.
+/// A robot: links of 0.2 to 5 kg with offset centers of mass and rotated inertias; joints of both kinds about arbitrary
+/// axes (half of them are coordinate axes, and one placement in three is at right angles); gravity in an arbitrary
+/// direction; a tip with a wrench on the last link; and a frame `sensor` on any link or on the base.
 ///
-/// [`Recipe::fixed`] gives some links a second body, [`Recipe::mimic`] some joints a ratio and an
-/// offset and the coordinate of another joint, [`Recipe::drives`] rotors and friction.
+/// [`Recipe::fixed`] gives some links a second body; [`Recipe::mimic`] gives some joints a ratio, an offset and the
+/// coordinate of another joint; [`Recipe::drives`] adds rotors and friction.
 #[must_use]
 pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     let mut draw = Draw { random, recipe };
@@ -54,8 +53,8 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     }
 }
 
-/// The robot with every mass, center of mass and inertia a parameter that has the value for its
-/// nominal value: `m1`, `cx1`, `Ixx1` for the first link's first body, `m1_2` for its second.
+/// The robot with every mass, center of mass and inertia replaced by a parameter whose nominal value is the former
+/// value: `m1`, `cx1`, `Ixx1` for the first body of the first link, `m1_2` for its second body.
 #[must_use]
 pub fn parameterized(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
@@ -87,7 +86,7 @@ pub fn parameterized(robot: &Robot) -> Robot {
     robot
 }
 
-/// An integer that becomes a decimal fraction.
+/// An integer that is written as a decimal fraction.
 #[derive(Clone, Copy)]
 struct Decimal(i64);
 
@@ -103,13 +102,13 @@ struct Draw<'r> {
 }
 
 impl Draw<'_> {
-    /// From −`size` to `size`.
+    /// A random integer between −`size` and `size`.
     fn decimal(&mut self, size: i64) -> Decimal {
         Decimal(self.between(-size, size))
     }
 
     fn between(&mut self, low: i64, high: i64) -> i64 {
-        // The widths drawn here are far below the range of `usize` and `i64`.
+        // The ranges that are used here are far below those of `usize` and `i64`.
         low + self.random.index((high - low + 1) as usize) as i64
     }
 
@@ -117,8 +116,8 @@ impl Draw<'_> {
         [0; 3].map(|_| self.decimal(size))
     }
 
-    /// Moved by up to half a meter in each direction and turned by any angles; one time in three
-    /// turned by right angles and moved along some axes only.
+    /// A translation of up to half a meter along each axis and a rotation by arbitrary angles; in one of three cases, a
+    /// rotation by right angles and a translation along some axes only.
     fn placement(&mut self) -> Placement {
         let (xyz, rpy) = if self.random.once_in(3) {
             let angle = |quarters: i64| match quarters {
@@ -143,7 +142,7 @@ impl Draw<'_> {
         let name = (index + 1).to_string();
         let joint = self.joint(&name, coordinates);
         let parent = if self.recipe.branching {
-            // Counted from 1, so that 0 is the base.
+            // The index is counted from 1, so that 0 stands for the base.
             self.random.index(index + 1).checked_sub(1)
         } else {
             index.checked_sub(1)
@@ -186,8 +185,8 @@ impl Draw<'_> {
         }
     }
 
-    /// A box of 2 to 30 cm in any orientation, so positive definite and within the triangle
-    /// inequality.
+    /// A box with sides of 2 to 30 cm in an arbitrary orientation; its inertia is therefore positive definite and
+    /// satisfies the triangle inequality.
     fn body(&mut self, name: &str) -> Body {
         let mass = self.between(20, 500);
         let squares = [0; 3].map(|_| self.between(20, 300).pow(2) * mass / 12);

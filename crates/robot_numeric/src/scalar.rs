@@ -1,31 +1,30 @@
-//! The numbers that the recursions run on.
+//! The kinds of numbers for which the recursions are written.
 
 use nalgebra::{Complex, ComplexField};
 
-/// A number that the recursions can run on: a real one, or a complex one whose imaginary part
-/// carries a derivative (the complex-step method).
+/// A number for which the recursions are written: a real number, or a complex number whose imaginary part contains a
+/// derivative (the complex-step method).
 ///
-/// Only analytic operations may be used on it: no absolute value, no conjugate, no comparison.
+/// Only analytic operations may be applied to it: no absolute values, conjugates or comparisons.
 pub trait Number: ComplexField<RealField = f64> + Copy {}
 
 impl Number for f64 {}
 impl Number for Complex<f64> {}
 
-/// Size of the complex step. Its square, the relative truncation error of a derivative, is far
-/// below the last bit of a double, and nothing that is multiplied by it underflows.
+/// The size of the complex step. Its square, the relative truncation error of a derivative, is far below the precision
+/// of floating-point numbers, and products with it do not underflow.
 const STEP: f64 = 1e-100;
 
-/// The numbers as complex ones, with the complex step on the number `index`, if there is such a
-/// number.
+/// The numbers as complex numbers, with the complex step added to the number at `index`, if that exists.
 pub(super) fn step(numbers: &[f64], index: usize) -> Vec<Complex<f64>> {
     let step_of = |place| if place == index { STEP } else { 0.0 };
     numbers.iter().enumerate().map(|(place, &x)| Complex::new(x, step_of(place))).collect()
 }
 
-/// The derivative that a result carries: f′(x) = Im f(x + i h) / h up to a relative h².
+/// The derivative that a result contains: f′(x) = Im f(x + i h) / h, with a relative error of h².
 ///
-/// Nothing is subtracted, so the derivative is as exact as the function itself (J. N. Lyness,
-/// C. B. Moler, "Numerical differentiation of analytic functions", 1967).
+/// Nothing is subtracted, so the derivative is as accurate as the function itself (J. N. Lyness, C. B. Moler,
+/// "Numerical differentiation of analytic functions", 1967).
 pub(super) fn derivative(result: Complex<f64>) -> f64 {
     result.im / STEP
 }

@@ -1,18 +1,19 @@
-//! Singular mass matrices: which accelerations no joint torques determine.
+//! Singular mass matrices: the accelerations that the joint torques do not determine.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::error::NumericError;
 use super::mechanism::Mechanism;
 
-/// A motion with less than this part of the largest inertia has none: rounding is a thousand times smaller.
+/// The fraction of the largest inertia below which a motion counts as having no inertia; rounding errors are a thousand
+/// times smaller.
 const NOTHING: f64 = 1e-13;
-/// A coordinate with less than this part in a motion has none in it.
+/// A coordinate takes part in a motion if its component exceeds this fraction of the motion.
 const SHARE: f64 = 1e-4;
 
 impl Mechanism {
-    /// The coordinates, from 0, whose accelerations the joint torques do not determine at q, as the mass
-    /// matrix is singular there; none if it is not.
+    /// The indices, from 0, of the coordinates whose accelerations the joint torques do not determine at q because the
+    /// mass matrix is singular; empty if it is regular.
     ///
     /// # Errors
     ///
@@ -20,7 +21,7 @@ impl Mechanism {
     pub fn undetermined(&self, q: &[f64]) -> Result<Vec<usize>, NumericError> {
         let matrix = self.mass_matrix(q)?;
         let most = matrix.diagonal().iter().fold(0.0_f64, |most, own| most.max(own.abs()));
-        // Rotations and translations differ in their units: each by its own inertia.
+        // The units of rotations and translations differ, so each row is scaled by its own inertia.
         let scale = |index: usize| matrix[(index, index)].abs().max(NOTHING * most).sqrt().recip();
         let scaled = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |row, column| {
             matrix[(row, column)] * scale(row) * scale(column)

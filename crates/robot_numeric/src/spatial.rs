@@ -1,8 +1,8 @@
 //! Spatial vectors in Plücker coordinates: R. Featherstone, "Rigid Body Dynamics Algorithms",
 //! Springer 2008, chapter 2.
 //!
-//! A motion vector is (angular; linear), a force vector is (moment; force), both about the origin
-//! and in the axes of the frame that they are expressed in.
+//! A motion vector is (angular; linear), and a force vector is (moment; force). Both are about the origin and in the
+//! axes of the frame in which they are expressed.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -17,12 +17,12 @@ pub(super) fn spatial<T: Number>(angular: &Vector3<T>, linear: &Vector3<T>) -> V
     Vector6::new(angular.x, angular.y, angular.z, linear.x, linear.y, linear.z)
 }
 
-/// The angular half of a motion vector, the moment of a force vector.
+/// The angular half of a motion vector, or the moment of a force vector.
 pub(super) fn angular<T: Number>(vector: &Vector6<T>) -> Vector3<T> {
     Vector3::new(vector[0], vector[1], vector[2])
 }
 
-/// The linear half of a motion vector, the force of a force vector.
+/// The linear half of a motion vector, or the force of a force vector.
 pub(super) fn linear<T: Number>(vector: &Vector6<T>) -> Vector3<T> {
     Vector3::new(vector[3], vector[4], vector[5])
 }
@@ -39,21 +39,21 @@ fn blocks<T: Number>(
     matrix
 }
 
-/// The Plücker transform X of motion vectors from A to B coordinates, given the placement of B in
-/// A (section 2.8). Its transpose takes force vectors from B to A.
+/// The Plücker transform X of motion vectors from A to B coordinates, for a given placement of B in A (section 2.8).
+/// Its transpose transforms force vectors from B to A.
 pub(super) fn motion_transform<T: Number>(pose: &Pose<T>) -> Matrix6<T> {
     let e = pose.rotation.transpose();
     let moved = -(e * skew(&pose.translation));
     blocks([&e, &Matrix3::zeros()], [&moved, &e])
 }
 
-/// v×, the cross product with a motion vector on motion vectors (2.31).
+/// v×: the cross product of a motion vector with motion vectors (2.31).
 pub(super) fn cross_motion<T: Number>(v: &Vector6<T>) -> Matrix6<T> {
     let turning = skew(&angular(v));
     blocks([&turning, &Matrix3::zeros()], [&skew(&linear(v)), &turning])
 }
 
-/// v×*, the cross product with a motion vector on force vectors (2.32).
+/// v×*: the cross product of a motion vector with force vectors (2.32).
 pub(super) fn cross_force<T: Number>(v: &Vector6<T>) -> Matrix6<T> {
     -cross_motion(v).transpose()
 }
@@ -64,7 +64,7 @@ pub(super) fn cross_on<T: Number>(f: &Vector6<T>) -> Matrix6<T> {
     blocks([&-skew(&angular(f)), &force], [&force, &Matrix3::zeros()])
 }
 
-/// Spatial inertia of a link about the origin of its frame (2.63).
+/// The spatial inertia of a link about the origin of its frame (2.63).
 pub(super) fn rigid_body_inertia<T: Number>(link: &Link) -> Matrix6<T> {
     let c = skew(&link.center_of_mass);
     let first_moment = c * link.mass;

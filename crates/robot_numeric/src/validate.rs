@@ -1,4 +1,4 @@
-//! The conditions on the data of a mechanism for the recursions to have a meaning.
+//! The conditions that the data of a mechanism must satisfy.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -9,10 +9,10 @@ use super::{
     pose::Pose,
 };
 
-/// By how much a unit vector, a rotation or a symmetric matrix may be off.
+/// The tolerance for unit vectors, rotation matrices and symmetric matrices.
 const TOLERANCE: f64 = 1e-9;
 
-/// Everything that is wrong, in the order of the data.
+/// Returns all faults, in the order of the data.
 pub(super) fn faults(gravity: &Vector3<f64>, links: &[Link], frames: &[Frame]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut report = |place: String, reasons: Vec<String>| {
@@ -82,7 +82,7 @@ fn not_finite(what: &str, numbers: &[f64]) -> Vec<String> {
     }
 }
 
-/// Coordinates below the last one that move nothing.
+/// Returns the coordinates below the last one that move no joint.
 fn idle_coordinates(links: &[Link]) -> Vec<String> {
     let mut drives = vec![false; links.len()];
     for coordinate in links.iter().filter_map(|link| link.joint.driver()) {

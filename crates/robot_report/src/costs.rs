@@ -1,4 +1,4 @@
-//! The cost of the generated code: operations by function, by stage and by option.
+//! The cost of the generated code: operation counts by function, by compiler stage and by option.
 
 use robot_build::ablation::Ablation;
 use robot_codegen::{Counts, Module};
@@ -8,7 +8,7 @@ use crate::table::Table;
 
 const COLUMNS: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ together"];
 
-/// The operations of each function, at a call and once for each set of parameters.
+/// The operations of each function, per call and once per set of parameters.
 pub(crate) fn functions(module: &Module) -> Element {
     let mut columns = vec!["Function"];
     columns.extend(COLUMNS);
@@ -25,7 +25,7 @@ pub(crate) fn functions(module: &Module) -> Element {
     table.build()
 }
 
-/// The operations of inverse dynamics after each pass.
+/// The operations of a function after each compiler pass.
 pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
     let mut columns = vec!["After"];
     columns.extend(COLUMNS.iter().filter(|name| **name != "sin, cos"));
@@ -39,7 +39,7 @@ pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
     Some(table.build())
 }
 
-/// The worth of each option of the recursion and each pass.
+/// The savings by each option of the recursion and each pass.
 pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
     let operations = |ablation: &Ablation| {
         let mut counts = ablation.counts.iter();

@@ -1,5 +1,4 @@
-//! The equations of motion in each form, as MathML whose terms point at the links and parameters that
-//! they come from.
+//! The equations of motion in each form, as MathML whose terms refer to the links and parameters that they depend on.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -15,20 +14,20 @@ use robot_model::variable::{JointVariable, Variable};
 use crate::folded::{deferred, folded};
 use crate::parts;
 
-/// Forms of more characters than this are not shown: nobody reads so far.
+/// The largest number of characters of a form that is shown; nobody could read a longer one.
 const MAX_LENGTH: usize = 120_000;
-/// More definitions than this are folded: they are to be looked up, not to be read through.
+/// The largest number of definitions that are shown unfolded; longer lists are for looking things up.
 const MOST_DEFINITIONS: usize = 18;
-/// Robots of more coordinates than this have the forms that go link by link alone: the others have functions of
-/// pairs of joints, or multiply all out.
+/// The largest number of coordinates for which all forms are shown. For more coordinates only the recursive and the
+/// compact form are shown, because the others have functions for pairs of joints or multiply everything out.
 const MOST_COORDINATES: usize = 24;
-/// The width of a piece of an equation that is not broken, in points of 10 pt type: about that of a phone.
+/// The width of a piece of an equation that is not broken, in points of 10 pt type: about the width of a phone.
 const PIECE: f64 = 190.0;
 
-/// The room of a matrix or a column with its left side, in points of 10 pt type: on a phone they scroll.
+/// The width available for an array with its left side, in points of 10 pt type; on a phone, wider ones scroll.
 const LINE: f64 = 470.0;
 
-/// The forms of the page in their order, but for the one that is open.
+/// The forms in the order of the page, except that the open form comes first.
 const FORMS: [(Form, &str); 6] = [
     (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
     (Form::Collected, "Collected: common factors in front of parentheses, without friction"),
@@ -38,7 +37,7 @@ const FORMS: [(Form, &str); 6] = [
     (Form::Expanded, "Expanded: sums of products, without friction"),
 ];
 
-/// All forms, each to be opened, but for one that is open.
+/// All forms as folded parts, of which one is open.
 pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
     let found: Vec<_> = FORMS.map(|(form, title)| (form, title, in_form(robot, form))).into();
     let lengths = found
@@ -67,8 +66,7 @@ pub(crate) fn forms(robot: &Robot) -> Vec<Node> {
     std::iter::once(holding("p", words)).chain(forms).map(Node::from).collect()
 }
 
-/// The form that is open: the shortest, but rather one without names of the computation's own if that is not much
-/// longer.
+/// Chooses the form that is open: the shortest one, or a form without auxiliary names if it is at most twice as long.
 fn opened(lengths: &[(Form, usize)]) -> Option<Form> {
     let (shortest, least) = lengths.iter().min_by_key(|(_, length)| *length)?;
     let plain = lengths.iter().find(|(form, length)| {
@@ -77,7 +75,7 @@ fn opened(lengths: &[(Form, usize)]) -> Option<Form> {
     plain.map(|(form, _)| *form).or(Some(*shortest))
 }
 
-/// The form of the equations.
+/// The introduction to the equations.
 const WORDS: &str = "The joint torques τ (Q in the equations), as functions of the joint \
     positions, velocities and accelerations. Hover over a term, or move to it with Tab and the \
     arrow keys, to highlight the links and parameters that it depends on and the definitions of \
@@ -87,20 +85,20 @@ fn note(words: &str) -> Element {
     holding("p", words).class("note")
 }
 
-/// The characters of the equations without spaces, definitions included.
+/// The number of characters of the equations with their definitions, without spaces.
 fn length(found: &Equations) -> usize {
     let all = found.groups.iter().flat_map(|group| &group.equations);
     let texts = all.flat_map(|equation| [&equation.name, &equation.text]);
     texts.flat_map(|text| text.split_whitespace()).map(str::len).sum()
 }
 
-/// Equations of the page.
+/// The equations of one form as the page shows them.
 struct Shown {
-    /// With matrices and columns where they fit.
+    /// The equations, with matrices and columns where they fit.
     arranged: Equations,
-    /// The names and the looks of these.
+    /// The names and layouts of these matrices and columns.
     arrays: Vec<(String, Math)>,
-    /// The names of their entries that have no equation of their own, each with the name of its matrix or column.
+    /// The names of their entries without an equation of their own, each with the name of its matrix or column.
     entries: BTreeMap<String, String>,
 }
 
@@ -127,7 +125,7 @@ impl Shown {
     }
 }
 
-/// The equations in a form, or why they are not shown.
+/// The equations in a form, or the reason why they are not shown.
 fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     let coordinates = robot.degrees_of_freedom();
     let link_by_link = matches!(form, Form::Recursive | Form::Compact);
@@ -137,7 +135,7 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
              long to read if there are more than {MOST_COORDINATES}."
         ));
     }
-    // Expanded under the root of dry friction, the forces in the joints fill pages.
+    // In the expanded form, dry friction would have whole joint forces under a root, which would fill pages.
     let friction = robot.has_friction() && !matches!(form, Form::Expanded | Form::Collected);
     let digits = Some(DIGITS);
     let options = EquationOptions { form, friction, digits, ..EquationOptions::default() };
@@ -154,12 +152,12 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     Ok(Shown::new(&found))
 }
 
-/// The meaning of symbols.
+/// What the symbols of a form refer to.
 struct Sources<'r> {
     robot: &'r Robot,
     form: Form,
     found: &'r Shown,
-    /// The symbols that the form's own equations define.
+    /// The symbols that the equations of this form define.
     names: BTreeSet<&'r str>,
 }
 
@@ -170,7 +168,7 @@ impl<'r> Sources<'r> {
         Sources { robot, form, found, names }
     }
 
-    /// The groups of the form, definitions folded.
+    /// The groups of the form, with long lists of definitions folded.
     fn groups(&self, is_open: bool) -> Vec<Element> {
         let one = |group: &Group| {
             let introduction =
@@ -187,7 +185,7 @@ impl<'r> Sources<'r> {
         self.found.arranged.groups.iter().flat_map(one).collect()
     }
 
-    /// An equation that breaks between pieces of some terms.
+    /// An equation that can be broken between groups of terms.
     fn equation(&self, equation: &Equation) -> Element {
         let left = [equation.left.pieces(), &[Math::Sign('=')]].concat();
         let whole = Math::Row([&left, equation.right.pieces()].concat());
@@ -207,11 +205,11 @@ impl<'r> Sources<'r> {
             .attribute("data-latex", latex::formula(&whole))
             .attribute("data-typst", typst::formula(&whole))
             .with_all(lines.into_iter().map(|line| element("math").with_all(line)));
-        // Each equation is a stop of the tabulator.
+        // Each equation is one stop of the Tab key.
         if has_stop { shown } else { shown.attribute("tabindex", "0") }
     }
 
-    /// A matrix whose entries are terms, and whether one is the stop of the tabulator.
+    /// A matrix whose entries are terms, and whether one of them is the stop of the Tab key.
     fn matrix(&self, rows: &[Vec<Math>]) -> (Element, bool) {
         let mut has_stop = false;
         let mut shown = vec![];
@@ -227,7 +225,7 @@ impl<'r> Sources<'r> {
         (mathml::bracketed(shown), has_stop)
     }
 
-    /// The terms of a sum behind its left side, as pieces, and whether one is the stop of the tabulator.
+    /// The lines of a sum after its left side, term by term, and whether one of the terms is the stop of the Tab key.
     fn lines(&self, left: &Math, right: &[Math]) -> (Vec<Vec<Element>>, bool) {
         let mut lines = vec![vec![mathml::formula(left)]];
         let mut taken = width(left);
@@ -250,7 +248,7 @@ impl<'r> Sources<'r> {
         (lines, has_stop)
     }
 
-    /// A term with what it depends on, and whether it is the stop of the tabulator.
+    /// A term with references to what it depends on, and whether it is the stop of the Tab key.
     fn term(&self, place: usize, pieces: &[Math], may_stop: bool) -> (Element, bool) {
         let term = Math::Row(pieces.to_vec());
         let mut tokens: Vec<String> = vec![];
@@ -268,12 +266,12 @@ impl<'r> Sources<'r> {
         if tokens.is_empty() {
             return (shown, false);
         }
-        // One stop for each equation; the arrows go through its terms.
+        // Each equation has one stop; the arrow keys move between its terms.
         let stop = if may_stop { "0" } else { "-1" };
         (shown.attribute("data-of", tokens.join(" ")).attribute("tabindex", stop), may_stop)
     }
 
-    /// The matrices and columns that a term starts with.
+    /// The matrices and columns with which a term starts.
     fn arrays<'t>(&self, term: &'t [Math]) -> impl Iterator<Item = &'r str> + use<'r, 't> {
         let product = match term {
             [Math::Sign(_), product @ ..] => product,
@@ -284,7 +282,7 @@ impl<'r> Sources<'r> {
         own.map(|(name, _)| name.as_str())
     }
 
-    /// The origin of a symbol.
+    /// The tokens of what a symbol depends on.
     fn tokens(&self, name: &str) -> Vec<String> {
         if let Some(array) = self.found.entries.get(name) {
             return vec![self.defined(array)];
@@ -312,7 +310,8 @@ impl<'r> Sources<'r> {
         }
     }
 
-    /// The token of an equation of this form, and its anchor: its label, of a matrix without what it depends on.
+    /// The token of an equation of this form, which is also its anchor. The name of a matrix is used without its
+    /// arguments.
     fn defined(&self, name: &str) -> String {
         let name = name.split_once('(').map_or(name, |(name, _)| name);
         let plain = |letter: char| match letter {

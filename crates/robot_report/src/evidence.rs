@@ -1,4 +1,4 @@
-//! The evidence for the code: from the compiler, and from the numeric solver.
+//! Evidence about the code from the compiler and from the numerical solver.
 
 use robot_document::markup::{Element, Node, element, holding};
 use robot_evidence::{Evidence, Module};
@@ -9,30 +9,30 @@ use crate::table::Table;
 /// The evidence from the compiler.
 #[derive(Clone, Debug)]
 pub enum Compiled {
-    /// Its objects were read.
+    /// The compiled objects were analyzed.
     Read {
-        /// The compiler, its version and target.
+        /// The compiler, with its version and target.
         compiler: String,
-        /// The functions read, for each profile.
+        /// The evidence about the functions, for each profile.
         modules: Vec<Module>,
     },
-    /// There is no evidence.
+    /// There is no evidence from the compiler.
     Unread {
-        /// Why.
+        /// The reason.
         reason: String,
     },
 }
 
-/// The difference of the programs from an independent solver.
+/// The differences between the programs and an independent solver.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Accuracy {
-    /// The states at which they were compared, in words.
+    /// A description of the states at which they were compared.
     pub states: String,
-    /// The worst relative error of each function.
+    /// The largest relative error of each function.
     pub worst: Vec<(String, f64)>,
 }
 
-/// The evidence of the object files.
+/// The evidence from the object files.
 pub(crate) fn compiled(compiled: &Compiled) -> Vec<Node> {
     match compiled {
         Compiled::Unread { reason } => {
@@ -88,7 +88,7 @@ fn profile(module: &Module) -> Element {
     folded(format!("Machine code, profile {}", module.profile.name()), [table.build()])
 }
 
-/// The program's results against those of the numeric solver.
+/// The comparison of the programs with the numerical solver.
 pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
     match accuracy {
         Ok(Accuracy { states, worst }) => {

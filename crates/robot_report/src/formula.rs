@@ -1,4 +1,4 @@
-//! Formulas on the page, as MathML.
+//! Formulas of the page in MathML.
 
 use robot_document::markup::{Element, holding};
 use robot_document::math::Math;
@@ -9,24 +9,24 @@ use robot_symbolic::{Formula, Graph};
 
 use crate::text;
 
-/// A formula in a line.
+/// A formula within a line.
 pub(crate) fn math(formula: &Math) -> Element {
     holding("math", mathml::formula(formula))
 }
 
-/// The layout of the robot's symbols.
+/// The layouts of the robot's symbols.
 pub(crate) struct Symbols {
-    /// `None` if two symbols look alike: then they are shown by their names.
+    /// The table of layouts; `None` if two symbols look the same, so that all are shown by their names.
     table: Option<SymbolTable>,
 }
 
 impl Symbols {
-    /// The symbols of a robot.
+    /// The layouts of the symbols of a robot.
     pub(crate) fn of(robot: &Robot) -> Symbols {
         Symbols { table: SymbolTable::new(robot, Trigonometry::Named).ok() }
     }
 
-    /// A symbol by its name.
+    /// A symbol, given by its name.
     pub(crate) fn symbol(&self, name: &str) -> Element {
         let table = self.table.as_ref();
         table.map_or_else(|| holding("i", name), |table| math(&table.look(name)))

@@ -1,9 +1,9 @@
-//! A page about a robot: one HTML file that needs nothing else.
+//! A page about a robot: a single HTML file that needs no other files.
 //!
-//! [`report`] is pure: it takes a robot file and what the compiler made of its code, and returns the text of the
-//! page, the same bytes for the same input. Everything that comes from the robot file is text by construction
-//! ([`robot_document::markup`] is the one place where text becomes markup), and the page's policy lets a browser run
-//! and load only the page's own style and script, by their hashes.
+//! [`report`] is pure: from a robot file and the evidence about its code it makes the text of the page, with the same
+//! bytes for the same input. All content from the robot file stays text, because only [`robot_document::markup`] turns
+//! text into markup. The page's policy allows a browser to run and load only the page's own styles and scripts, by
+//! their hashes.
 
 mod costs;
 mod drawing;
@@ -41,28 +41,28 @@ use page::{Section, page};
 use reload::Stamp;
 use structure::Structure;
 
-/// The ingredients of a page.
+/// The input of a page.
 #[derive(Clone, Debug)]
 pub struct Input<'a> {
     /// The robot file.
     pub source: &'a Source,
-    /// The options of making its code; the page chooses the functions.
+    /// The options for generating the robot's code; the page chooses the functions.
     pub options: &'a Options,
-    /// The tolerance, rad, within which constant angles are shown as multiples of π/2, in tables and equations, if neither the
-    /// options nor the file have one. Code is made of the angles as they are.
+    /// The tolerance in rad within which constant angles are shown as multiples of π/2 in tables and equations, unless
+    /// the options or the file set one. The code uses the angles as they are in the file.
     pub snap: f64,
-    /// The evidence from the compiler.
+    /// The evidence from the compiler about the code.
     pub compiled: &'a Compiled,
-    /// Holds the programs against an independent solver, or says why it cannot.
+    /// Compares the programs with an independent solver, or returns the reason why it cannot.
     pub judge: fn(&Programs) -> Result<Accuracy, String>,
-    /// Whether the robot can be moved in the page, if that adds at most 80 kB.
+    /// Whether the page contains a moving robot, provided that this adds at most 80 kB.
     pub live: bool,
 }
 
-/// The function whose costs are taken apart.
+/// The function whose operations are shown by pass and by option.
 const FUNCTION: FunctionKind = FunctionKind::InverseDynamics(Effects::NONE);
 
-/// The functions whose costs are shown.
+/// The functions whose operations are shown.
 const FUNCTIONS: [FunctionKind; 9] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
@@ -75,11 +75,11 @@ const FUNCTIONS: [FunctionKind; 9] = [
     FunctionKind::ForwardDynamics(Effects::NONE),
 ];
 
-/// The page about the robot of a file, as HTML that is well-formed XML too.
+/// Makes the page about the robot of a file, as HTML that is also well-formed XML.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options.
+/// All errors in the file and in the options.
 pub fn report(input: &Input<'_>) -> Result<String, Errors> {
     let (robot, live, sections) = sections(input)?;
     Ok(page(&robot, live.as_ref(), sections, None))
@@ -88,16 +88,16 @@ pub fn report(input: &Input<'_>) -> Result<String, Errors> {
 /// The page about the robot of a file that is being edited.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reloading {
-    /// The page, which reloads itself if [`Reloading::stamp`] is another page's or gone.
+    /// The page, which reloads itself when the picture with [`Reloading::stamp`] beside it is replaced or removed.
     pub page: String,
-    /// An SVG picture. It belongs beside the page, under the page's name with `.svg` after it, and is to
-    /// be written after the page.
+    /// An SVG picture that identifies the page. It must be written after the page and beside it, under the page's name
+    /// followed by `.svg`.
     pub stamp: String,
-    /// The page of [`report`] without the script that reloads it.
+    /// The page of [`report`], without the script that reloads it.
     pub still: String,
 }
 
-/// The page of [`report`] with a script that reloads it when another is written in its place.
+/// Makes the page of [`report`] with a script that reloads it when a new page replaces it.
 ///
 /// # Errors
 ///
@@ -110,7 +110,7 @@ pub fn reloading(input: &Input<'_>) -> Result<Reloading, Errors> {
     Ok(Reloading { page, stamp: stamp.picture(), still })
 }
 
-/// The robot of a file, and what the page says of it.
+/// The robot of a file, its moving part, and the sections of the page.
 fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Errors> {
     let robot = robot_build::read_with(input.source, input.options)?.robot;
     let base_frames = input.options.base_frames.unwrap_or(robot.base_frames);
@@ -151,8 +151,8 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
     Ok((robot, live, sections))
 }
 
-/// The programs of functions; if they need more expressions than code is made of, without those of pairs of joints, or in
-/// the end of inverse dynamics alone, and what the page says of that.
+/// Makes the programs of the functions and returns a note about omitted ones. If the programs need too many
+/// expressions, those for pairs of joints are omitted and, if that is not enough, all except inverse dynamics.
 fn programs_within_limits(
     input: &Input<'_>,
     functions: &[FunctionKind],
@@ -180,7 +180,7 @@ fn is_too_large(errors: &Errors) -> bool {
     errors.as_slice().iter().any(|error| matches!(error, robot_build::Error::TooLarge { .. }))
 }
 
-/// The functions that the page leaves out, and why.
+/// The note about functions that the page omits.
 fn omission(all: &[FunctionKind], chosen: &[FunctionKind]) -> Option<String> {
     let omitted = all.iter().filter(|kind| !chosen.contains(kind)).map(|kind| kind.name());
     let omitted: Vec<&str> = omitted.collect();
@@ -188,7 +188,7 @@ fn omission(all: &[FunctionKind], chosen: &[FunctionKind]) -> Option<String> {
     (!omitted.is_empty()).then(|| format!("Note: {} are {words}", omitted.join(", ")))
 }
 
-/// What the page says of constant angles that it shows as multiples of π/2 while code takes them as they are.
+/// The note about constant angles that are shown as multiples of π/2 although the code uses their values in the file.
 fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> Option<Element> {
     let of_code = input.options.snap.or(robot.snap).unwrap_or(snap::DEFAULT);
     let count = snaps.iter().filter(|snap| snap.change.abs() > of_code).count();
@@ -223,7 +223,7 @@ fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
     Section { id: "parameters", title: "Parameters", body: vec![body] }
 }
 
-/// The content of the grids.
+/// The explanation of the grids.
 const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked \
     const depend only on parameters. An entry counts as independent of a coordinate if no other \
     value of the coordinate changes it, at random values of all symbols, including parameters.";

@@ -1,4 +1,4 @@
-//! Joint torques along a sample trajectory, split by what asks for them.
+//! Joint torques along a sample trajectory, divided into contributions.
 
 use std::f64::consts::TAU;
 
@@ -12,15 +12,15 @@ use crate::plot::{self, Plot};
 use crate::table::Table;
 use crate::text;
 
-/// The length of the trajectory, s, and the number of steps in it.
+/// The duration of the trajectory in s, and the number of its steps.
 const DURATION: f64 = 4.0;
 const STEPS: u32 = 160;
-/// The part of a joint's range that is used, and the amplitude if it has no limits, rad and m.
+/// The fraction of a joint's range that is used, and the amplitudes without limits, in rad and m.
 const SHARE: f64 = 0.3;
 const SWING: f64 = 0.8;
 const STROKE: f64 = 0.2;
 
-/// Curves of the joint torque of each coordinate, and a table of their largest values.
+/// The curves of the joint torque of each coordinate, and a table of their largest values.
 pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     let robot = &programs.robot;
     let found = match torque_contributions(programs, &[], &trajectory(robot), robot.has_friction())
@@ -59,7 +59,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     body
 }
 
-/// The description of the trajectory.
+/// The explanation of the trajectory.
 const WORDS: &str = "Each coordinate oscillates about the middle of its range, or about 0 if it \
     has no limits: q = middle − amplitude · cos(2π k t / 4 s), with k = 1 for odd coordinate \
     numbers and k = 2 for even ones. The amplitude is 0.3 of half the range; without limits it \
@@ -100,7 +100,7 @@ fn trajectory(robot: &Robot) -> Trajectory {
 mod tests {
     use super::*;
 
-    /// Velocities and accelerations are the derivatives of the positions.
+    /// The velocities and accelerations are the derivatives of the positions.
     #[test]
     fn the_trajectory_is_smooth() {
         let path = format!("{}/../../robots/panda.toml", env!("CARGO_MANIFEST_DIR"));

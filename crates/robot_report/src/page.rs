@@ -1,4 +1,4 @@
-//! The frame of the page: head, contents, sections.
+//! The frame of the page: its head, contents and sections.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -12,21 +12,22 @@ use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
-/// The script of a page that reloads itself.
+/// The script that reloads the page.
 const RELOAD: &str = include_str!("reload.js");
 
 /// A section of the page.
 #[derive(Clone)]
 pub(crate) struct Section {
-    /// Its anchor.
+    /// The anchor.
     pub(crate) id: &'static str,
-    /// Its heading.
+    /// The heading.
     pub(crate) title: &'static str,
-    /// Its content.
+    /// The content.
     pub(crate) body: Vec<Node>,
 }
 
-/// The page of a robot, with the part in which it moves if there is one; with a stamp it reloads itself if the picture beside it has another one.
+/// Makes the page of a robot, with the moving robot if there is one. With a stamp, the page reloads itself when the
+/// picture beside it has another stamp.
 pub(crate) fn page(
     robot: &Robot,
     live: Option<&Live>,
@@ -89,8 +90,9 @@ fn head(robot: &Robot, moves: bool, reloads: bool) -> Element {
         .with_all(moves.then(|| element("style").with(Node::Verbatim(live::STYLE))))
 }
 
-/// The page's own styles and scripts, by their hashes, the font of equations within them, and nothing else; of a page that reloads itself the
-/// picture beside it, too; of one in which the robot moves the robot's own module.
+/// The content security policy. It allows the page's own styles and scripts by their hashes and the embedded font of
+/// equations. A page that reloads itself can also load the picture beside it, and one with a moving robot its own
+/// WebAssembly module.
 fn policy(moves: bool, reloads: bool) -> String {
     let hash = |text: &str| {
         let hash = BASE64_STANDARD.encode(hmac_sha256::Hash::hash(text.as_bytes()));
@@ -135,7 +137,7 @@ fn footer() -> Element {
 mod tests {
     use super::*;
 
-    /// Style and script are in the page unescaped: nothing in them may be markup.
+    /// Styles and scripts are written without escaping, so they must not contain markup.
     #[test]
     fn style_and_script_have_no_signs_of_markup() {
         for own in [STYLE, SCRIPT, RELOAD, live::STYLE, live::SCRIPT] {

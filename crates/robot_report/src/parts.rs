@@ -1,22 +1,22 @@
-//! The subject of a piece of the page: links and parameters by tokens that the page's script matches.
+//! The subjects of pieces of the page: tokens of links and parameters, which the page's script matches.
 //!
-//! `data-is` is on what shows a link or a parameter, `data-of` on what depends on some.
+//! `data-is` marks an element that shows a link or a parameter, `data-of` one that depends on some.
 
 use robot_model::robot::{Body, Drive, Friction, Inertia, Joint, Move};
 use robot_model::robot::{Link, Placement, Robot};
 use robot_symbolic::Formula;
 
-/// The token of a link, by index.
+/// The token of a link, given by its index.
 pub(crate) fn link(index: usize) -> String {
     format!("link-{}", index + 1)
 }
 
-/// The token of a parameter, by name.
+/// The token of a parameter, given by its name.
 pub(crate) fn parameter(name: &str) -> String {
     format!("parameter-{name}")
 }
 
-/// The links whose values have a parameter in them, by index.
+/// The indices of the links whose values contain a parameter.
 pub(crate) fn links_of_parameter(robot: &Robot, name: &str) -> Vec<usize> {
     let has = |formula: &Formula| formula.symbols().any(|(used, _)| used == name);
     let uses = |(index, link): (usize, &Link)| {
@@ -28,7 +28,7 @@ pub(crate) fn links_of_parameter(robot: &Robot, name: &str) -> Vec<usize> {
     links.map(|(index, _)| index).collect()
 }
 
-/// The formulas of a link.
+/// The formulas in the description of a link.
 fn formulas(link: &Link) -> Vec<&Formula> {
     let Joint { axis, ratio, offset, .. } = &link.joint;
     let mut found: Vec<&Formula> = axis.iter().chain([ratio, offset]).collect();

@@ -1,4 +1,4 @@
-//! Curves over time as SVG, in the colors of the page.
+//! Plots of curves over time as SVG, in the colors of the page.
 
 use nalgebra::Vector2;
 use robot_document::markup::{Element, element, holding};
@@ -7,37 +7,37 @@ use robot_simulation::plot::{Axis, label};
 use crate::drawing::{coordinate, path};
 use crate::text;
 
-/// A picture of curves of one unit.
+/// A plot of curves with the same unit.
 pub(crate) struct Plot<'a> {
-    /// Its number on the page, for anchors.
+    /// The number of the plot on the page, for anchors.
     pub(crate) number: usize,
-    /// Its content.
+    /// The heading.
     pub(crate) title: String,
     /// The unit of the curves.
     pub(crate) unit: &'static str,
-    /// t, s, rising.
+    /// The times in s, in ascending order.
     pub(crate) t: &'a [f64],
-    /// The curves by name, the last one the sum of the others.
+    /// The curves with their names; the last one is the sum of the others.
     pub(crate) curves: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// The size of a picture and the margins of its field: left, right, top, bottom.
+/// The size of a plot, and the margins around its field: left, right, top, bottom.
 const SIZE: [f64; 2] = [760.0, 210.0];
 const MARGINS: [f64; 4] = [74.0, 108.0, 26.0, 34.0];
 const LETTERS: f64 = 12.0;
 
-/// The most ticks of each axis.
+/// The largest numbers of ticks on the axes.
 const TIME_TICKS: usize = 9;
 const VALUE_TICKS: usize = 8;
 
-/// From times and values to places on the page.
+/// The scales that convert times and values to positions in the plot.
 struct Scale {
     time: Axis,
     values: Axis,
 }
 
 impl Plot<'_> {
-    /// The picture.
+    /// Draws the plot.
     pub(crate) fn build(&self) -> Element {
         let [width, height] = SIZE;
         let anchors = ["title", "desc"].map(|part| format!("plot-{}-{part}", self.number));
@@ -67,7 +67,7 @@ impl Plot<'_> {
         format!("{}.", peaks.join(", "))
     }
 
-    /// Lines at round values, with the values.
+    /// The lines at round values, and their labels.
     fn grid(&self, scale: &Scale) -> Vec<Element> {
         let mut drawn = vec![];
         let Scale { time, values } = scale;
@@ -111,7 +111,7 @@ impl Plot<'_> {
         self.curves.iter().enumerate().flat_map(entry).collect()
     }
 
-    /// The look of a curve: the sum is not like its parts.
+    /// The class of a curve; the sum is drawn differently from its parts.
     fn class(&self, index: usize) -> String {
         match index + 1 == self.curves.len() {
             true => "curve sum".to_owned(),
@@ -121,7 +121,7 @@ impl Plot<'_> {
 }
 
 impl Scale {
-    /// The place of a value in the units of its axis.
+    /// The position of a time and a value, in the units of their axes.
     fn place(&self, time: f64, value: f64) -> Vector2<f64> {
         let share = |axis: &Axis, at: f64| (at - axis.low) / (axis.high - axis.low);
         let [left, right, top, bottom] = MARGINS;
@@ -132,12 +132,12 @@ impl Scale {
     }
 }
 
-/// The largest magnitude.
+/// The largest absolute value.
 pub(crate) fn peak(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size, value| size.max(value.abs()))
 }
 
-/// Four digits are enough to read off a picture.
+/// Rounds a value to four digits, which are enough for a plot.
 pub(crate) fn rounded(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -1,11 +1,12 @@
-//! The page of a robot whose file is being edited: it reloads itself, from disk and without a server.
+//! Pages that reload themselves while the robot file is being edited, from disk and without a server.
 
 use robot_build::MARKER;
 
-/// The file that the page's script reads: which page is the newest.
+/// The stamp of a page, which is written to a file that the page's script reads to find out whether there is a newer
+/// page.
 ///
-/// Two numbers, the size of a picture: of what lies beside a page that was opened from a file, a browser
-/// shows its script nothing else.
+/// It consists of two numbers, the width and height of a picture, because the script of a page opened from a file can
+/// only read the size of a picture beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Stamp {
     width: u16,
@@ -13,14 +14,14 @@ pub(crate) struct Stamp {
 }
 
 impl Stamp {
-    /// The stamp of a page with that text.
+    /// The stamp of a page with this text.
     pub(crate) fn of(text: &str) -> Stamp {
         let side = |[high, low]: [u8; 2]| 1 + u16::from_be_bytes([high, low]) % 4096;
         let [a, b, c, d, ..] = hmac_sha256::Hash::hash(text.as_bytes());
         Stamp { width: side([a, b]), height: side([c, d]) }
     }
 
-    /// As the page bears it: `640 480`.
+    /// The stamp in the page, for example `640 480`.
     pub(crate) fn words(self) -> String {
         format!("{} {}", self.width, self.height)
     }

@@ -1,10 +1,9 @@
-//! Which entries of M(q) and C(q, q̇) are zero, which constant, and which coordinates the others
-//! depend on.
+//! The structure of M(q) and C(q, q̇): which entries are zero, which are constant, and on which coordinates the others
+//! depend.
 //!
-//! Entries are exact derivatives of the paper's joint torques: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at
-//! constant q and q̈, which is C by Christoffel symbols, for C q̇ is a quadratic form in q̇. An entry
-//! does not depend on a coordinate if another value of the coordinate never changes it, at random
-//! values of all symbols.
+//! The entries are exact derivatives of the paper's joint torques: M = ∂Q/∂q̈, and C = ½ ∂Q/∂q̇ at constant q and q̈.
+//! The latter is C by Christoffel symbols, because C q̇ is a quadratic form in q̇. An entry counts as independent of a
+//! coordinate if another value of the coordinate does not change it, at random values of all symbols.
 
 use std::collections::BTreeMap;
 
@@ -18,30 +17,30 @@ use robot_symbolic::{Expr, Graph, Random, SymbolId, walk};
 
 use crate::text;
 
-/// States at which entries are tried.
+/// The number of states at which entries are evaluated.
 const STATES: usize = 4;
-/// Changes smaller than this are rounding: entries are of the size of the robot's values.
+/// The largest change that counts as a rounding error; entries have the magnitude of the robot's values.
 const ROUNDING: f64 = 1e-10;
 /// The seed of the states.
 const SEED: u64 = 6;
 
-/// The dependence of an entry of a matrix.
+/// The dependence of an entry of a matrix on the coordinates.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Entry {
-    /// It is 0.
+    /// The entry is 0.
     Zero,
-    /// It depends on these coordinates, by index; on parameters alone if there are none.
+    /// The entry depends on the coordinates with these indices; if there are none, only on parameters.
     Of(Vec<usize>),
 }
 
-/// The structure of the two matrices, row by row.
+/// The structures of the two matrices, row by row.
 pub(crate) struct Structure {
     mass: Vec<Vec<Entry>>,
     coriolis: Vec<Vec<Entry>>,
 }
 
 impl Structure {
-    /// The structure of a robot.
+    /// Determines the structure for a robot.
     pub(crate) fn of(robot: &Robot) -> Structure {
         let graph = Graph::new();
         let exact = MechanismOptions::EXACT.with_snap(None, robot);
@@ -59,7 +58,7 @@ impl Structure {
         let positions: Vec<Option<SymbolId>> =
             (0..count).map(|index| symbol(JointVariable::Position, index).as_symbol()).collect();
         let entries = entries(&columns, &positions);
-        // From columns to rows.
+        // The derivatives are in columns; this collects a row.
         let row = |matrix: usize, row: usize| -> Vec<Entry> {
             let places = (0..count).map(|column| (matrix * count + column) * count + row);
             places.filter_map(|place| entries.get(place).cloned()).collect()
@@ -68,7 +67,7 @@ impl Structure {
         Structure { mass: matrix(0), coriolis: matrix(1) }
     }
 
-    /// Both matrices as colored tables.
+    /// Makes a colored table of each matrix.
     pub(crate) fn build(&self) -> [Element; 2] {
         [
             grid("Mass matrix M(q): the coordinates that each entry depends on", &self.mass),
@@ -80,7 +79,7 @@ impl Structure {
     }
 }
 
-/// The dependence of each of the expressions.
+/// Determines the dependence of each expression.
 fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
     let mut largest = vec![0.0f64; roots.len()];
     let mut changes = vec![vec![0.0f64; positions.len()]; roots.len()];
@@ -110,7 +109,7 @@ fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
     found.map(|(size, list)| if *size < ROUNDING { Entry::Zero } else { depends(list) }).collect()
 }
 
-/// The larger magnitude; a value that is not a number is not zero.
+/// The larger absolute value; NaN counts as infinite, so that it is not taken for zero.
 fn larger(size: f64, value: f64) -> f64 {
     if value.is_nan() { f64::INFINITY } else { size.max(value.abs()) }
 }
@@ -121,7 +120,7 @@ fn values(roots: &[Expr<'_>], state: &State) -> Vec<f64> {
     walk::evaluate(roots, |symbol| state.get(&symbol).copied().unwrap_or(f64::NAN))
 }
 
-/// Values of all symbols, several times.
+/// Random values of all symbols, for each of the states.
 fn states(roots: &[Expr<'_>]) -> Vec<State> {
     let symbols = walk::symbols(roots);
     let mut random = Random::new(SEED);
@@ -129,7 +128,7 @@ fn states(roots: &[Expr<'_>]) -> Vec<State> {
     (0..STATES).map(|_| state()).collect()
 }
 
-/// The shades of entries that depend on coordinates.
+/// The number of shades for entries that depend on coordinates.
 const SHADES: usize = 5;
 
 fn grid(caption: &str, rows: &[Vec<Entry>]) -> Element {
@@ -162,7 +161,7 @@ fn cell(entry: &Entry, count: usize) -> Element {
         Entry::Zero => ("zero".to_owned(), "0".to_owned()),
         Entry::Of(list) if list.is_empty() => ("shade-0".to_owned(), "const".to_owned()),
         Entry::Of(list) => {
-            // The darkest shade is that of an entry which depends on all.
+            // The darkest shade is for an entry that depends on all coordinates.
             let shade = (list.len() * SHADES).div_ceil(count.max(1));
             let names =
                 list.iter().map(|index| text::symbol(&JointVariable::Position.symbol(*index)));
@@ -188,13 +187,13 @@ mod tests {
         let elbow = || Entry::Of(vec![1]);
         let constant = Entry::Of(vec![]);
         assert_eq!(found.mass, [[elbow(), elbow()], [elbow(), constant]]);
-        // C = h [q̇₂, q̇₁ + q̇₂; −q̇₁, 0] with h of q₂ alone.
+        // C = h [q̇₂, q̇₁ + q̇₂; −q̇₁, 0], where h depends only on q₂.
         assert_eq!(found.coriolis, [[elbow(), elbow()], [elbow(), Entry::Zero]]);
     }
 
     #[test]
     fn the_paper_s_robot_has_the_paper_s_zeros() {
-        // The translations 1 and 3 are at right angles; 3 moves mass along the axis of 2.
+        // The axes of the translations 1 and 3 are perpendicular, and 3 moves mass along the axis of 2.
         let found = structure("trttr1");
         let entry = |row: usize, column: usize| found.mass[row - 1][column - 1].clone();
         assert_eq!(

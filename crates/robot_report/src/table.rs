@@ -1,8 +1,8 @@
-//! Tables with headings that screen readers find.
+//! Tables with headings that screen readers recognize.
 
 use robot_document::markup::{Element, Node, element, holding};
 
-/// A table: what it shows, its columns, its rows. The first cell of a row is its heading.
+/// A table with its caption, columns and rows. The first cell of each row is its heading.
 pub(crate) struct Table {
     caption: String,
     columns: Vec<Node>,
@@ -10,13 +10,13 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// A table without rows.
+    /// Creates a table without rows.
     pub(crate) fn new<C: Into<Node>>(caption: &str, columns: impl IntoIterator<Item = C>) -> Table {
         let columns = columns.into_iter().map(Into::into).collect();
         Table { caption: caption.to_owned(), columns, rows: vec![] }
     }
 
-    /// One more row; `parts` are what of the robot it is about, see [`crate::parts`].
+    /// Adds a row; `parts` are the tokens of its subject, see [`crate::parts`].
     pub(crate) fn row<C: Into<Node>>(
         &mut self,
         parts: &str,
@@ -29,7 +29,7 @@ impl Table {
         self.rows.push(if parts.is_empty() { row } else { row.attribute("data-is", parts) });
     }
 
-    /// The table, in a box that scrolls sideways if it is too wide.
+    /// Makes the element of the table, in a box that scrolls sideways if the table is too wide.
     pub(crate) fn build(self) -> Element {
         let headings =
             self.columns.into_iter().map(|column| holding("th", column).attribute("scope", "col"));
@@ -37,7 +37,7 @@ impl Table {
             .with(holding("caption", holding("span", self.caption.as_str())))
             .with(holding("thead", element("tr").with_all(headings)))
             .with(element("tbody").with_all(self.rows));
-        // The keyboard scrolls what has the focus.
+        // The box can get the focus, so that the keyboard can scroll it.
         element("div")
             .class("wide")
             .attribute("tabindex", "0")
@@ -47,7 +47,8 @@ impl Table {
     }
 }
 
-/// Cells of more characters than this are sentences: on narrow screens they keep a width in which they read well.
+/// The largest number of characters of a short cell. Longer ones are sentences, which keep a readable width on narrow
+/// screens.
 const WORDS: usize = 24;
 
 fn cell_of(cell: Node) -> Element {

@@ -1,4 +1,4 @@
-//! The contents of the robot file, in tables: joints, masses, parameters.
+//! The contents of the robot file as tables: joints, frames, masses and parameters.
 
 use robot_document::markup::{Element, Node, element, holding};
 use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
@@ -11,7 +11,7 @@ use crate::parts;
 use crate::table::Table;
 use crate::text;
 
-/// Joints and frames: where each is at rest, and how it moves.
+/// The table of links and joints: their poses at q = 0 and their motions.
 pub(crate) fn kinematics(robot: &Robot) -> Element {
     let columns = ["Link", "Parent", "Joint", "Type", "Axis", "Pose at q = 0", "Limits"];
     let caption = "Links and joints. A pose is a sequence of displacements in the parent frame, \
@@ -37,7 +37,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
-/// The named frames; `None` if there are none.
+/// The table of named frames; `None` if there are none.
 pub(crate) fn frames(robot: &Robot) -> Option<Element> {
     let caption = "Frames. A tip exerts the wrench with these components on its surroundings; \
         the external wrench, which acts on the tip, is its negative.";
@@ -51,7 +51,7 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
     (!robot.frames.is_empty()).then(|| table.build())
 }
 
-/// Masses and inertias, the paper's Table 1.
+/// The table of masses and moments of inertia, as in Table 1 of the paper.
 pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     let columns = ["Body", "Mass, kg", "Center of mass and axes, m, rad"];
     let columns = columns.into_iter().chain(Inertia::NAMES);
@@ -73,7 +73,7 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     table.build()
 }
 
-/// The parameters with values and units; `None` if there are none.
+/// The table of parameters with their values and units; `None` if there are none.
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols in the equations, fields of the generated code.";
     let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
@@ -94,7 +94,7 @@ pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     (!robot.parameters.is_empty()).then(|| table.build())
 }
 
-/// A formula, its parameters marked, with its nominal value below if it has parameters.
+/// A formula that is marked with its parameters; if it has any, its nominal value is shown below it.
 fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     let shown = element("span").class("figure");
     if formula.is_constant() {
@@ -112,7 +112,7 @@ fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
     if value.is_finite() { shown.with(holding("small", text::number(value))) } else { shown }
 }
 
-/// The joint's position by its coordinate: `q2`, `−0.5 q2 + 0.1`.
+/// The joint position in terms of the coordinate: `q2` or `(−0.5) q2 + (0.1)`.
 fn position(robot: &Robot, row: &LinkRow<'_>) -> String {
     let joint = &row.link.joint;
     let coordinate = text::symbol(&row.coordinate);

@@ -1,15 +1,15 @@
-//! Values of robot files in words and numbers.
+//! Words and numbers for values of robot files.
 
 use robot_document::robot::words;
 use robot_model::robot::{Move, Placement, Robot};
 use robot_symbolic::Formula;
 
-/// The nominal value of a formula; NaN if a parameter of it has none.
+/// The nominal value of a formula; NaN if one of its parameters has no value.
 pub(crate) fn value(robot: &Robot, formula: &Formula) -> f64 {
     formula.evaluate(|name| robot.nominal_value(name))
 }
 
-/// A formula as its text; with its nominal value if that is not the same.
+/// A formula as text, followed by its nominal value if it has parameters.
 pub(crate) fn with_value(robot: &Robot, formula: &Formula) -> String {
     let text = plain(formula);
     let value = value(robot, formula);
@@ -19,10 +19,10 @@ pub(crate) fn with_value(robot: &Robot, formula: &Formula) -> String {
     format!("{text} = {}", number(value))
 }
 
-/// Numbers of more characters are rounded in tables.
+/// The number of characters above which a number is rounded in tables.
 const LONG: usize = 12;
 
-/// A formula as people write it; a long number with six digits.
+/// A formula as people write it; a long number is rounded to six digits.
 pub(crate) fn plain(formula: &Formula) -> String {
     if let Some(long) = formula.as_number().filter(|_| formula.text().len() > LONG) {
         return number(long.to_f64());
@@ -36,7 +36,7 @@ pub(crate) fn plain(formula: &Formula) -> String {
     words.collect::<String>().replace('-', "−")
 }
 
-/// A number with up to six digits.
+/// Formats a number with up to six digits.
 pub(crate) fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -53,7 +53,7 @@ pub(crate) fn number(value: f64) -> String {
     text.replace('-', "−")
 }
 
-/// A pose: `translate (l4, 0, l3), rotate z by π/2`, with the nominal values of parameters.
+/// A pose such as `translate (l4, 0, l3), rotate z by π/2`, with the nominal values of formulas with parameters.
 pub(crate) fn pose(robot: &Robot, placement: &Placement) -> String {
     let text = |formula: &Formula| with_value(robot, formula);
     let one = |step: &Move| match step {
@@ -64,7 +64,7 @@ pub(crate) fn pose(robot: &Robot, placement: &Placement) -> String {
     if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
 }
 
-/// A unit as people write it: `kg·m²` for `kg m^2`.
+/// A unit as people write it, for example `kg·m²` for `kg m^2`.
 pub(crate) fn unit(name: &str) -> String {
     let raised = |digit: char| match digit {
         '-' => '⁻',
@@ -87,7 +87,7 @@ pub(crate) fn unit(name: &str) -> String {
     written
 }
 
-/// A name with the number at its end below the line: `l₄`.
+/// A name with the number at its end as a subscript: `l₄`.
 pub(crate) fn symbol(name: &str) -> String {
     let stem = name.trim_end_matches(|digit: char| digit.is_ascii_digit());
     let digits = name.get(stem.len()..).unwrap_or_default().bytes();
@@ -95,7 +95,7 @@ pub(crate) fn symbol(name: &str) -> String {
     stem.chars().chain(below).collect()
 }
 
-/// Text of at most so many characters.
+/// Shortens a text to at most `characters` characters.
 pub(crate) fn shortened(text: &str, characters: usize) -> String {
     if text.chars().count() <= characters {
         return text.to_owned();

@@ -1,4 +1,4 @@
-//! Pages of the project's robots and of hostile files.
+//! Pages about the project's robots and about hostile files.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
@@ -41,7 +41,7 @@ fn words<'a>(document: &'a Document<'a>, attribute: &'a str) -> impl Iterator<It
     nodes.flat_map(str::split_whitespace)
 }
 
-/// A plane chain of so many joints.
+/// A planar chain with this many joints.
 fn chain(joints: usize) -> String {
     let link = |number: usize| {
         format!(
@@ -60,7 +60,7 @@ fn judge(programs: &Programs) -> Result<Accuracy, String> {
     Ok(Accuracy { states: robot_check::accuracy::states(), worst })
 }
 
-/// The elements that a browser makes of a page when it loads it: those in `noscript` are text to it.
+/// The elements that a browser creates when it loads a page; the content of `noscript` is text for it.
 fn loaded<'a>(document: &'a Document<'a>) -> impl Iterator<Item = Node<'a, 'a>> {
     let is_folded = |node: &Node<'_, '_>| {
         node.ancestors().skip(1).any(|ancestor| ancestor.has_tag_name("noscript"))
@@ -82,6 +82,23 @@ fn robots_of_any_size_have_a_page_without_the_long_forms() {
     }
 }
 
+/// The most joints that a robot file may have.
+#[test]
+fn sixty_four_joints_have_a_page_that_says_what_it_leaves_out() {
+    let page = page("chain.toml", &chain(64));
+    let document = parsed(&page);
+    let ids: BTreeSet<&str> = words(&document, "id").collect();
+    for part in ["scheme-link-64", "structure", "motion", "costs"] {
+        assert!(ids.contains(part), "{part}");
+    }
+    let count = loaded(&document).count();
+    assert!(count < 15_000, "{count}");
+    let notes = document.descendants().filter(|node| node.attribute("class") == Some("note"));
+    let notes: Vec<&str> = notes.filter_map(|node| node.text()).collect();
+    assert!(notes.iter().any(|note| note.contains("64 coordinates")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("left out")), "{notes:?}");
+}
+
 #[test]
 fn pages_of_long_arms_load_few_elements_and_one_open_form() {
     for (robot, form, most, math) in [
@@ -96,7 +113,7 @@ fn pages_of_long_arms_load_few_elements_and_one_open_form() {
         assert!(count < most, "{robot}: {count}");
         let formulas = loaded(&document).filter(|node| node.has_tag_name("math")).count();
         assert!(formulas < math, "{robot}: {formulas} formulas");
-        // A browser takes the text in a `noscript` up to its end: there is no other one in it.
+        // A browser takes the content of `noscript` up to its end tag, so these elements must not be nested.
         for folded in document.descendants().filter(|node| node.has_tag_name("noscript")) {
             let mut inside = folded.descendants().skip(1);
             assert!(!inside.any(|one| one.has_tag_name("noscript") || one.has_tag_name("script")));
@@ -156,7 +173,7 @@ fn pages_are_whole() {
         for id in anchors.chain(words(&document, "aria-labelledby")) {
             assert!(ids.contains(id), "{robot}: there is no {id}");
         }
-        // What terms depend on is shown somewhere.
+        // Everything that terms depend on is shown somewhere.
         let shown: BTreeSet<&str> = words(&document, "data-is").collect();
         for token in words(&document, "data-of") {
             assert!(shown.contains(token), "{robot}: {token} is nowhere");
@@ -179,14 +196,14 @@ fn tables_have_headings_and_drawings_have_names() {
     assert!(named("th").all(|heading| heading.attribute("scope").is_some()));
     assert!(named("svg").count() >= 1);
     assert!(named("svg").all(|drawing| has(drawing, "title") && has(drawing, "desc")));
-    // Each link is an element that terms point at.
+    // Each link is an element to which terms can refer.
     for number in 1..=5 {
         let id = format!("scheme-link-{number}");
         assert!(document.descendants().any(|node| node.attribute("id") == Some(&id)));
     }
 }
 
-/// The terms of an equation of a page, by what they point at.
+/// The terms of an equation of a page, given by the tokens that they refer to.
 fn terms(page: &str, equation: &str) -> Vec<String> {
     let document = parsed(page);
     let defines = |node: &Node<'_, '_>| {
@@ -200,19 +217,19 @@ fn terms(page: &str, equation: &str) -> Vec<String> {
 #[test]
 fn terms_point_at_what_they_come_from() {
     let page = page_of("trttr1");
-    // Each entry of a matrix is a term: H33 = M3 + M4 + M5, each the mass of its own link.
+    // Each entry of a matrix is a term. H33 = M3 + M4 + M5 depends on three masses, each with its own link.
     let masses = [3, 4, 5].map(|number| format!("parameter-M{number} link-{number}")).join(" ");
     assert!(terms(&page, "grouped-H").contains(&masses));
-    // The joint torques by the matrix and the columns that they are a sum of.
+    // The joint torques refer to the matrix and the columns whose sum they are.
     let parts = ["H", "n", "g", "w", "Q-f"].map(|name| format!("grouped-{name}"));
     assert_eq!(terms(&page, "grouped-Q"), parts);
-    // A component of a vector by the column that it is in, the coordinate by its link.
+    // A component of a vector refers to its column, and a coordinate to its link.
     let forces = terms(&page, "recursive-Q3");
     assert!(forces.contains(&"recursive-F-l3".to_owned()), "{forces:?}");
-    // M3 (g + q̈3) + MR4 (g + q̈3): a base parameter by its definition.
+    // In M3 (g + q̈3) + MR4 (g + q̈3), a base parameter refers to its definition.
     let regrouped = terms(&page, "regrouped-Q3");
     assert!(regrouped.iter().any(|term| term.starts_with("regrouped-MR-4")), "{regrouped:?}");
-    // The weight in the expanded form, M3 g: gravity does not belong to a link.
+    // The weight in the expanded form is M3 g: gravity does not belong to a link.
     assert!(terms(&page, "expanded-Q3").contains(&"parameter-M3 link-3 parameter-g".to_owned()));
 }
 
@@ -231,7 +248,7 @@ fn the_same_file_gives_the_same_page() {
     assert_eq!(page_of("scara"), page_of("scara"));
 }
 
-/// The page with the part in which the robot moves is that without it, a hidden section, and at most 80 kB more.
+/// The page with the moving robot is the page without it and a hidden section, which adds at most 80 kB.
 #[test]
 fn robots_move_in_pages_that_stay_short() {
     for robot in ["trttr1", "puma560", "panda", "planar_2r"] {
@@ -278,7 +295,7 @@ fn pages_say_why_a_robot_cannot_be_moved() {
     }
 }
 
-/// Text that would be markup or script.
+/// Text that would be markup or a script without escaping.
 const HOSTILE: &str =
     r#"</script><script>document.title=1</script>"><img src=x onerror=alert(1)>&lt;'"#;
 
@@ -331,7 +348,7 @@ fn hostile_names_are_errors() {
     }
 }
 
-/// The policy names the page's own script, styles and font, and a browser takes no other.
+/// The policy names the page's own script, styles and font, and a browser uses nothing else.
 #[test]
 fn the_policy_allows_nothing_from_elsewhere() {
     let page = page_of("planar_2r");
@@ -346,13 +363,13 @@ fn the_policy_allows_nothing_from_elsewhere() {
     assert!(page.contains("url(data:font/woff2;base64,"));
     let policy = policy.replace(" 'wasm-unsafe-eval'", "");
     assert!(!policy.contains("unsafe") && !policy.contains("http"), "{policy}");
-    // Nothing is written where the policy would refuse it.
+    // Nothing is in a place where the policy would refuse it.
     for attribute in ["style", "src", "onclick", "onload"] {
         assert_eq!(words(&document, attribute).count(), 0);
     }
 }
 
-/// A page that reloads itself is the same but for one more script, which the policy names, and pictures.
+/// A page that reloads itself only has one more script, and its policy also names that script and pictures.
 #[test]
 fn a_page_that_reloads_itself_is_the_same_page() {
     let text = include_str!("../../../robots/planar_2r.toml");

@@ -45,7 +45,7 @@
 //! | [`Scalar::sin_cos`] | polynomials | one angle, or one in every lane |
 //! | `std_sin_cos_array` (feature `std`) | standard library | angles of any size |
 //!
-//! The three with polynomials give the same bits. [`Trig`] makes the source a type parameter.
+//! The three functions with polynomials give the same bits. [`Trig`] makes the source a type parameter.
 //!
 //! | type | range | largest absolute error in this range | with [`FUSED`] | in last places |
 //! |---|---|---|---|---|
@@ -53,9 +53,9 @@
 //! | `f32` | ǀxǀ < 2¹⁷ = 131 072 | 8.8e-8 | 7.2e-8 | 1.2 for ǀxǀ ≤ π/4 |
 //!
 //! These errors were found in `f32` for every number in the range, and in `f64` for 4·10⁷ random numbers, the three
-//! neighbors of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ multiples beyond, and the angles in the range that come
-//! nearest to a multiple. The last places of `f64` without [`FUSED`] are valid up to 2·10⁵; beyond, a sine or cosine
-//! below 10⁻⁵ may be off by 10⁻²¹ more.
+//! neighbors of each multiple of π/2 up to 3·10⁵ and of 2·10⁶ multiples beyond, and the angles in the range that are
+//! closest to a multiple. The last places of `f64` without [`FUSED`] are valid up to 2·10⁵; beyond, a sine or cosine
+//! below 10⁻⁵ can have an additional error of 10⁻²¹.
 //!
 //! **Beyond the range, sine and cosine are NaN**, as for NaN and infinite angles: no finite result is wrong,
 //! and none lies outside [−1, 1]. Reduce angles that grow without bound, such as those of wheels and spindles,
@@ -70,9 +70,10 @@
 //!
 //! | function | error |
 //! |---|---|
-//! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without it, no bit differed for any `f32` or for 3·10⁸ random `f64` |
+//! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without it, no bit differed for any `f32` or for 3·10⁸
+//! random `f64` |
 //! | [`Scalar::tanh`] | below 3 last places everywhere (2.61 in `f32`, every number tried) |
-//! | [`Scalar::mul_add`] | rounds once if [`FUSED`], else twice |
+//! | [`Scalar::mul_add`] | rounds once if [`FUSED`], otherwise twice |
 //! | [`Scalar::abs`], [`Scalar::signum0`] | exact |
 //! | [`Scalar::recip_positive`] | correctly rounded |
 //!
@@ -88,7 +89,8 @@
 //! assert_eq!(friction.to_array(), [-1.1, 0.0, 1.05, 2.5]);
 //! ```
 //!
-//! If the number of lanes fills vector registers of the target, `f64` and `f32` are computed in these registers.
+//! If the number of lanes fills vector registers of the target, lanes of `f64` and `f32` are computed in these
+//! registers.
 //!
 //! # The current processor
 //!

@@ -3,13 +3,14 @@
 /// The oldest Rust version that supports the module and the code generated for it.
 pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 
-/// Path and text of every file of the run-time module, its root `mod.rs` first.
+/// The path and text of every file of the run-time module, starting with its root `mod.rs`.
 ///
-/// A generator of self-contained crates writes them unchanged into a folder `runtime` beside
-/// its crate root and declares `pub mod runtime;` (private, it would warn of unused functions).
-/// The manifest declares a feature `std`, empty; with it code runs on the processor at hand and the module offers `StdTrig`, without it
-/// the module needs `core` alone. Nothing else is asked of the crate around it but that it does not
-/// forbid `unsafe`: no dependency, no edition before 2024.
+/// A generator of self-contained crates writes them unchanged into a folder `runtime` next to
+/// its crate root and declares `pub mod runtime;` (if it were private, the compiler would warn of unused functions).
+/// The manifest declares an empty feature `std`. With it, code is chosen for the current processor and the module
+/// offers
+/// `StdTrig`; without it, the module needs only `core`. Otherwise the crate must only use the edition 2024 and not
+/// forbid `unsafe`; it needs no dependencies.
 pub const SOURCES: &[(&str, &str)] = &[
     ("mod.rs", include_str!("runtime/mod.rs")),
     ("batch.rs", include_str!("runtime/batch.rs")),

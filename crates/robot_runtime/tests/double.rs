@@ -1,4 +1,4 @@
-//! The double-precision functions against values exact to some 30 digits.
+//! The double-precision functions, compared with values exact to about 30 digits.
 #![expect(clippy::duplicate_mod, reason = "the functions with either rounding")]
 #![allow(clippy::incompatible_msrv, reason = "the Rust of the project runs the tests")]
 
@@ -13,13 +13,13 @@ mod multiples;
 mod random;
 mod rounding;
 
-/// The functions where multiply-adds round once or twice.
+/// The functions with multiply-adds that round once or twice, and their errors.
 struct Rounding {
     sin_cos: fn(f64) -> (f64, f64),
     fused: bool,
     /// The worst absolute error over the samples below.
     absolute: f64,
-    /// Up to which angle last places hold next to multiples of π/2 as well.
+    /// The angle up to which last places are also accurate close to multiples of π/2.
     last_places_to: f64,
 }
 const ROUNDINGS: [Rounding; 2] = [
@@ -40,8 +40,7 @@ const ROUNDINGS: [Rounding; 2] = [
 /// The worst error in last places over the samples below.
 const LAST_PLACES: f64 = 1.495;
 
-/// Functions at numbers where their values were computed with 500 bits: x, then each value as a
-/// sum of two doubles.
+/// Values of functions that were computed with 500 bits: x, then each value as a sum of two doubles.
 type Sum = (f64, f64);
 const KNOWN_SIN_COS: [(f64, Sum, Sum); 7] = [
     (
@@ -96,13 +95,13 @@ fn reference_agrees_with_known_values() {
     }
 }
 
-/// The units between a value and the exact one, in last places of the exact one.
+/// The error of a value, in last places of the exact value.
 fn last_places(error: f64, exact: f64) -> f64 {
     let ulp = exact.abs().next_up() - exact.abs();
     error.abs() / ulp
 }
 
-/// Worst absolute error, and worst error in last places, of sine and cosine.
+/// The worst absolute error, and the worst error in last places, of sine and cosine.
 #[derive(Default, Debug)]
 struct Worst {
     absolute: f64,
@@ -123,7 +122,7 @@ impl Worst {
     }
 }
 
-/// The functions are those of this build's [`FUSED`].
+/// The functions of this build are those for its [`FUSED`].
 #[test]
 fn sin_cos_is_one_of_the_two() {
     let built = ROUNDINGS.iter().find(|rounding| rounding.fused == FUSED).unwrap();
@@ -161,7 +160,7 @@ fn sin_cos_is_accurate_over_the_stated_range() {
     }
 }
 
-/// Reduction loses most where the angle is nearly a multiple of π/2: all of them up to 10⁵.
+/// Reduction loses the most digits close to multiples of π/2: tests all of these up to 10⁵.
 #[test]
 fn sin_cos_is_accurate_next_to_every_multiple_of_a_right_angle() {
     for rounding in ROUNDINGS {
@@ -181,7 +180,7 @@ fn sin_cos_is_accurate_next_to_every_multiple_of_a_right_angle() {
     }
 }
 
-/// The angles of the range that come nearest to a multiple of π/2, of every magnitude.
+/// The angles of every magnitude in the range that are closest to a multiple of π/2.
 #[test]
 fn sin_cos_is_accurate_at_the_hardest_angles() {
     let angles = multiples::nearest_angles();
@@ -235,7 +234,7 @@ fn sin_cos_beyond_the_range_is_no_number() {
     }
 }
 
-/// To the last bit, so that no constant changes by accident.
+/// Compares to the last bit, so that no constant changes by accident.
 #[test]
 fn sin_cos_has_the_bits_that_it_had() {
     for (rounding, expected) in ROUNDINGS.iter().zip([0xcc84_285d_871c_e337, 0xa6bc_bb27_e077_b183])
@@ -251,7 +250,7 @@ fn sin_cos_has_the_bits_that_it_had() {
     }
 }
 
-/// The last digit of some of them moves no bit of a result that tests could try.
+/// Compares the constants, because the last digit of some does not change any bit of a tested result.
 #[test]
 fn constants_are_those_of_the_fit() {
     let source = include_str!("../src/runtime/trig/double.rs");

@@ -1,4 +1,4 @@
-//! The module's files work inside another crate as they stand.
+//! The module's files work unchanged within another crate.
 
 use std::error::Error;
 use std::fs;
@@ -48,7 +48,7 @@ fn every_file_of_the_module_is_listed() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// A crate without dependencies, strict about warnings, that contains the files.
+/// A crate without dependencies that contains the files; warnings are errors.
 #[test]
 fn compiles_in_a_crate_of_its_own() -> Result<(), Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("embedded");

@@ -1,4 +1,4 @@
-//! What the compiler makes of the functions: no branches, no calls, vector instructions.
+//! The compiled functions have no branches and no calls, and use vector instructions.
 
 use std::collections::BTreeMap;
 
@@ -8,18 +8,19 @@ use assembly::{Listing, compile, is_installed};
 const X86: &str = "x86_64-unknown-linux-gnu";
 const CORTEX_M4F: &str = "thumbv7em-none-eabihf";
 
-/// How many instructions have one of these beginnings.
+/// The number of instructions that start with one of `beginnings`.
 fn count(listing: &Listing, beginnings: &[&str]) -> usize {
     let is_one = |operation: &str| beginnings.iter().any(|start| operation.starts_with(start));
     listing.iter().filter(|(operation, _)| is_one(operation)).count()
 }
 
-/// Conditional jumps of x86: all `j…` but `jmp`.
+/// The number of conditional jumps of x86: all `j…` except `jmp`.
 fn jumps(listing: &Listing) -> usize {
     count(listing, &["j"]) - count(listing, &["jmp"])
 }
 
-/// Arithmetic of x86, as (packed, scalar): `mulpd`, `vfmadd213ps` …, `mulsd`, `vfmadd213ss` ….
+/// The numbers of packed and of scalar arithmetic instructions of x86: `mulpd`, `vfmadd213ps` …, `mulsd`,
+/// `vfmadd213ss` ….
 fn arithmetic(listing: &Listing) -> (usize, usize) {
     let is_arithmetic = |operation: &str| {
         let name = operation.trim_start_matches('v');
@@ -34,7 +35,7 @@ fn arithmetic(listing: &Listing) -> (usize, usize) {
     (with_suffix(["pd", "ps"]), with_suffix(["sd", "ss"]))
 }
 
-/// Arrays of the usual sizes, lanes, and the functions that only friction needs.
+/// Code with arrays of common sizes, lanes, and the functions that only friction needs.
 const ARRAYS: &str = r#"
 use runtime::{F32x16, F64x8, Scalar};
 macro_rules! arrays {
@@ -70,7 +71,7 @@ numbers! {
 }
 "#;
 
-/// A stand-in for generated code at many states.
+/// Code that resembles generated code for many states.
 const STATES: &str = r#"
 macro_rules! states {
     ($($name:ident: $float:ty;)*) => {$(
@@ -108,7 +109,7 @@ fn arrays_are_computed_in_vector_registers_without_branches() {
             let target_cpu = format!("-Ctarget-cpu={cpu}");
             let options = [&["-Copt-level=3", &target_cpu], feature].concat();
             let mut functions = compile("arrays", ARRAYS, X86, &options);
-            // It asks the processor, once, in kernels that are dispatched.
+            // The runtime queries the processor once, in kernels that are dispatched.
             functions.retain(|name, _| !name.contains("processor"));
             assert_eq!(functions.len(), 12, "{:?}", functions.keys());
             for (name, listing) in &functions {
@@ -157,7 +158,7 @@ fn numbers_are_computed_without_branches_in_every_profile() {
     }
 }
 
-/// On a Cortex-M4F single precision stays in its registers: no call of software doubles.
+/// On a Cortex-M4F, single precision stays in registers, without calls of software double precision.
 #[test]
 fn single_precision_is_flat_on_a_microcontroller() {
     if !is_installed(CORTEX_M4F) {

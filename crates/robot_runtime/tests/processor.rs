@@ -1,4 +1,4 @@
-//! Kernels: what they compute on the processor at hand.
+//! Results of kernels on the current processor.
 #![allow(clippy::duplicate_mod, reason = "the runtime's files are there for either rounding")]
 
 use robot_runtime::{
@@ -18,7 +18,7 @@ fn rounds_once() -> bool {
     FUSED
 }
 
-/// Sines and cosines of angles in either way, and a multiply-add.
+/// A kernel of sines and cosines of angles by both functions, and a multiply-add.
 #[derive(Clone, Copy)]
 struct Sines<T, const N: usize>([T; N]);
 
@@ -116,7 +116,7 @@ fn columns_become_lanes_and_come_back() {
     assert_eq!(column_length::<f64, 0>(&[]), usize::MAX);
     let whole: [&[f64; 4]; 3] = chunks(&slices, 4);
     assert_eq!(lane(whole, 1), [5.0, 105.0, 205.0]);
-    // Beyond the end there are zeros, whole or for the rest.
+    // Beyond the end there are zeros, for whole chunks or for the remainder.
     assert_eq!(chunks::<f64, 4, 3>(&slices, 8), [&[0.0; 4]; 3]);
     let padded: [[f64; 4]; 3] = padded_chunks(&slices, 8);
     assert_eq!(padded[1], [108.0, 109.0, 110.0, 0.0]);

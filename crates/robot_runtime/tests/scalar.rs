@@ -1,4 +1,4 @@
-//! What holds of every scalar: numbers, lanes, blocks of states.
+//! Properties of every scalar: numbers, lanes, blocks of states.
 
 use robot_runtime::root::software_sqrt_f64;
 use robot_runtime::{
@@ -92,7 +92,7 @@ fn numbers_convert_and_compare() {
     assert_eq!(<[f64; 4]>::from(F64x4::from([1.0, 2.0, 3.0, 4.0])), [1.0, 2.0, 3.0, 4.0]);
 }
 
-/// Every operation on lanes is that on their numbers.
+/// Every operation on lanes has the same results as on their numbers.
 fn check_lanes<T: Scalar, const N: usize>() {
     let mut random = random::uniform(N as u64);
     let mut draw = || -> [T; N] { std::array::from_fn(|_| T::from_f64(4.0 * random() - 2.0)) };

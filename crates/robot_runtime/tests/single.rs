@@ -1,4 +1,4 @@
-//! The single-precision functions against those of double precision, which are exact beside them.
+//! The single-precision functions, compared with those of double precision, which are exact in comparison.
 #![expect(clippy::duplicate_mod, reason = "the functions with either rounding")]
 #![allow(clippy::incompatible_msrv, reason = "the Rust of the project runs the tests")]
 
@@ -8,7 +8,7 @@ use robot_runtime::{FUSED, Scalar, root::software_sqrt_f32, sin_cos_array};
 mod digest;
 mod rounding;
 
-/// The functions where multiply-adds round once or twice.
+/// The functions with multiply-adds that round once or twice, and their errors.
 struct Rounding {
     sin_cos: fn(f32) -> (f32, f32),
     fused: bool,
@@ -32,7 +32,7 @@ const ROUNDINGS: [Rounding; 2] = [
     },
 ];
 
-/// The worst absolute error at `angles`, those of the other sign as well.
+/// The worst absolute error at `angles` and at their negatives.
 fn worst_error(rounding: &Rounding, angles: impl Iterator<Item = f32>) -> f64 {
     let mut worst = 0f64;
     for x in angles.flat_map(|x| [x, -x]) {
@@ -56,7 +56,7 @@ fn last_places(error: f64, exact: f64) -> f64 {
     error.abs() / f64::from(rounded.next_up() - rounded)
 }
 
-/// The functions are those of this build's [`FUSED`].
+/// The functions of this build are those for its [`FUSED`].
 #[test]
 fn sin_cos_is_one_of_the_two() {
     let built = ROUNDINGS.iter().find(|rounding| rounding.fused == FUSED).unwrap();
@@ -111,7 +111,7 @@ fn sin_cos_beyond_the_range_is_no_number() {
     }
 }
 
-/// To the last bit, so that no constant changes by accident.
+/// Compares to the last bit, so that no constant changes by accident.
 #[test]
 fn sin_cos_has_the_bits_that_it_had() {
     for (rounding, expected) in ROUNDINGS.iter().zip([0x9a3b_658a_37f3_07a5, 0xa51d_1b07_47ca_c00d])
@@ -124,7 +124,7 @@ fn sin_cos_has_the_bits_that_it_had() {
     }
 }
 
-/// The last digit of some of them moves few bits.
+/// Compares the constants, because the last digit of some changes only few bits.
 #[test]
 fn constants_are_those_of_the_fit() {
     let source = include_str!("../src/runtime/trig/single.rs");

@@ -1,4 +1,4 @@
-//! The joint torques along a trajectory, split by cause.
+//! Joint torques along a trajectory, divided into their contributions.
 
 use robot_build::{Effects, FunctionKind, Programs, Trigonometry, too_large_angle};
 use robot_jit::Executable;
@@ -12,12 +12,12 @@ use crate::program::{check_functions, difference};
 use crate::table::Table;
 use crate::trajectory::Trajectory;
 
-/// The joint torques along a trajectory, N m or N, each with a sample of n entries for each time.
+/// The joint torques along a trajectory in N m or N, with n values for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TorqueContributions {
-    /// t, s.
+    /// The times t, in s.
     pub t: Vec<f64>,
-    /// The whole joint torques τ: the sum of the contributions.
+    /// The total joint torques τ: the sum of the contributions.
     pub total: Vec<Vec<f64>>,
     /// The inertia terms M q̈.
     pub inertia: Vec<Vec<f64>>,
@@ -25,18 +25,18 @@ pub struct TorqueContributions {
     pub coriolis: Vec<Vec<f64>>,
     /// The gravity terms g.
     pub gravity: Vec<Vec<f64>>,
-    /// Friction, Q_f, if it is asked for. It includes the dry friction that a wrench causes
-    /// by its load.
+    /// The contribution Q_f of friction, if it is requested. It includes the load-dependent dry friction that wrenches
+    /// cause.
     pub friction: Option<Vec<Vec<f64>>>,
-    /// The effect of the tips' wrenches, if they are given.
+    /// The contribution of the tips' wrenches, if there are any.
     pub wrench: Option<Vec<Vec<f64>>>,
 }
 
-/// The samples of a contribution over time, a column for each coordinate.
+/// The values of a contribution over time, each with one entry per coordinate.
 type Series = Vec<Vec<f64>>;
 
 impl TorqueContributions {
-    /// The functions that the programs need.
+    /// The functions that the programs must contain.
     #[must_use]
     pub fn functions(friction: bool, wrench: bool) -> Vec<FunctionKind> {
         use FunctionKind as Kind;
@@ -53,7 +53,7 @@ impl TorqueContributions {
         kinds
     }
 
-    /// The contributions, by name, the total last.
+    /// The contributions by their names, with the total last.
     #[must_use]
     pub fn named(&self) -> Vec<(&'static str, &Series)> {
         let mut contributions = vec![
@@ -67,7 +67,7 @@ impl TorqueContributions {
         contributions
     }
 
-    /// Appends those of the samples behind these.
+    /// Appends the contributions at later times.
     pub fn append(&mut self, next: TorqueContributions) {
         let TorqueContributions { t, total, inertia, coriolis, gravity, friction, wrench } = next;
         self.t.extend(t);
@@ -82,7 +82,7 @@ impl TorqueContributions {
         }
     }
 
-    /// The columns t, tau1 …, then those of each contribution: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
+    /// The columns t, tau1 …, and then those of each contribution: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
     /// wrench1 ….
     #[must_use]
     pub fn table(&self) -> Table {
@@ -96,13 +96,13 @@ impl TorqueContributions {
     }
 }
 
-/// The joint torques along a trajectory of the robot, the inverse problem (6) of the paper, split by
-/// cause; `given` are parameters that are not to have their nominal values. The programs have the
+/// Computes the joint torques along a trajectory of the robot, the inverse problem (6) of the paper, divided into their
+/// contributions. `given` are the parameters with other than their nominal values. The programs must contain the
 /// functions of [`TorqueContributions::functions`].
 ///
 /// # Errors
 ///
-/// Functions that the programs lack, parameters without values, samples of the wrong length.
+/// If the programs lack functions, parameters have no values, samples have the wrong length, or torques are not finite.
 pub fn torque_contributions(
     programs: &Programs,
     given: &[(&str, f64)],
@@ -129,7 +129,7 @@ pub fn torque_contributions(
     Ok(contributions)
 }
 
-/// The wrench of each tip along a trajectory, by the names of the functions' inputs.
+/// The wrench of each tip along a trajectory, by the names of the inputs of functions.
 fn wrenches(robot: &Robot, trajectory: &Trajectory) -> Vec<(String, Series)> {
     let Some(samples) = &trajectory.wrenches else { return vec![] };
     let name = |tip| format!("{WRENCH}{}", robot.wrench_suffix(tip));
@@ -141,7 +141,7 @@ fn wrenches(robot: &Robot, trajectory: &Trajectory) -> Vec<(String, Series)> {
     tips.map(|(tip, (frame, _))| (name(frame), of_tip(tip))).collect()
 }
 
-/// A trajectory whose joint torques are computed.
+/// A trajectory with the program that computes its joint torques.
 struct Motion<'t> {
     executable: &'t Executable<'t>,
     trajectory: &'t Trajectory,
@@ -194,18 +194,18 @@ impl Motion<'_> {
     }
 }
 
-/// M q̈ of a mass matrix, row by row.
+/// The product M q̈ with a mass matrix that is given row by row.
 fn product(matrix: &[f64], qdd: &[f64]) -> Vec<f64> {
     let rows = matrix.chunks(qdd.len().max(1));
     rows.map(|row| row.iter().zip(qdd).map(|(m, qdd)| m * qdd).sum()).collect()
 }
 
-/// a − b at all times.
+/// The differences a − b at all times.
 fn differences(a: &[Vec<f64>], b: &[Vec<f64>]) -> Series {
     a.iter().zip(b).map(|(a, b)| difference(a, b)).collect()
 }
 
-/// The sum of some contributions at a time.
+/// The sum of the contributions at a time.
 fn sum(parts: &[&Series], time: usize) -> Vec<f64> {
     let samples = || parts.iter().filter_map(|part| part.get(time));
     let entries = samples().map(Vec::len).max().unwrap_or_default();

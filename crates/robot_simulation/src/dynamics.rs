@@ -1,29 +1,29 @@
-//! Traits of the moving system and of its loads.
+//! The traits of the moving system and of its joint torques.
 
 use crate::error::Cause;
 
-/// Positions and velocities of the n coordinates: rad and rad/s, or m and m/s.
+/// The positions and velocities of the n coordinates, in rad and rad/s or in m and m/s.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// q.
+    /// The joint positions q.
     pub q: Vec<f64>,
-    /// q̇.
+    /// The joint velocities q̇.
     pub qd: Vec<f64>,
 }
 
-/// Forward dynamics: what accelerates under joint torques.
+/// Forward dynamics: joint accelerations under given joint torques.
 pub trait Dynamics {
-    /// n, the number of coordinates.
+    /// The number of coordinates, n.
     fn degrees_of_freedom(&self) -> usize;
 
-    /// The n accelerations q̈ (rad/s² or m/s²) under the n joint torques τ (N m or N).
+    /// Returns the n accelerations q̈ (rad/s² or m/s²) under the n joint torques τ (N m or N).
     ///
     /// # Errors
     ///
-    /// If the state has none. Values that are not finite are an error as well; the caller checks.
+    /// If the state has no accelerations. Values that are not finite are an error too, which the caller detects.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause>;
 
-    /// Whether the accelerations at a state are more than rounding; asked at each sample.
+    /// Checks that the accelerations at a state are more than rounding errors; called for every sample.
     ///
     /// # Errors
     ///
@@ -33,74 +33,74 @@ pub trait Dynamics {
         Ok(())
     }
 
-    /// The dry friction that holds joints at rest; `None` if none can. If there is some, the
-    /// motion follows it and not [`Dynamics::accelerations`].
+    /// The dry friction that holds joints at rest; `None` if there is none that can. If there is some, the motion
+    /// follows from it and not from [`Dynamics::accelerations`].
     fn dry_friction(&self) -> Option<&dyn DryFriction> {
         None
     }
 }
 
-/// Dry friction with a sharp sign: a coordinate at rest stays there until more is asked of its friction
-/// than that can give.
+/// Dry friction without smoothing: a coordinate at rest stays at rest as long as its friction can supply the force that
+/// is required of it.
 pub trait DryFriction {
     /// For each of the n coordinates, whether dry friction can hold it.
     fn can_stick(&self) -> &[bool];
 
-    /// Whether friction depends on the accelerations, as dry friction by load does.
+    /// Whether friction depends on the accelerations, as load-dependent dry friction does.
     fn is_by_load(&self) -> bool;
 
-    /// M(q), n × n, row by row: kg m², kg m or kg.
+    /// The mass matrix M(q), n × n, row by row, in kg m², kg m or kg.
     ///
     /// # Errors
     ///
-    /// If the positions have none.
+    /// If the positions have no mass matrix.
     fn mass_matrix(&self, q: &[f64]) -> Result<Vec<f64>, Cause>;
 
-    /// The n joint torques (N m or N) that the accelerations `qdd` take, with friction or without it.
-    /// Friction takes the direction of each velocity from its sign, however small it is.
+    /// The n joint torques (N m or N) for the accelerations `qdd`, with or without friction. Friction takes its
+    /// direction from the sign of each velocity, however small the velocity is.
     ///
     /// # Errors
     ///
-    /// If the state has none.
+    /// If the state has no joint torques.
     fn joint_torques(&self, state: &State, qdd: &[f64], friction: bool) -> Result<Vec<f64>, Cause>;
 }
 
-/// Joint torques over time.
+/// Joint torques as functions of time and state.
 pub trait TorqueLaw {
-    /// The n joint torques τ (N m or N) at the time t (s).
+    /// Returns the n joint torques τ (N m or N) at the time t (s).
     fn torques(&self, t: f64, state: &State) -> Vec<f64>;
 
-    /// Times, rising, at which the forces or their slopes jump. The integrator steps onto each: no
-    /// step goes over a corner.
+    /// The times in ascending order at which the joint torques or their slopes jump. The integrator ends a step at each
+    /// of them, so no step contains such a time.
     fn corners(&self) -> &[f64] {
         &[]
     }
 
-    /// Further times that the integrator must not step over in the span of the samples, s.
+    /// Further times in the span of the samples (s) at which a step of the integrator must end.
     fn features(&self, samples: &[f64]) -> Features {
         let _ = samples;
         Features::default()
     }
 }
 
-/// The times at which joint torques change so quickly that a step might miss it; s, ascending.
+/// The times, in s and in ascending order, at which joint torques change so quickly that a step might miss the change.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Features {
-    /// Times just before and just after a jump of the forces or their slopes: a step ends at the first, and
-    /// the integrator starts anew at the second.
+    /// The times just before and just after each jump of the joint torques or their slopes. A step ends at the first,
+    /// and the integrator restarts at the second.
     pub jumps: Vec<[f64; 2]>,
-    /// Times within short pulses. The integrator steps onto each.
+    /// Times within short pulses. The integrator ends a step at each of them.
     pub peaks: Vec<f64>,
 }
 
-/// Any function of time and state.
+/// A function of time and state gives the joint torques.
 impl<F: Fn(f64, &State) -> Vec<f64>> TorqueLaw for F {
     fn torques(&self, t: f64, state: &State) -> Vec<f64> {
         self(t, state)
     }
 }
 
-/// The dynamics of n coordinates that a function gives, such as generated code: q̈ from state and τ.
+/// The dynamics of n coordinates from a function, such as generated code, that computes q̈ from the state and τ.
 pub fn from_fn<F: Fn(&State, &[f64]) -> Vec<f64>>(
     degrees_of_freedom: usize,
     accelerations: F,

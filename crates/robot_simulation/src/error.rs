@@ -1,28 +1,28 @@
-//! Errors of simulation.
+//! The errors of simulations.
 
 use std::fmt;
 
 use robot_model::diagnostic::number;
 
-/// Why there is no motion, or no plot of one.
+/// The reason why there is no motion, or no plot of it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The robot, or a function that it lacks.
+    /// Errors in the robot, or functions that it lacks.
     #[error(transparent)]
     Robot(#[from] robot_build::Errors),
-    /// Parameters of the robot.
+    /// Errors in the parameters of the robot.
     #[error(transparent)]
     Program(#[from] robot_codegen::Errors),
-    /// Inputs: everything that is wrong with them, a message each.
+    /// Errors in the inputs, with a message for each.
     #[error("{}", .0.join("\n"))]
     Input(Vec<String>),
-    /// The integration ended before its time.
+    /// The integration stopped early.
     #[error("the motion ends at t = {} s: {cause}", number(*.t))]
     Stopped {
-        /// The time that was reached, s.
+        /// The time that was reached, in s.
         t: f64,
-        /// Why it was the last.
+        /// The reason.
         cause: Cause,
     },
     /// The plot could not be drawn.
@@ -31,18 +31,18 @@ pub enum Error {
 }
 
 impl Error {
-    /// One wrong input.
+    /// The error for a single wrong input.
     pub(crate) fn input(message: impl Into<String>) -> Error {
         Error::Input(vec![message.into()])
     }
 
-    /// `value` if there are no messages.
+    /// Returns `value` if there are no messages, otherwise the error with them.
     pub(crate) fn check<T>(messages: Vec<String>, value: T) -> Result<T, Error> {
         if messages.is_empty() { Ok(value) } else { Err(Error::Input(messages)) }
     }
 }
 
-/// Why an integration ended before its time.
+/// The reason why an integration stopped early.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Cause {
@@ -52,17 +52,17 @@ pub enum Cause {
     Accelerations,
     /// The joint torques have no finite value.
     Torques,
-    /// No acceleration agrees with the dry friction that it causes by the load.
+    /// No acceleration is consistent with the load-dependent friction that it causes.
     Friction,
-    /// Joints come to rest and break away again and again at one time.
+    /// Joints come to rest and break away endlessly at the same time.
     Events,
-    /// So many steps were not enough.
+    /// The largest allowed number of steps, which is given, was not enough.
     Steps(usize),
-    /// So many steps, the first number, advanced so little that the second would not be enough.
+    /// The last steps, whose number is given first, advanced so little that the allowed number would not be enough.
     Slow(usize, usize),
-    /// A velocity or an acceleration, such as `qdd1 = 1e300`, that no step can follow.
+    /// A velocity or an acceleration, such as `qdd1 = 1e300`, is too large for any step.
     Large(String),
-    /// The error of the interpreter or of the robot's mass matrix.
+    /// The message of another error, such as that of the program or of the robot's mass matrix.
     Other(String),
 }
 

@@ -1,15 +1,15 @@
-//! The end of a mode within a step.
+//! The search for the end of a mode within a step.
 
 use crate::system::Overrun;
 
-/// The end of a mode between a time at which all coordinates are in their modes and this time, at which
-/// some are beyond them.
+/// An interval of time in which a mode ends. At its start, the [`Base`], all coordinates are in their modes; at its
+/// end, which is stored here, some are beyond them.
 #[derive(Clone, Debug)]
 pub(crate) struct Bracket {
     t: f64,
     y: Vec<f64>,
     overruns: Vec<Overrun>,
-    /// The steps tried within it.
+    /// The number of steps that have been tried within the interval.
     tries: usize,
 }
 
@@ -20,7 +20,7 @@ pub(crate) struct Base<'s> {
     pub(crate) overruns: &'s [Overrun],
 }
 
-/// The end of a mode.
+/// An event: the end of one or more modes.
 pub(crate) struct Event {
     pub(crate) t: f64,
     pub(crate) y: Vec<f64>,
@@ -34,8 +34,8 @@ pub(crate) fn any_ended(overruns: &[Overrun]) -> bool {
 }
 
 impl Bracket {
-    /// A time at which some coordinates are beyond the ends of their modes; `earlier` is the bracket
-    /// within which it was found.
+    /// The interval that ends at a time when some coordinates are beyond the ends of their modes; `earlier` is the
+    /// interval within which this time was found.
     pub(crate) fn new(
         t: f64,
         y: &[f64],
@@ -46,13 +46,13 @@ impl Bracket {
         Bracket { t, y: y.to_vec(), overruns, tries }
     }
 
-    /// The next step to try from the base: to where the secants reach the end of the first mode, and at
-    /// every third try to the middle, so that the bracket shrinks in any case.
+    /// The length of the next step to try from the base. It leads to the time at which secants predict the first end of
+    /// a mode; every third step leads to the middle, so that the interval always shrinks.
     pub(crate) fn step(&mut self, base: &Base<'_>, shortest: f64) -> f64 {
         self.tries += 1;
         let whole = self.t - base.t;
         let to_end = |(before, after): (&Overrun, &Overrun)| {
-            // Slightly beyond, so that what is found has ended.
+            // The step aims slightly beyond the end, so that the mode has ended there.
             let aim = after.value.min(after.tolerance) / 2.0;
             let part = (aim - before.value) / (after.value - before.value);
             (after.value > 0.0).then_some(if before.value < 0.0 { part } else { 0.5 })
@@ -63,8 +63,8 @@ impl Bracket {
         (whole * part).max(shortest / 2.0).min(whole)
     }
 
-    /// The end of the mode, if it is known as well as need be: nothing is far beyond it, or the
-    /// bracket is so short that what happens within it is linear in time.
+    /// The end of the mode, if it is known precisely enough: no coordinate is far beyond its end, or the interval is so
+    /// short that everything within it is linear in time.
     pub(crate) fn event(&self, base: &Base<'_>, shortest: f64) -> Option<Event> {
         let ended = self.overruns.iter().enumerate().filter(|(_, overrun)| overrun.value > 0.0);
         let ended: Vec<usize> = ended.map(|(index, _)| index).collect();

@@ -1,4 +1,4 @@
-//! Named expressions from text: `q1 = sin(t)`.
+//! Assignments of expressions, given as text: `q1 = sin(t)`.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use robot_model::diagnostic::quote;
 use robot_model::robot::Robot;
 use robot_symbolic::Formula;
 
-/// The values of a robot's parameters: those that `given` names, the others nominal.
+/// The values of a robot's parameters: those in `given`, and the nominal values of the others.
 pub(crate) fn parameters(robot: &Robot, given: &[(&str, f64)]) -> BTreeMap<String, f64> {
     let nominal = robot
         .parameters
@@ -16,8 +16,8 @@ pub(crate) fn parameters(robot: &Robot, given: &[(&str, f64)]) -> BTreeMap<Strin
     nominal.chain(given).collect()
 }
 
-/// `NAME = FORMULA`, the formula's names among those that `is_known` knows; `known` says which these
-/// are. What is wrong is a message.
+/// Reads `NAME = FORMULA`. The names in the formula must satisfy `is_known`; `known` describes the allowed names in the
+/// message for other ones.
 pub(crate) fn assignment<'t>(
     text: &'t str,
     is_known: impl Fn(&str) -> bool,

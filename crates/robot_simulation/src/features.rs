@@ -1,7 +1,7 @@
 //! Jumps and short pulses of joint torques that are given by expressions.
 //!
-//! The integrator chooses its steps by what it sees at some times within each; what lies between these it
-//! would step over. So parts of the expressions that depend on the time alone are looked at beforehand.
+//! The integrator chooses its steps from values at some times within each step, so it can miss what happens between
+//! these times. Therefore the parts of the expressions that depend only on the time are examined beforehand.
 
 use std::collections::BTreeMap;
 
@@ -10,22 +10,23 @@ use robot_symbolic::{Expr, Formula, Function, Graph, Id, SymbolId, View};
 
 use crate::dynamics::Features;
 
-/// Looks at least at so many times over the whole motion,
+/// The smallest number of times at which the whole motion is examined.
 const LEAST: usize = 1 << 16;
-/// and at so many between two samples.
+/// The smallest average number of examined times between two samples.
 const PARTS: usize = 16;
-/// A change of less than this part of the largest value between two samples is not a pulse; one as long as a
-/// hundred samples, of a hundredth of the largest value, bends by twice as much.
+/// The smallest bend of a pulse: the second difference of its values at three successive times, as a fraction of the
+/// largest value. A pulse of a hundredth of the largest value that lasts for a hundred of these times bends twice as
+/// much.
 const BEND: f64 = 1e-6;
-/// In units of the time between two samples, the length of the pulses that bend by so much.
+/// The length of pulses that bend by about this much, in units of the distance between the examined times.
 const REACH: f64 = 100.0;
-/// By how much looks at longer pulses are farther apart.
+/// The factor by which examined times are farther apart in the search for longer pulses.
 const STRIDE: usize = 32;
-/// The distance from a jump at which steps end and begin, in units of the time's last place.
+/// The distance from a jump at which steps end and begin, in units of the relative precision of the time.
 const MARGIN: f64 = 8.0;
 
-/// The jumps and peaks of formulas of t, the state and constants, within the span of the samples.
-/// `constant` gives the constants; other names than these and `t` are of the state.
+/// Finds the jumps and peaks of formulas of t, the state and constants within the span of the samples. `constant` gives
+/// the values of constants; all other names except `t` belong to the state.
 pub(crate) fn features(
     formulas: &[Formula],
     constant: impl Fn(&str) -> Option<f64>,
@@ -42,8 +43,8 @@ pub(crate) fn features(
     let times = (0..=looks).map(|look| end * (look as f64 / looks as f64));
     let longest = samples.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
     let (mut found, mut stride) = (peaks(&parts, times.clone()), 1);
-    // A pulse that bends too little between neighboring looks is one between looks farther apart; no step
-    // is longer than the span between two samples.
+    // A longer pulse, which bends too little between successive times, is found with times that are farther apart. A
+    // pulse longer than the time between two samples cannot be missed, because no step is longer than that.
     while stride < looks / STRIDE && longest > REACH * stride as f64 * (end / looks as f64) {
         stride *= STRIDE;
         found.extend(peaks(&parts, times.clone().step_by(stride)));
@@ -53,15 +54,15 @@ pub(crate) fn features(
     Features { jumps: jumps(&parts, times), peaks: found }
 }
 
-/// The parts that depend on the time alone.
+/// The parts of formulas that depend only on the time.
 struct Parts {
-    /// The values of the largest such parts of the formulas, then of the arguments of their `abs` and `sign`.
+    /// The values of the largest such parts, followed by those of the arguments of their `abs` and `sign`.
     values: Evaluator,
-    /// The number of the former.
+    /// The number of these parts.
     roots: usize,
-    /// The number of the latter.
+    /// The number of these arguments.
     switches: usize,
-    /// The values of symbols other than the time.
+    /// The values of all symbols except the time.
     constants: BTreeMap<SymbolId, f64>,
 }
 
@@ -107,28 +108,28 @@ impl Parts {
         Parts { values: Evaluator::new(&found), roots, switches: switches_count, constants }
     }
 
-    /// The values at a time: of the parts, then of the arguments of switches.
+    /// The values at a time: first those of the parts, then those of the arguments.
     fn at(&self, t: f64) -> Vec<f64> {
         self.values.values(|symbol| self.constants.get(&symbol).copied().unwrap_or(t))
     }
 
-    /// The classes of the arguments of `abs` and `sign` at a time.
+    /// The signs of the arguments of `abs` and `sign` at a time.
     fn classes(&self, t: f64) -> Vec<f64> {
         self.at(t).into_iter().skip(self.roots).map(class).collect()
     }
 }
 
-/// The switches that depend on the time.
+/// The expressions among `exprs` that depend on the time and not on the state.
 fn moving<'g>(exprs: Vec<Expr<'g>>, known: &BTreeMap<Id, bool>) -> Vec<Expr<'g>> {
     exprs.into_iter().filter(|expr| known.get(&expr.id()) == Some(&true)).collect()
 }
 
-/// Which of the three values of `sign` a number has.
+/// The value of `sign` for a number.
 fn class(value: f64) -> f64 {
     Function::Sign.apply(value)
 }
 
-/// The times at which the argument of an `abs` or a `sign` passes 0, comes to it or leaves it, in order.
+/// The times at which the argument of an `abs` or a `sign` passes 0, becomes 0 or ceases to be 0, in order.
 fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
     let (mut found, mut before) = (vec![], None);
     if parts.switches == 0 {
@@ -139,7 +140,7 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
         if let Some((start, old)) = before.replace((t, classes.clone())) {
             for (switch, (old, new)) in old.iter().zip(&classes).enumerate() {
                 let mut span = (start, *old);
-                // Through 0.
+                // The sign can change twice: to 0, and from 0 to the other sign.
                 for _ in 0..2 {
                     if span.1 != *new && !(span.1.is_nan() || new.is_nan()) {
                         let [low, high] = boundary(parts, switch, [span.0, t], span.1);
@@ -152,7 +153,7 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
         }
     }
     found.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    // Jumps at one time, to 0 and on among them, are one.
+    // Jumps at practically the same time, such as those to and from 0, are merged.
     let mut apart: Vec<[f64; 2]> = vec![];
     for [before, after] in found {
         match apart.last_mut() {
@@ -163,7 +164,7 @@ fn jumps(parts: &Parts, times: impl Iterator<Item = f64>) -> Vec<[f64; 2]> {
     apart
 }
 
-/// The neighboring times between which a value's class changes from the first.
+/// The two neighboring times between which the sign of a value changes from `old`.
 fn boundary(parts: &Parts, switch: usize, [mut low, mut high]: [f64; 2], old: f64) -> [f64; 2] {
     loop {
         let middle = low + (high - low) / 2.0;
@@ -174,7 +175,7 @@ fn boundary(parts: &Parts, switch: usize, [mut low, mut high]: [f64; 2], old: f6
     }
 }
 
-/// The times at which a part bends most: the tops and feet of pulses, the ends of steep flanks.
+/// The times at which a part bends most: the tops and feet of pulses, and the ends of steep flanks.
 fn peaks(parts: &Parts, times: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
     let mut largest = vec![0.0_f64; parts.roots];
     for t in times.clone() {
@@ -182,7 +183,7 @@ fn peaks(parts: &Parts, times: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
             *largest = largest.max(value.abs());
         }
     }
-    // The last values of each, and how much they bend at the two times before the last.
+    // The last two values of each part, and its bends at the two times before the last.
     let mut last = vec![[0.0_f64; 2]; parts.roots];
     let mut bends = last.clone();
     let (mut found, mut earlier) = (vec![], [0.0; 2]);
@@ -192,7 +193,7 @@ fn peaks(parts: &Parts, times: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
             let [before, between] = last[index];
             let bend = if look < 2 { 0.0 } else { (value - 2.0 * between + before).abs() };
             let [first, middle] = bends[index];
-            // `middle` is the bend at the time before the last.
+            // `middle` is the bend two times before the current one.
             is_peak |= middle > BEND * largest[index] && middle > first && middle >= bend;
             last[index] = [between, value];
             bends[index] = [middle, bend];
@@ -221,7 +222,7 @@ mod tests {
         for ([before, after], t) in jumps.into_iter().zip([2.3, 2.3 + 1e-9]) {
             assert!(before < t && t < after && after - before < 1e-13, "{before} {after}");
         }
-        // To 0 and on.
+        // The sign becomes 0 and changes further.
         assert_eq!(found("sign(t - 1)", &[0.0, 1.0, 2.0]).jumps.len(), 1);
         assert_eq!(found("sign(abs(t - 1) - (t - 1))", &[0.0, 3.0]).jumps.len(), 1);
         assert_eq!(found("sign(q1 - t)*abs(a)", &[0.0, 3.0]), Features::default());
@@ -238,7 +239,7 @@ mod tests {
         assert!(near("qd1*tanh((t - 4)/1e-6) - qd1*tanh((t - 4.001)/1e-6)", 4.001));
         let samples: Vec<f64> = (0..=1000).map(|sample| f64::from(sample) * 0.01).collect();
         assert!(found("sin(3*t) + t^2 - q1*t", &samples).peaks.is_empty());
-        // Between long samples, of any length.
+        // Pulses of all lengths between two samples that are far apart.
         for width in [0.001, 0.01, 0.1, 1.0] {
             let pulse = format!("1/(1 + ((t - 23)/{width})^2)");
             let peaks = found(&pulse, &[0.0, 100.0]).peaks;

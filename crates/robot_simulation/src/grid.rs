@@ -1,17 +1,17 @@
-//! Times of output.
+//! The times of the output.
 
 use robot_model::diagnostic::number;
 
 use crate::error::Error;
 
-/// More samples than this are refused: a table of them would fill the memory.
+/// The largest number of samples; a table of more would fill the memory.
 const MAX_SAMPLES: f64 = 1e7;
 
-/// 0, step, 2 step, … up to the duration, and the duration itself if no step falls on it; s.
+/// The times 0, step, 2 step, … up to the duration, and the duration itself if it is not one of them, in s.
 ///
 /// # Errors
 ///
-/// A duration or step that is not positive, and too many samples.
+/// If the duration or the step is not positive, or if there are too many samples.
 pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
     let mut wrong = vec![];
     for (name, value) in [("duration", duration), ("output step", step)] {
@@ -20,7 +20,7 @@ pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
         }
     }
     Error::check(wrong, ())?;
-    // A step that falls short of the end by rounding alone is the end.
+    // A time that differs from the end only by rounding counts as the end.
     let whole = (duration / step * (1.0 + 1e-12)).floor();
     if whole > MAX_SAMPLES {
         let message =
@@ -44,11 +44,11 @@ mod tests {
         assert_eq!(times(1.0, 0.25).unwrap(), [0.0, 0.25, 0.5, 0.75, 1.0]);
         assert_eq!(times(1.0, 0.4).unwrap(), [0.0, 0.4, 0.8, 1.0]);
         assert_eq!(times(0.3, 1.0).unwrap(), [0.0, 0.3]);
-        // The start is there, however short the time is.
+        // The start is included, however short the duration is.
         for (duration, step) in [(1e-300, 0.01), (10.0, 1e300), (5e-324, 1.0)] {
             assert_eq!(times(duration, step).unwrap(), [0.0, duration]);
         }
-        // 10 / 0.1 and 0.3 / 0.1 are rounded up and down.
+        // The quotients 10 / 0.1 and 0.3 / 0.1 are rounded up and down.
         for (duration, step, count) in [(10.0, 0.1, 101), (0.3, 0.1, 4), (0.7, 0.1, 8)] {
             let times = times(duration, step).unwrap();
             assert_eq!((times.len(), times.last()), (count, Some(&duration)));

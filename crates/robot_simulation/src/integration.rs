@@ -1,4 +1,4 @@
-//! Steps of the integrator from event to event.
+//! The steps of the integrator from event to event.
 
 use differential_equations::error::Error as IntegratorError;
 use differential_equations::methods::{DormandPrince, ExplicitRungeKutta, Ordinary};
@@ -20,30 +20,30 @@ const SMALLEST_STEP: f64 = 1e-14;
 const SMALLEST_PIECE: f64 = 1e-12;
 /// The number of steps after which progress is checked.
 const WATCHED: usize = 5000;
-/// Velocities and accelerations above this magnitude are too large: their squares may exceed the range of `f64`.
+/// Velocities and accelerations above this magnitude are too large: their squares can exceed the range of `f64`.
 const LARGE: f64 = 1e150;
-/// The most events in a row with practically no time between them.
+/// The largest number of successive events with practically no time between them.
 const MAX_EVENTS: usize = 100;
 
 /// DOP853.
 type Method = ExplicitRungeKutta<Ordinary, DormandPrince, f64, Vec<f64>, 8, 12, 16>;
 
-/// A motion in progress.
+/// A motion during its integration.
 pub(crate) struct Integration<'s, D, L> {
     system: System<'s, D, L>,
     method: Method,
     options: SimulationOptions,
-    /// The steps so far, rejected ones too.
+    /// The number of steps so far, including rejected ones.
     pub(crate) steps: usize,
-    /// The time at the last look at how far the steps led, s.
+    /// The time in s at which progress was last checked.
     watched: f64,
-    /// The distance of each coordinate from the end of its mode at the integrator's time.
+    /// The distance of each coordinate beyond the end of its mode at the integrator's time.
     overruns: Vec<Overrun>,
-    /// The next end of a mode.
+    /// The interval in which the next mode ends, while it is searched for.
     bracket: Option<Bracket>,
-    /// The length of a step that is to be tried for its own sake, s.
+    /// The length in s of the next step, if it must lead to a time at which a mode seemed to end.
     shortened: Option<f64>,
-    /// The time of the last event, s, and how many there were about it.
+    /// The time of the last event in s, and the number of preceding events at practically the same time.
     last_event: (f64, usize),
 }
 
@@ -77,7 +77,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(integration)
     }
 
-    /// τ, q̈ and the state at a time that was reached.
+    /// Returns the state, q̈ and τ at a time that has been reached.
     pub(crate) fn sample(&self, t: f64) -> Result<(State, Vec<f64>, Vec<f64>), Error> {
         let state = self.system.state(self.method.y());
         let stopped = |cause| Error::Stopped { t, cause };
@@ -86,13 +86,13 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok((state, qdd, tau))
     }
 
-    /// Goes on to a time; `progress` hears the time reached, s, after every step.
+    /// Integrates to a time; `progress` is called with the time reached, in s, after every step.
     pub(crate) fn reach(
         &mut self,
         target: f64,
         progress: &mut dyn FnMut(f64),
     ) -> Result<(), Error> {
-        // The end of a step lies within rounding of the time that it was to reach.
+        // The end of a step can differ from its target by rounding.
         while target - self.method.t() > SMALLEST_PIECE * self.options.duration {
             let before = self.method.t();
             self.bound(before)?;
@@ -105,8 +105,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// Goes over a jump of the joint torques: starts anew from the state that was reached, at a time behind
-    /// the jump.
+    /// Passes a jump of the joint torques: restarts from the state that was reached, at a time after the jump.
     pub(crate) fn jump(&mut self, after: f64) -> Result<(), Error> {
         let t = after.max(self.method.t());
         let y = self.method.y().clone();
@@ -115,12 +114,12 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         self.restart(t, &y, 0.0)
     }
 
-    /// The shortest time between two distinct events, s.
+    /// The shortest time between two different events, in s.
     fn shortest(&self) -> f64 {
         SMALLEST_STEP * self.options.duration + 4.0 * f64::EPSILON * self.method.t()
     }
 
-    /// A step towards a time, or towards the end of a mode before it.
+    /// Takes a step toward a time, or toward the end of a mode before it.
     fn step(&mut self, target: f64) -> Result<(), Error> {
         let (t, shortest) = (self.method.t(), self.shortest());
         let smallest = SMALLEST_STEP * self.options.duration;
@@ -141,7 +140,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         self.system.seen.set(f64::INFINITY);
         match self.method.step(&self.system) {
             Ok(_) => Ok(()),
-            // A stiff system is slow, which is not an error; the steps are limited in any case.
+            // A stiff system is slow, but not an error; the number of steps is limited anyway.
             Err(IntegratorError::Stiffness { .. }) => {
                 let (y, h) = (self.method.y().clone(), self.method.h());
                 self.restart(t, &y, h)
@@ -150,8 +149,8 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         }
     }
 
-    /// Whether modes ended within the step from `before`: then it is taken back, and steps go to
-    /// where the first of them ends.
+    /// Checks whether modes ended within the step from `before`. If so, the step is undone, and the following steps
+    /// lead to the first end.
     fn check(&mut self, before: f64) -> Result<(), Error> {
         let (t, y) = (self.method.t(), self.method.y().clone());
         let stopped = |cause| Error::Stopped { t, cause };
@@ -179,7 +178,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         }
     }
 
-    /// Goes over an event: what has come to rest is at rest exactly, and the modes are chosen anew.
+    /// Passes an event: velocities that became 0 are set to exactly 0, and the modes are chosen again.
     fn pass(&mut self, event: Event) -> Result<(), Error> {
         let Event { t, mut y, ended } = event;
         let near = t - self.last_event.0 <= 4.0 * self.shortest();
@@ -199,7 +198,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         self.restart(t, &y, 0.0)
     }
 
-    /// Chooses the modes of a state, and finds how far they are from their ends.
+    /// Chooses the modes of a state, and computes the distances from their ends.
     fn choose(&mut self, t: f64, state: &State, ended: Option<&[usize]>) -> Result<(), Error> {
         let stopped = |cause| Error::Stopped { t, cause };
         let Some(friction) = self.system.friction else {
@@ -207,7 +206,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         };
         let mut guess = starting(friction, &state.qd);
         for (index, mode) in self.system.modes.iter().enumerate() {
-            // A coordinate that sets off slowly is still at rest.
+            // A coordinate that starts to move slowly is still at rest.
             let goes_on = ended.is_some_and(|ended| !ended.contains(&index));
             if goes_on && state.qd[index] == 0.0 {
                 guess[index] = *mode;
@@ -221,9 +220,9 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// Sets the integrator on a state; with a length of 0 it chooses its first step.
+    /// Sets the integrator to a state; with the length 0 it chooses its first step itself.
     fn restart(&mut self, t: f64, y: &Vec<f64>, length: f64) -> Result<(), Error> {
-        // The end bounds the first step alone.
+        // The end only limits the first step.
         let end = t + self.options.duration;
         self.method.h0 = length;
         let started = self.method.init(&self.system, t, end, y);
@@ -235,7 +234,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// Whether steps are left, and the last ones led far enough.
+    /// Checks that steps are left, and that the last ones advanced far enough.
     fn bound(&mut self, t: f64) -> Result<(), Error> {
         let limit = self.options.max_steps;
         if self.steps >= limit {
@@ -251,13 +250,13 @@ impl<'s, D: Dynamics, L: TorqueLaw> Integration<'s, D, L> {
         Ok(())
     }
 
-    /// Why steps are too small: the integrator reports only that they are.
+    /// The reason why steps are too small, which the integrator does not report.
     fn stopped(&self, t: f64) -> Error {
         let cause = self.system.failure.take().unwrap_or(Cause::StepSize);
         Error::Stopped { t, cause }
     }
 
-    /// Why there is no first step: the largest velocity or acceleration.
+    /// The reason why there is no first step: the largest velocity or acceleration.
     fn too_large(&self, t: f64, y: &[f64]) -> Cause {
         let state = self.system.state(y);
         let qdd = match self.system.found(t, &state) {

@@ -1,31 +1,31 @@
-//! Kinks, jumps and poles of a motion that is given by expressions.
+//! Kinks, jumps and poles of motions that are given by expressions.
 //!
-//! When the argument of an `abs` or a `sign` passes 0, the velocity or the position may jump: the
-//! acceleration is then an impulse, which derivatives do not see. When a divisor passes 0, the position may have no
-//! bound, and the samples on either side do not show it.
+//! When the argument of an `abs` or a `sign` passes 0, the velocity or the position can jump; the acceleration is then
+//! an impulse, which derivatives do not show. When a divisor passes 0, the position can be unbounded, and the samples
+//! before and after do not show it.
 
 use robot_symbolic::{Expr, Function, View, walk};
 
-/// A jump of a coordinate.
+/// A jump of a coordinate's position or velocity.
 pub(crate) struct Kink {
-    /// The coordinate, from 0.
+    /// The index of the coordinate.
     pub(crate) coordinate: usize,
-    /// The time, s.
+    /// The time, in s.
     pub(crate) t: f64,
-    /// The position or the velocity.
+    /// The quantity that jumps: `position` or `velocity`.
     pub(crate) what: &'static str,
-    /// From where to where.
+    /// The values before and after the jump.
     pub(crate) sides: [f64; 2],
 }
 
-/// Parts of the span between two samples that are looked into: what passes 0 twice within one of them, or touches 0 without passing
-/// it, is not seen.
+/// The number of parts into which the time between two samples is divided for the search. An expression that passes 0
+/// twice within one part, or touches 0 without passing it, is not noticed.
 const PARTS: usize = 4;
-/// The distance from a kink, as a part of the whole time, at which its sides are compared.
+/// The distance from a kink at which the values before and after it are compared, as a fraction of the whole time.
 const NEAR: f64 = 1e-9;
 
-/// The first kink of each coordinate. `times` are the samples' and rise; `value` evaluates at a time, and
-/// gives NaN if it cannot.
+/// Finds the first kink of each coordinate. `times` are those of the samples, in ascending order; `value` evaluates
+/// expressions at a time and returns NaN if it cannot.
 pub(crate) fn kinks<'g>(
     q: &[Expr<'g>],
     qd: &[Expr<'g>],
@@ -41,7 +41,7 @@ pub(crate) fn kinks<'g>(
     coordinates.filter_map(of).collect()
 }
 
-/// The arguments of `abs` and `sign`.
+/// The arguments of `abs` and `sign` in an expression.
 fn switches<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
     let inner = |expr: Expr<'g>| match expr.view() {
         View::Call(Function::Abs | Function::Sign, inner) => Some(inner),
@@ -50,8 +50,8 @@ fn switches<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
     walk::reachable(&[root]).into_iter().filter_map(inner).collect()
 }
 
-/// The first time, s, at which each coordinate has no bound, with the coordinate, from 0; `times` and `value` as for
-/// [`kinks`].
+/// Finds the coordinates whose positions are unbounded, given by their indices, and the first time in s at which each
+/// is. For `times` and `value` see [`kinks`].
 pub(crate) fn poles<'g>(
     q: &[Expr<'g>],
     times: &[f64],
@@ -65,7 +65,8 @@ pub(crate) fn poles<'g>(
     q.iter().enumerate().filter_map(of).collect()
 }
 
-/// The factors of divisors, under roots too: where a square touches 0, its factor passes it.
+/// The factors of divisors, including those under roots: a factor of a square passes 0 where the square only touches
+/// it.
 fn divisors<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
     let mut left: Vec<Expr<'g>> = walk::reachable(&[root])
         .into_iter()
@@ -89,7 +90,7 @@ fn divisors<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
     factors
 }
 
-/// Whether the size of an expression grows on the way to a time, by more than a bounded function would so near to it.
+/// Whether the magnitude of an expression grows toward a time by more than a bounded function would so close to it.
 fn grows<'g>(
     q: Expr<'g>,
     t: f64,
@@ -99,7 +100,7 @@ fn grows<'g>(
     let (Some(first), Some(last)) = (times.first(), times.last()) else { return false };
     let near = ((last - first).abs() * NEAR).max(t.abs() * NEAR);
     let size = |t: f64| value(&[q], t).first().map_or(f64::NAN, |value| value.abs());
-    // The root of a distance, the slowest of what grows here, doubles over this.
+    // The slowest growth here, that of one over the square root of the distance, doubles between these two distances.
     [-near, near].into_iter().any(|side| size(t + side) > 1.5 * size(t + 4.0 * side))
 }
 
@@ -139,7 +140,7 @@ fn crossings<'g>(
     found
 }
 
-/// The time at which the expression passes 0 between two times.
+/// The time between two others at which an expression passes 0.
 fn bisected<'g>(
     switch: Expr<'g>,
     [mut low, mut high]: [f64; 2],
@@ -158,7 +159,7 @@ fn bisected<'g>(
     }
 }
 
-/// The jump of a position or a velocity at a time, if there is one.
+/// The jump of a position or velocity at a time; `None` if there is none.
 fn jump<'g>(
     coordinate: usize,
     motion: [Expr<'g>; 2],
@@ -168,12 +169,12 @@ fn jump<'g>(
 ) -> Option<Kink> {
     let (first, last) = (times.first().copied()?, times.last().copied()?);
     let near = (last - first).abs() * NEAR;
-    // Two points on either side: what they differ by is how much a smooth motion changes.
+    // There are two points on each side; the difference of their values shows how much a smooth motion changes.
     let inside = |t: &f64| (first..=last).contains(t);
     let at = |t: f64| inside(&t).then(|| value(&motion, t));
     let [far_before, before, here, after, far_after] =
         [t - 3.0 * near, t - near, t, t + near, t + 3.0 * near].map(at);
-    // At an end of the time the derivative at the end itself is what jumps.
+    // At an end of the time interval, the derivative at the end itself jumps.
     let (left, right) = (before.or_else(|| here.clone())?, after.or(here)?);
     for (index, what) in ["position", "velocity"].into_iter().enumerate() {
         let (left, right) = (*left.get(index)?, *right.get(index)?);

@@ -1,8 +1,9 @@
 //! Motions of robots.
 //!
-//! [`simulate`] integrates the motion q(t), the forward dynamics (7) of the paper, of any [`Dynamics`]: the program
-//! of a robot ([`RobotProgram`]), generated code or a closure. [`torque_contributions`] is inverse dynamics along a
-//! [`Trajectory`], split by cause. Both give series over time, which [`Table`] writes as CSV and [`plot`] draws.
+//! [`simulate`] integrates the motion q(t), the forward dynamics (7) of the paper, of any [`Dynamics`]: the program of
+//! a robot ([`RobotProgram`]), generated code or a closure. [`torque_contributions`] computes the inverse dynamics
+//! along a [`Trajectory`], divided into contributions. Both give values over time, which [`Table`] writes as CSV and
+//! [`plot`] draws.
 //!
 //! ```
 //! use robot_simulation::{SimulationOptions, State, Torques, from_fn, simulate};

@@ -1,4 +1,4 @@
-//! Motions: what a simulation gives.
+//! Motions, the results of simulations.
 
 use std::ops::Range;
 
@@ -9,29 +9,29 @@ use crate::error::Error;
 use crate::program::RobotProgram;
 use crate::table::Table;
 
-/// A motion: a sample for each time.
+/// A motion, with one sample for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// t, s, rising.
+    /// The times t in s, in ascending order.
     pub t: Vec<f64>,
-    /// q and q̇.
+    /// The states q and q̇.
     pub states: Vec<State>,
-    /// q̈, rad/s² or m/s².
+    /// The joint accelerations q̈, in rad/s² or m/s².
     pub qdd: Vec<Vec<f64>>,
-    /// The joint torques τ, N m or N.
+    /// The joint torques τ, in N m or N.
     pub tau: Vec<Vec<f64>>,
-    /// The steps that the integrator took, rejected ones too.
+    /// The number of steps that the integrator took, including rejected ones.
     pub steps: usize,
 }
 
-/// The energies of a motion, J, a sample for each time.
+/// The energies of a motion in J, with one sample for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Energies {
-    /// ½ q̇ᵀ M q̇.
+    /// The kinetic energy ½ q̇ᵀ M q̇.
     pub kinetic: Vec<f64>,
-    /// That of the weight.
+    /// The potential energy of the weight.
     pub potential: Vec<f64>,
-    /// Their sum.
+    /// The sum of both.
     pub total: Vec<f64>,
 }
 
@@ -43,11 +43,11 @@ impl Motion {
         self.tau.push(tau);
     }
 
-    /// The energies along the motion.
+    /// Computes the energies along the motion.
     ///
     /// # Errors
     ///
-    /// A program of another number of coordinates.
+    /// If the program has another number of coordinates.
     pub fn energies(&self, program: &RobotProgram<'_>) -> Result<Energies, Error> {
         let mut energies = Energies::default();
         for state in &self.states {
@@ -65,7 +65,7 @@ impl Motion {
         self.table_of(energies, 0..self.t.len())
     }
 
-    /// [`Motion::table`] of some of its samples; there are no others.
+    /// [`Motion::table`] with only some of the samples; indices beyond the end are ignored.
     #[must_use]
     pub fn table_of(&self, energies: &Energies, samples: Range<usize>) -> Table {
         let range = samples.start.min(self.t.len())..samples.end.min(self.t.len());

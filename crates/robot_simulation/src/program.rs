@@ -1,4 +1,4 @@
-//! The program of a robot as dynamics.
+//! The program of a robot as forward dynamics.
 
 use robot_build::{Effects, FunctionKind, Pivot, Pivots, Programs, Trigonometry, too_large_angle};
 use robot_jit::Executable;
@@ -11,30 +11,30 @@ use crate::error::{Cause, Error};
 use crate::expressions::parameters;
 use crate::friction::{Mode, balance};
 
-/// The program of a robot, its parameters given, as machine code or interpreted: dynamics with or without friction, and
-/// the energies.
+/// The program of a robot with given parameters, as machine code or interpreted: its dynamics with or without friction,
+/// and its energies.
 ///
-/// It does the operations of the generated code, one by one.
+/// It carries out the same operations as the generated code.
 #[derive(Debug)]
 pub struct RobotProgram<'p> {
     robot: &'p Robot,
     executable: Executable<'p>,
     friction: Option<RobotFriction>,
-    /// Determines why there are no accelerations.
+    /// The pivots of the mass matrix, which show why there are no accelerations.
     pivots: Option<Pivots>,
 }
 
-/// The properties of the program's friction.
+/// The properties of the friction of a robot.
 #[derive(Clone, Debug)]
 struct RobotFriction {
-    /// Whether it depends on the accelerations.
+    /// Whether friction depends on the accelerations.
     by_load: bool,
-    /// For each coordinate, whether dry friction with a sharp sign acts on it.
+    /// For each coordinate, whether dry friction without smoothing acts on it.
     can_stick: Vec<bool>,
 }
 
 impl<'p> RobotProgram<'p> {
-    /// The functions that a program for a simulation needs.
+    /// The functions that the programs must contain for a simulation.
     #[must_use]
     pub fn functions(friction: bool) -> Vec<FunctionKind> {
         let mut kinds = vec![FunctionKind::ForwardDynamics(Effects::NONE), FunctionKind::Energies];
@@ -48,11 +48,11 @@ impl<'p> RobotProgram<'p> {
         kinds
     }
 
-    /// The program with the parameters that `given` names, the others at their nominal values.
+    /// The program with the parameter values in `given`, and nominal values for the others.
     ///
     /// # Errors
     ///
-    /// Parameters that there are not, or that have no value; functions that the programs lack.
+    /// If a parameter does not exist or has no value, or if the programs lack functions.
     pub fn new(
         programs: &'p Programs,
         given: &[(&str, f64)],
@@ -65,8 +65,7 @@ impl<'p> RobotProgram<'p> {
         Ok(RobotProgram { robot, executable, friction, pivots: None })
     }
 
-    /// This program with the pivots of the robot's mass matrix, so that if there are no accelerations the
-    /// error names the joint.
+    /// Adds the pivots of the robot's mass matrix, so that the error names the joint if there are no accelerations.
     #[must_use]
     pub fn with_pivots(self, pivots: Pivots) -> RobotProgram<'p> {
         RobotProgram { pivots: Some(pivots), ..self }
@@ -78,11 +77,11 @@ impl<'p> RobotProgram<'p> {
         self.robot
     }
 
-    /// The kinetic and the potential energy, J.
+    /// The kinetic and the potential energy, in J.
     ///
     /// # Errors
     ///
-    /// A state with another number of coordinates.
+    /// If the state has another number of coordinates.
     pub fn energies(&self, state: &State) -> Result<[f64; 2], Error> {
         let inputs = [(Position.name(), state.q.as_slice()), (Velocity.name(), &state.qd)];
         let values = values(&self.executable, FunctionKind::Energies, &inputs)?;
@@ -92,12 +91,12 @@ impl<'p> RobotProgram<'p> {
         }
     }
 
-    /// All outputs of a function; what is wrong is the cause.
+    /// All outputs of a function; an error becomes a cause.
     fn values(&self, kind: FunctionKind, inputs: &[(&str, &[f64])]) -> Result<Vec<f64>, Cause> {
         values(&self.executable, kind, inputs).map_err(|error| Cause::Other(error.to_string()))
     }
 
-    /// The pivot for which a state has no accelerations.
+    /// The pivot because of which a state has no accelerations; `None` if there is none.
     fn wrong_pivot(&self, state: &State) -> Option<Pivot> {
         let smallest = self.pivots.as_ref()?.smallest(&state.q);
         smallest.ok().flatten().filter(Pivot::is_wrong)
@@ -109,7 +108,7 @@ impl Dynamics for RobotProgram<'_> {
         self.robot.degrees_of_freedom()
     }
 
-    /// With friction if that was asked for; at velocity 0 there is no dry friction.
+    /// Includes friction if the program has it, but no dry friction of coordinates with the velocity 0.
     fn accelerations(&self, state: &State, tau: &[f64]) -> Result<Vec<f64>, Cause> {
         let found = match self.friction {
             Some(_) => balance(self, state, tau, &vec![Mode::Free; tau.len()])?.qdd,
@@ -134,7 +133,7 @@ impl Dynamics for RobotProgram<'_> {
         }
     }
 
-    /// If dry friction can hold joints, what they show of inertia may be none.
+    /// Joints that dry friction can hold need no inertia, so nothing is checked if there are any.
     fn check(&self, state: &State) -> Result<(), Cause> {
         match self.wrong_pivot(state) {
             Some(pivot) if pivot.digits == 0 && self.dry_friction().is_none() => {
@@ -177,7 +176,7 @@ impl DryFriction for RobotProgram<'_> {
     }
 }
 
-/// The properties of a robot's friction with its parameters given.
+/// The properties of a robot's friction with the given parameters.
 fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction, Error> {
     let parameters = parameters(robot, given);
     let mut friction =
@@ -201,7 +200,7 @@ fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction,
                 "the Coulomb friction of joint `{joint}` is negative, which would drive the joint"
             ));
         }
-        // A value that is not a number must show in the accelerations.
+        // A value that is NaN must count, so that it appears in the accelerations.
         let is_dry = dry.iter().any(|value| *value != 0.0);
         friction.by_load |= by_load != 0.0;
         if is_dry && link.friction.smoothing.is_none() {
@@ -211,7 +210,7 @@ fn robot_friction(robot: &Robot, given: &[(&str, f64)]) -> Result<RobotFriction,
     Error::check(wrong, friction)
 }
 
-/// Functions that are not among the programs.
+/// Returns an error if the programs lack some of the needed functions.
 pub(crate) fn check_functions(programs: &Programs, needed: &[FunctionKind]) -> Result<(), Error> {
     let missing = needed.iter().filter(|kind| !programs.functions.contains(kind));
     let messages = missing.map(|kind| format!("the program lacks the function {}", kind.name()));
@@ -227,7 +226,7 @@ fn values(
     Ok(executable.function(kind.name())?.call(inputs)?)
 }
 
-/// a − b.
+/// The difference a − b.
 pub(crate) fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

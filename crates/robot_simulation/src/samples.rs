@@ -1,4 +1,4 @@
-//! Trajectories that are read part by part.
+//! Trajectories that are read in parts.
 
 use std::io::BufRead;
 
@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::table::{TableReader, Times};
 use crate::trajectory::Trajectory;
 
-/// The samples of a trajectory in CSV, some of them in memory.
+/// The samples of a trajectory in a CSV file, of which one part is in memory at a time.
 #[derive(Debug)]
 pub struct Samples<'r, R> {
     robot: &'r Robot,
@@ -16,18 +16,18 @@ pub struct Samples<'r, R> {
     reader: TableReader<R>,
     times: Times,
     wrong: Vec<String>,
-    /// The first part, which was read to know what there is.
+    /// The first part, which is read at once to find out which columns there are.
     first: Option<Trajectory>,
     size: usize,
 }
 
 impl<'r, R: BufRead> Samples<'r, R> {
-    /// Reads the first part, of up to `size` samples; `source` is the name of the reader in messages. The columns are
+    /// Reads the first part, with up to `size` samples; `source` is the name of the reader in messages. The columns are
     /// those of [`Trajectory::from_table`].
     ///
     /// # Errors
     ///
-    /// What the reader says, everything that is wrong with the columns, and with the lines if the first part shows it.
+    /// If the reader fails; all errors in the columns, and in the lines as far as they have been read.
     pub fn new(
         robot: &'r Robot,
         source: &str,
@@ -42,22 +42,22 @@ impl<'r, R: BufRead> Samples<'r, R> {
         Ok(samples)
     }
 
-    /// Whether tips exert wrenches.
+    /// Whether the trajectory contains wrenches of tips.
     #[must_use]
     pub fn has_wrenches(&self) -> bool {
         self.first.as_ref().is_some_and(|first| first.wrenches.is_some())
     }
 
-    /// The next part; `None` at the end.
+    /// Reads the next part; `None` at the end.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong from there on to the end.
+    /// All errors from there to the end.
     pub fn next_part(&mut self) -> Result<Option<Trajectory>, Error> {
         if let Some(first) = self.first.take() {
             return Ok(Some(first));
         }
-        // What is wrong with the lines comes before what is wrong with the columns.
+        // Errors in lines are reported before errors in columns.
         while let Some(table) = self.reader.rows(self.size.max(1))? {
             self.times.check(&self.source, &table);
             let mut wrong = vec![];

@@ -1,4 +1,4 @@
-//! The integration of the equations of motion.
+//! The simulation of motions.
 
 use robot_model::diagnostic::number;
 use robot_model::variable::JointVariable;
@@ -9,42 +9,41 @@ use crate::grid;
 use crate::integration::Integration;
 use crate::motion::Motion;
 
-/// The duration and the accuracy.
+/// The duration and accuracy of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SimulationOptions {
-    /// The time that is simulated, s.
+    /// The simulated time, in s.
     pub duration: f64,
-    /// The time between samples of the output, s; the integrator chooses its own steps between them.
+    /// The time between samples of the output, in s; the integrator chooses its own steps between them.
     pub step: f64,
-    /// The error that a step of the integrator may make in a component y of q and q̇, as it estimates
-    /// it: tolerance · (1 + |y|), in rad, m, rad/s or m/s.
+    /// The error that a step of the integrator is allowed in a component y of q and q̇, according to its estimate:
+    /// tolerance · (1 + |y|), in rad, m, rad/s or m/s.
     pub tolerance: f64,
-    /// The most steps that the integrator may take, rejected ones too; it takes at least one for each
-    /// sample. A motion that would need more at the rate of its last 5000 steps ends there.
+    /// The largest number of steps of the integrator, including rejected ones; it takes at least one for each sample.
+    /// If the rate of the last 5000 steps would require more, the simulation ends.
     pub max_steps: usize,
 }
 
-/// 10 s, samples at 0.01 s, a tolerance of 10⁻⁹, a million steps.
+/// The default options: 10 s, samples every 0.01 s, a tolerance of 10⁻⁹, and a million steps.
 impl Default for SimulationOptions {
     fn default() -> SimulationOptions {
         SimulationOptions { duration: 10.0, step: 0.01, tolerance: 1e-9, max_steps: 1_000_000 }
     }
 }
 
-/// The motion q(t) from a state under joint torques: the forward dynamics (7) of the paper.
+/// Simulates the motion q(t) from a state under joint torques: the forward dynamics (7) of the paper.
 ///
-/// The method is that of Dormand and Prince of order 8 with error estimates of orders 5 and 3
-/// (DOP853; Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10).
-/// It steps onto every sample, so that nothing is interpolated. `progress` hears the time reached, s,
-/// after every step.
+/// The method is that of Dormand and Prince of order 8 with error estimates of orders 5 and 3 (DOP853; Hairer, Nørsett
+/// and Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.10). A step ends at every sample, so nothing is
+/// interpolated. `progress` is called with the time reached, in s, after every step.
 ///
-/// If [`Dynamics::dry_friction`] has dry friction with a sharp sign, the integrator also steps onto
-/// every event: a coordinate that comes to rest, and one at rest of which more is asked than its friction can
-/// give. A coordinate that friction holds keeps its position, and has no velocity and no acceleration.
+/// If [`Dynamics::dry_friction`] returns dry friction, a step also ends at every event: when a coordinate comes to
+/// rest, and when the force required to hold one at rest exceeds what its friction can supply. A coordinate that is
+/// held by friction keeps its position, and its velocity and acceleration are 0.
 ///
 /// # Errors
 ///
-/// Options or a state that make no sense, all at once; why the integration ended before its time.
+/// All invalid options and entries of the state at once, or the reason why the integration stopped early.
 pub fn simulate(
     dynamics: &impl Dynamics,
     torques: &impl TorqueLaw,
@@ -77,15 +76,15 @@ struct Stop {
     then: Then,
 }
 
-/// The action at a stop.
+/// The action at such a time.
 enum Then {
     Nothing,
     Sample,
-    /// The forces jump before this time.
+    /// The joint torques jump before this time.
     Jump(f64),
 }
 
-/// The samples, and the corners, peaks and jumps between them.
+/// The times of samples, and those of corners, peaks and jumps between them.
 fn stops(samples: &[f64], corners: &[f64], features: &Features) -> Vec<Stop> {
     let end = samples.last().copied().unwrap_or(0.0);
     let corners = corners.iter().chain(&features.peaks);

@@ -1,4 +1,4 @@
-//! The differential equations of a motion, as the integrator sees them.
+//! The differential equations of a motion, in the form that the integrator needs.
 
 use std::cell::{Cell, RefCell};
 
@@ -8,35 +8,35 @@ use crate::dynamics::{DryFriction, Dynamics, State, TorqueLaw};
 use crate::error::Cause;
 use crate::friction::{Balance, Holding, Mode, balance};
 
-/// The largest velocity, rad/s or m/s, at which a coordinate comes to rest.
+/// The magnitude of a velocity, in rad/s or m/s, below which a coordinate comes to rest.
 pub(crate) const REST: f64 = 1e-13;
 
-/// ẏ for y = (q, q̇) under the joint torques.
+/// The derivative ẏ of y = (q, q̇) under the joint torques.
 ///
-/// With dry friction y has n entries more: for a coordinate that is held, the velocity that it would
-/// have gained, so that steps are short enough for what is asked of its friction.
+/// With dry friction, y has n more entries: for a coordinate that is held, the velocity that it would have gained
+/// without friction. They make steps short enough to resolve changes of the force that is required to hold it.
 pub(crate) struct System<'s, D, L> {
     dynamics: &'s D,
     torques: &'s L,
-    /// Dry friction that holds coordinates at rest.
+    /// The dry friction that can hold coordinates at rest.
     pub(crate) friction: Option<&'s dyn DryFriction>,
     /// The modes of the coordinates, if there is such friction.
     pub(crate) modes: Vec<Mode>,
-    /// The error that is asked of a step.
+    /// The tolerance for the error of a step.
     tolerance: f64,
-    /// The last error, because the integrator knows of NaN only.
+    /// The last error, because the integrator only receives NaN.
     pub(crate) failure: RefCell<Option<Cause>>,
-    /// The earliest time within a step at which a mode seemed to end.
+    /// The earliest time within a step at which a mode seemed to have ended.
     pub(crate) seen: Cell<f64>,
 }
 
-/// The distance of a coordinate beyond the end of its mode: a velocity that has changed its sign, or a force
-/// that friction cannot give.
+/// The distance of a coordinate beyond the end of its mode: a velocity that has changed its sign, or a force that
+/// friction cannot supply.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Overrun {
-    /// Positive beyond the end.
+    /// The distance, which is positive beyond the end.
     pub(crate) value: f64,
-    /// As near to the end as need be.
+    /// The distance from the end that is precise enough.
     pub(crate) tolerance: f64,
 }
 
@@ -53,14 +53,14 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         }
     }
 
-    /// q and q̇ of y.
+    /// The state q, q̇ in y.
     pub(crate) fn state(&self, y: &[f64]) -> State {
         let count = self.dynamics.degrees_of_freedom();
         let part = |from: usize| y.iter().copied().skip(from).take(count).collect();
         State { q: part(0), qd: part(count) }
     }
 
-    /// y of a state.
+    /// The vector y for a state.
     pub(crate) fn start(&self, state: &State) -> Vec<f64> {
         let mut y = [&state.q[..], &state.qd[..]].concat();
         if self.friction.is_some() {
@@ -69,7 +69,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         y
     }
 
-    /// τ.
+    /// The joint torques τ; an error if they are not finite.
     pub(crate) fn driving(&self, t: f64, state: &State) -> Result<Vec<f64>, Cause> {
         let tau = self.torques.torques(t, state);
         if tau.len() != state.q.len() || !tau.iter().all(|value| value.is_finite()) {
@@ -78,7 +78,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         Ok(tau)
     }
 
-    /// τ, q̈ and the friction of what is held.
+    /// The joint torques τ, the accelerations q̈, and the friction of held coordinates.
     pub(crate) fn found(&self, t: f64, state: &State) -> Result<(Vec<f64>, Balance), Cause> {
         let tau = self.driving(t, state)?;
         let found = match self.friction {
@@ -92,7 +92,7 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         Ok((tau, found))
     }
 
-    /// Whether the accelerations are more than rounding.
+    /// Checks that the accelerations are more than rounding errors.
     pub(crate) fn check(&self, state: &State) -> Result<(), Cause> {
         self.dynamics.check(state)
     }
@@ -130,8 +130,8 @@ impl<'s, D: Dynamics, L: TorqueLaw> System<'s, D, L> {
         Ok(dydt)
     }
 
-    /// Notes the time where a mode seems to have ended. States within a step are rough: what they
-    /// decide is evaluated again with a step to that time.
+    /// Records the time if a mode seems to have ended. States within a step are only approximate, so this is checked
+    /// again with a step to that time.
     fn look(&self, t: f64, state: &State, found: &Balance) {
         let margin = 100.0 * self.tolerance;
         let ended = |(overrun, qd): (Overrun, &f64)| {

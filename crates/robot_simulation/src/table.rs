@@ -1,4 +1,4 @@
-//! Named columns of numbers, and CSV.
+//! Tables of named columns of numbers, and their CSV.
 
 use std::io::BufRead;
 
@@ -7,13 +7,13 @@ use robot_model::diagnostic::quote;
 use crate::csv::{Lines, cells, number, numbers, push_number};
 use crate::error::Error;
 
-/// Named columns of numbers, all of one length.
+/// Named columns of numbers, all with the same length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
     columns: Vec<(String, Vec<f64>)>,
 }
 
-/// More messages than this are not collected from one table.
+/// The number of messages about a table after which reading stops.
 const MAX_MESSAGES: usize = 100;
 
 impl Table {
@@ -31,12 +31,12 @@ impl Table {
         }
     }
 
-    /// The names, in order.
+    /// The names of the columns, in order.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.columns.iter().map(|(name, _)| name.as_str())
     }
 
-    /// The column of that name.
+    /// The column with this name.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let found = self.columns.iter().find(|(known, _)| known == name);
@@ -49,7 +49,7 @@ impl Table {
         self.columns.first().map_or(0, |(_, values)| values.len())
     }
 
-    /// CSV: a header, then a line for each row. Numbers read back to the last bit.
+    /// Writes CSV: a header, and a line for each row. Numbers are read back exactly.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut text = self.header();
@@ -57,20 +57,20 @@ impl Table {
         text
     }
 
-    /// The header of CSV, with its line end.
+    /// The header of the CSV, with its line end.
     #[must_use]
     pub fn header(&self) -> String {
         format!("{}\n", self.names().collect::<Vec<_>>().join(","))
     }
 
-    /// Appends the lines of CSV below the header.
+    /// Appends all rows as lines of CSV.
     pub fn push_rows(&self, text: &mut String) {
         for row in 0..self.rows() {
             self.push_row(row, text);
         }
     }
 
-    /// Appends a line of CSV below the header.
+    /// Appends one row as a line of CSV.
     pub fn push_row(&self, row: usize, text: &mut String) {
         let cells = self.columns.iter().filter_map(|(_, values)| values.get(row));
         for (column, value) in cells.enumerate() {
@@ -82,36 +82,35 @@ impl Table {
         text.push('\n');
     }
 
-    /// Reads CSV: a header of names, then lines of finite numbers. `source` is the file's name in
-    /// messages.
+    /// Reads CSV: a header of names, and lines of finite numbers. `source` is the name of the file in messages.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong, each with its line.
+    /// All errors, with their lines.
     pub fn read(source: &str, text: &str) -> Result<Table, Error> {
         Table::read_from(source, text.as_bytes())
     }
 
-    /// [`Table::read`] of a reader.
+    /// Like [`Table::read`], from a reader.
     ///
     /// # Errors
     ///
-    /// The errors of [`Table::read`]; what the reader says; text that is not UTF-8.
+    /// The errors of [`Table::read`], failures of the reader, and text that is not UTF-8.
     pub fn read_from(source: &str, reader: impl BufRead) -> Result<Table, Error> {
         let table = TableReader::new(source, reader)?.rows(usize::MAX)?;
         Ok(table.unwrap_or_default())
     }
 }
 
-/// A table that is read some rows at a time.
+/// A table that is read a few rows at a time.
 #[derive(Debug)]
 pub(crate) struct TableReader<R> {
     source: String,
     lines: Lines<R>,
     names: Vec<String>,
-    /// The numbers of a line.
+    /// The numbers of the current line.
     found: Vec<f64>,
-    /// Rows that have been read.
+    /// The number of rows that have been read.
     count: usize,
     wrong: Vec<String>,
 }
@@ -131,8 +130,8 @@ impl<R: BufRead> TableReader<R> {
         Ok(TableReader { source, lines, names, found: vec![], count: 0, wrong })
     }
 
-    /// The next rows, up to so many; `None` at the end. Where anything is wrong with the file, it is read to its
-    /// end.
+    /// Reads the next rows, up to `most`; `None` at the end. If there is an error in the file, it is read to its end to
+    /// find all errors.
     pub(crate) fn rows(&mut self, most: usize) -> Result<Option<Table>, Error> {
         let columns = self.names.iter().map(|name| (name.clone(), vec![]));
         let mut table = Table { columns: columns.collect() };
@@ -158,7 +157,7 @@ impl<R: BufRead> TableReader<R> {
     }
 }
 
-/// What is wrong with a line that has not a number for each name.
+/// The errors in a line without a number for each name.
 fn wrong_cells(place: &str, names: &[String], line: &str) -> Vec<String> {
     let cells = cells(line);
     let (found, expected) = (cells.len(), names.len());
@@ -173,7 +172,7 @@ fn wrong_cells(place: &str, names: &[String], line: &str) -> Vec<String> {
         .collect()
 }
 
-/// What is wrong with the column `t` of a table, row by row: it must be there and ascend.
+/// The check of the column `t` of a table, row by row: it must exist, and its values must increase.
 #[derive(Debug, Default)]
 pub(crate) struct Times {
     rows: usize,
@@ -182,7 +181,7 @@ pub(crate) struct Times {
 }
 
 impl Times {
-    /// Goes on with rows of the table.
+    /// Continues with further rows of the table.
     pub(crate) fn check(&mut self, source: &str, table: &Table) {
         let Some(times) = table.column("t") else {
             self.wrong = Some(format!("{source}: there is no column `t`, the time in s"));
@@ -201,7 +200,7 @@ impl Times {
     }
 }
 
-/// The problem with the column `t` of a table: it must exist and ascend.
+/// The error in the column `t` of a table, if there is one: it must exist, and its values must increase.
 pub(crate) fn check_times(source: &str, table: &Table) -> Vec<String> {
     let mut times = Times::default();
     times.check(source, table);
@@ -245,7 +244,7 @@ mod tests {
             ["a: the time does not increase at row 3 below the header"]
         );
         assert_eq!(wrong("q1\n0\n"), ["a: there is no column `t`, the time in s"]);
-        // Also from one part of a table to the next.
+        // Times must also increase from one part of a table to the next.
         let mut times = Times::default();
         for part in ["t\n0\n1\n", "t\n1\n2\n"] {
             times.check("a", &Table::read("a", part).unwrap());

@@ -1,4 +1,4 @@
-//! Joint torques over time: none, expressions, tables.
+//! Joint torques over time: none, expressions, or tables.
 
 use std::collections::BTreeMap;
 
@@ -12,15 +12,15 @@ use crate::error::Error;
 use crate::table::{Table, check_times};
 use crate::{expressions, features};
 
-/// Joint torques over time, N m or N.
+/// Joint torques over time, in N m or N.
 #[derive(Clone, Debug)]
 pub struct Torques(Law);
 
 #[derive(Clone, Debug)]
 enum Law {
-    /// A formula for each coordinate, and what their names mean.
+    /// A formula for each coordinate, and the meanings of the names in them.
     Formulas { formulas: Vec<Formula>, meanings: BTreeMap<String, Meaning> },
-    /// Samples for each coordinate over time.
+    /// The samples of each coordinate over time.
     Samples { t: Vec<f64>, columns: Vec<Vec<f64>> },
 }
 
@@ -34,7 +34,7 @@ enum Meaning {
 }
 
 impl Torques {
-    /// No joint torques on so many coordinates.
+    /// No joint torques for this many coordinates.
     #[must_use]
     pub fn none(degrees_of_freedom: usize) -> Torques {
         let zero = Formula::number(&robot_symbolic::Rational::ZERO);
@@ -42,13 +42,13 @@ impl Torques {
         Torques(Law::Formulas { formulas, meanings: BTreeMap::new() })
     }
 
-    /// Expressions such as `2 = -5*qd2 + sin(t)`: a coordinate, by its number (`2` or `tau2`) or its
-    /// joint's name, and a formula in t (s), q1 …, qd1 … and the robot's parameters. A coordinate without one is
-    /// not driven. `parameters` are those that are not to have their nominal values.
+    /// Reads expressions such as `2 = -5*qd2 + sin(t)`: a coordinate, given by its number (`2` or `tau2`) or the name
+    /// of its joint, and a formula in t (s), q1 …, qd1 … and the robot's parameters. A coordinate without an expression
+    /// is not driven. `parameters` are those with other than their nominal values.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the texts.
+    /// All errors in the texts.
     pub fn from_expressions(
         robot: &Robot,
         parameters: &[(&str, f64)],
@@ -81,13 +81,13 @@ impl Torques {
         Error::check(wrong, Torques(Law::Formulas { formulas, meanings }))
     }
 
-    /// Samples: the column t (s), rising, and one `tau1` … for each coordinate; other
-    /// columns are those of a motion, and not read. Between samples the forces are linear in t, at
-    /// the ends and beyond they stay at the last value; `duration` (s) must lie within the samples.
+    /// Samples: the column t (s) with increasing values, and a column `tau1` … for each coordinate; the other columns
+    /// of a motion are ignored. Torques are linear in t between samples and constant outside them, but the samples must
+    /// cover the `duration` (s).
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the table; `source` is its name in messages.
+    /// All errors in the table; `source` is its name in messages.
     pub fn from_table(
         robot: &Robot,
         source: &str,
@@ -181,7 +181,7 @@ fn at(values: &[f64], index: usize) -> f64 {
     values.get(index).copied().unwrap_or(f64::NAN)
 }
 
-/// The value at `t`, linear between samples.
+/// The value at `t`, with linear interpolation between samples.
 fn linear(times: &[f64], values: &[f64], t: f64) -> f64 {
     let after = times.partition_point(|time| *time <= t);
     let before = after.saturating_sub(1);
@@ -194,7 +194,7 @@ fn linear(times: &[f64], values: &[f64], t: f64) -> f64 {
     }
 }
 
-/// The columns of a motion beside its torques.
+/// Whether a column belongs to a motion, apart from its torques.
 fn is_of_motion(name: &str) -> bool {
     let motion = |(variable, _)| JointVariable::MOTION.contains(&variable);
     matches!(name, "t" | "kinetic" | "potential" | "energy")
@@ -213,7 +213,7 @@ fn meanings(robot: &Robot, parameters: &[(&str, f64)]) -> BTreeMap<String, Meani
     meanings
 }
 
-/// The coordinate of a joint's name, of a number from 1, or of `tau` and a number.
+/// The coordinate for the name of a joint, a number counted from 1, or `tau` with such a number.
 fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
     let by_joint = robot.coordinates.iter().position(|coordinate| coordinate.joint == name);
     let of_number = |text: &str| {

@@ -1,4 +1,4 @@
-//! Trajectories: motions that are given, by samples or by expressions in time.
+//! Trajectories: motions that are given by samples or by expressions in time.
 
 use std::collections::BTreeMap;
 
@@ -12,29 +12,29 @@ use crate::kinks::{Kink, kinks, poles};
 use crate::table::{Table, check_times};
 use crate::{expressions, grid};
 
-/// A motion that is given, with the wrenches at the tips: a sample for each time.
+/// A given motion with the wrenches of the tips, with one sample for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trajectory {
-    /// t, s, rising.
+    /// The times t in s, in ascending order.
     pub t: Vec<f64>,
-    /// q, rad or m.
+    /// The joint positions q, in rad or m.
     pub q: Vec<Vec<f64>>,
-    /// q̇, rad/s or m/s.
+    /// The joint velocities q̇, in rad/s or m/s.
     pub qd: Vec<Vec<f64>>,
-    /// q̈, rad/s² or m/s².
+    /// The joint accelerations q̈, in rad/s² or m/s².
     pub qdd: Vec<Vec<f64>>,
-    /// The wrenches that the tips exert on their surroundings, force (N) then moment (N m), in the tips' frames,
-    /// one tip after the other; `None` if nothing is said of wrenches.
+    /// The wrenches that the tips exert on their surroundings: force (N), then moment (N m), in the frames of the tips,
+    /// one tip after the other. `None` if no wrenches are given.
     pub wrenches: Option<Vec<Vec<f64>>>,
 }
 
-/// Columns that a motion has beside those of a trajectory.
+/// Whether a column belongs to a simulated motion but not to a trajectory.
 fn is_result(name: &str) -> bool {
     matches!(name, "kinetic" | "potential" | "energy")
         || matches!(JointVariable::parse(name), Some((JointVariable::Torque, _)))
 }
 
-/// `fx` … of the only tip, or `fx_NAME` … of each of several.
+/// The names of the wrench components: `fx` … for a single tip, or `fx_NAME` … for each of several tips.
 fn wrench_names(robot: &Robot) -> Vec<String> {
     let suffixes = robot.tips().map(|(tip, _)| robot.wrench_suffix(tip));
     let of_tip = |suffix: String| WRENCH_COMPONENTS.map(|component| format!("{component}{suffix}"));
@@ -49,20 +49,20 @@ fn rows(columns: &[&[f64]], count: usize) -> Vec<Vec<f64>> {
 }
 
 impl Trajectory {
-    /// Samples: the columns t (s), rising, q1 …, qd1 …, qdd1 …, and, if a tip exerts a wrench, fx,
-    /// fy, fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of a
-    /// simulated motion may be beside them; they are not read.
+    /// Samples: the columns t (s) with increasing values, q1 …, qd1 …, qdd1 …, and, if a tip exerts a wrench, fx, fy,
+    /// fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of a simulated motion are
+    /// ignored.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the table; `source` is its name in messages.
+    /// All errors in the table; `source` is its name in messages.
     pub fn from_table(robot: &Robot, source: &str, table: &Table) -> Result<Trajectory, Error> {
         let mut wrong = check_times(source, table);
         let trajectory = Trajectory::from_columns(robot, source, table, &mut wrong);
         Error::check(wrong, trajectory)
     }
 
-    /// [`Trajectory::from_table`] without the check of the times.
+    /// Like [`Trajectory::from_table`], without the check of the times.
     pub(crate) fn from_columns(
         robot: &Robot,
         source: &str,
@@ -97,7 +97,7 @@ impl Trajectory {
         }
     }
 
-    /// Up to so many samples from the one of that number on.
+    /// The samples from the index `start` on, at most `size`.
     #[must_use]
     pub fn part(&self, start: usize, size: usize) -> Trajectory {
         let of = |samples: &Vec<Vec<f64>>| samples.iter().skip(start).take(size).cloned().collect();
@@ -110,18 +110,17 @@ impl Trajectory {
         }
     }
 
-    /// Expressions such as `q1 = 0.5*sin(t)`, one for each coordinate, of t (s) and the robot's
-    /// parameters, and of the components of wrenches by the names of [`Trajectory::from_table`];
-    /// components without one are 0. Velocities and accelerations are the exact derivatives; samples
-    /// are `step` apart over `duration`, s. `parameters` are those that are not to have their nominal
-    /// values.
+    /// Reads expressions such as `q1 = 0.5*sin(t)`, one for each coordinate, in t (s) and the robot's parameters, and
+    /// expressions for the components of wrenches with the names of [`Trajectory::from_table`]; a component without one
+    /// is 0. Velocities and accelerations are exact derivatives. The samples are `step` apart over the `duration`, both
+    /// in s. `parameters` are those with other than their nominal values.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the texts, values that are not finite, positions or velocities that
-    /// jump, where the acceleration is an impulse, and positions without bound between two samples. Between samples, what
-    /// `abs` and `sign` are applied to and the factors of divisors are looked at four times a step: one that passes 0
-    /// twice within a quarter of a step, or touches 0 and is not written as a square, is not noticed.
+    /// All errors in the texts, values that are not finite, positions or velocities that jump, because the acceleration
+    /// would be an impulse there, and positions that are unbounded between two samples. Between two samples, arguments
+    /// of `abs` and `sign` and factors of divisors are evaluated at four times. One that passes 0 twice within a
+    /// quarter of a step, or touches 0 and is not written as a square, is not noticed.
     pub fn from_expressions(
         robot: &Robot,
         parameters: &[(&str, f64)],
@@ -159,7 +158,7 @@ impl Trajectory {
     }
 }
 
-/// The formulas by name, and what is wrong with their texts.
+/// The formulas by their names, and messages about errors in their texts.
 fn formulas(
     robot: &Robot,
     parameters: &BTreeMap<String, f64>,
@@ -194,7 +193,7 @@ fn formulas(
     (formulas, wrong)
 }
 
-/// A message for each coordinate whose position or velocity jumps, or whose position has no bound.
+/// A message for each coordinate whose position or velocity jumps, or whose position is unbounded.
 fn kinked<'g>(
     graph: &'g Graph,
     [q, qd]: [&[Expr<'g>]; 2],
@@ -227,7 +226,7 @@ fn kinked<'g>(
     kinks(q, qd, times, &value).into_iter().map(message).chain(poles).collect()
 }
 
-/// The values of expressions at a time.
+/// The values of expressions at a time; an error if they are not finite.
 fn at(
     graph: &Graph,
     exprs: &[Expr<'_>],

@@ -1,10 +1,10 @@
-//! Rates of the canonical polynomial: `cargo bench -p robot_symbolic`.
+//! Benchmarks of canonical polynomials: `cargo bench -p robot_symbolic`.
 
 use std::time::Instant;
 
 use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions};
 
-/// A sum of `terms` products of symbols, sines and cosines, as equations of motion have them.
+/// A sum of `terms` products of symbols, sines and cosines, like those in equations of motion.
 fn equation<'g>(graph: &'g Graph, terms: usize, stride: usize) -> Expr<'g> {
     let mass = |k: usize| graph.symbol(&format!("M{}", k % 7));
     let length = |k: usize| graph.symbol(&format!("l{}", k % 11));
@@ -18,14 +18,14 @@ fn equation<'g>(graph: &'g Graph, terms: usize, stride: usize) -> Expr<'g> {
     })
 }
 
-/// `(1 + x + y + z + t)^power`, whose products fall on few monomials.
+/// `(1 + x + y + z + t)^power`: products of its terms give few different monomials.
 fn dense(graph: &Graph, power: i32) -> Expr<'_> {
     let symbols = ["x", "y", "z", "t"].map(|name| graph.symbol(name));
     let sum = symbols.into_iter().fold(graph.one(), |sum, x| sum + x);
     sum.powi(power)
 }
 
-/// The best rate of five products.
+/// Prints the best rate of five multiplications.
 fn report(name: &str, a: &Polynomial<'_>, b: &Polynomial<'_>) {
     let products = a.len() * b.len();
     let (mut rate, mut length) = (0.0_f64, 0);

@@ -5,30 +5,30 @@ use std::fmt;
 use crate::graph::{Function, Graph, Id, Node, SymbolId};
 use crate::number::Number;
 
-/// An expression: a copyable handle into its [`Graph`].
+/// An expression: a handle into its [`Graph`] that can be copied.
 ///
-/// Two handles are equal when they name the same node, which for one graph is when the expressions
-/// are the same after the local rules.
+/// Two handles are equal if they refer to the same node. Within one graph, these are the expressions that the local
+/// rules make identical.
 #[derive(Clone, Copy)]
 pub struct Expr<'g> {
     graph: &'g Graph,
     id: Id,
 }
 
-/// One level of an expression, for code that walks it.
+/// The outermost operation of an expression with its operands, for code that traverses expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum View<'g> {
-    /// A constant that is not negative (signs are `Neg`).
+    /// A constant, never negative: a minus sign is a `Neg`.
     Number(Number),
     /// The constant π.
     Pi,
     /// A symbol.
     Symbol(SymbolId),
-    /// A sum of two.
+    /// A sum of two expressions.
     Add(Expr<'g>, Expr<'g>),
     /// A difference.
     Sub(Expr<'g>, Expr<'g>),
-    /// A product of two.
+    /// A product of two expressions.
     Mul(Expr<'g>, Expr<'g>),
     /// A quotient.
     Div(Expr<'g>, Expr<'g>),
@@ -49,7 +49,7 @@ impl<'g> Expr<'g> {
         self.graph
     }
 
-    /// The identity in its graph.
+    /// The expression's identity in its graph.
     #[must_use]
     pub fn id(self) -> Id {
         self.id
@@ -74,13 +74,13 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// The constant, if the expression is a constant (π is not a [`Number`]).
+    /// Returns the value if the expression is a constant other than π, which is not a [`Number`].
     #[must_use]
     pub fn as_number(self) -> Option<Number> {
         self.graph.as_number(self.id)
     }
 
-    /// The symbol, if the expression is a symbol.
+    /// Returns the symbol if the expression is one.
     #[must_use]
     pub fn as_symbol(self) -> Option<SymbolId> {
         match self.graph.node(self.id) {
@@ -101,49 +101,49 @@ impl<'g> Expr<'g> {
         self.as_number().is_some_and(|number| number.is_one())
     }
 
-    /// Sine; exact at multiples of π/6 and π/4, with quarter turns taken out of sums.
+    /// The sine; exact at multiples of π/6 and π/4, and without quarter turns in its argument.
     #[must_use]
     pub fn sin(self) -> Expr<'g> {
         self.wrap(self.graph.call(Function::Sin, self.id))
     }
 
-    /// Cosine; exact at multiples of π/6 and π/4, with quarter turns taken out of sums.
+    /// The cosine; exact at multiples of π/6 and π/4, and without quarter turns in its argument.
     #[must_use]
     pub fn cos(self) -> Expr<'g> {
         self.wrap(self.graph.call(Function::Cos, self.id))
     }
 
-    /// Square root.
+    /// The square root.
     #[must_use]
     pub fn sqrt(self) -> Expr<'g> {
         self.apply(Function::Sqrt)
     }
 
-    /// Absolute value.
+    /// The absolute value.
     #[must_use]
     pub fn abs(self) -> Expr<'g> {
         self.apply(Function::Abs)
     }
 
-    /// Sign, with sgn 0 = 0.
+    /// The sign, with sgn 0 = 0.
     #[must_use]
     pub fn sign(self) -> Expr<'g> {
         self.apply(Function::Sign)
     }
 
-    /// Hyperbolic tangent.
+    /// The hyperbolic tangent.
     #[must_use]
     pub fn tanh(self) -> Expr<'g> {
         self.apply(Function::Tanh)
     }
 
-    /// 1/x if x is above 0 and finite, otherwise NaN.
+    /// 1/x if x is positive and finite, otherwise NaN.
     #[must_use]
     pub fn recip_positive(self) -> Expr<'g> {
         self.apply(Function::RecipPositive)
     }
 
-    /// A function of the expression.
+    /// Applies a function to the expression.
     #[must_use]
     pub fn apply(self, function: Function) -> Expr<'g> {
         self.wrap(self.graph.call(function, self.id))
@@ -155,7 +155,7 @@ impl<'g> Expr<'g> {
         self * self
     }
 
-    /// An integer power, by repeated squaring; a negative one is a reciprocal.
+    /// An integer power, computed by repeated squaring; a negative exponent gives the reciprocal of the positive power.
     #[must_use]
     pub fn powi(self, exponent: i32) -> Expr<'g> {
         let (mut result, mut square) = (self.graph.one(), self);

@@ -12,8 +12,8 @@ use crate::number::Number;
 use crate::polynomial::AtomTable;
 use crate::rational::Rational;
 
-/// The identity of a node in its [`Graph`]. Operands always have smaller ids than their node, so a pass in the order
-/// of ids visits operands first.
+/// The identity of a node in its [`Graph`]. A node's operands always have smaller ids than the node itself, so a pass
+/// in ascending order of ids visits operands first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Id(pub(crate) u32);
 
@@ -48,17 +48,17 @@ pub enum Function {
     Sqrt,
     /// Absolute value.
     Abs,
-    /// −1, 0 or 1 by the sign of the argument; sgn 0 = 0.
+    /// The sign of the argument: −1, 0 or 1, with sgn 0 = 0.
     Sign,
     /// Hyperbolic tangent.
     Tanh,
-    /// 1/x if x is above 0 and finite, NaN elsewhere: for divisors that are positive unless something is wrong.
+    /// 1/x if x is positive and finite, otherwise NaN: for divisors that are positive unless something is wrong.
     /// Formulas in files cannot use it.
     RecipPositive,
 }
 
 impl Function {
-    /// The functions that formulas may apply, in the order of their declaration.
+    /// The functions that formulas can apply, in the order of their declaration.
     pub const ALL: [Function; 6] = [
         Function::Sin,
         Function::Cos,
@@ -68,7 +68,7 @@ impl Function {
         Function::Tanh,
     ];
 
-    /// The name in infix text.
+    /// The function's name in formulas.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -82,7 +82,7 @@ impl Function {
         }
     }
 
-    /// The value at a number.
+    /// Returns the function's value at a number.
     #[must_use]
     pub fn apply(self, argument: f64) -> f64 {
         match self {
@@ -99,7 +99,7 @@ impl Function {
     }
 }
 
-/// A node. Numbers are never negative: signs are hoisted into `Neg`, which the rules move outward.
+/// A node. Numbers are never negative: the minus sign becomes a `Neg` node, which the rules move outward.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Node {
     Number(u32),
@@ -126,7 +126,7 @@ impl Node {
     }
 }
 
-/// An operation on two constants whose result is remembered.
+/// An operation on two constants; the graph caches its results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Folding {
     Add,
@@ -136,13 +136,13 @@ pub(crate) enum Folding {
 
 /// An arena of expressions, each stored once.
 ///
-/// The same sequence of operations gives the same ids, and with them the same order in every
-/// output. A graph is meant to live for one derivation.
+/// The same sequence of operations gives the same ids, and therefore the same order in every output. A graph is meant
+/// to live for one derivation.
 #[derive(Default)]
 pub struct Graph {
     inner: RefCell<Inner>,
     atoms: RefCell<AtomTable>,
-    /// The most nodes that operations may make; `None` without limit.
+    /// The number of nodes at which operations stop creating new ones; `None` for no limit.
     limit: Option<usize>,
 }
 
@@ -152,11 +152,11 @@ struct Inner {
     index: HashTable<u32>,
     numbers: IndexSet<Number, FxBuildHasher>,
     symbols: IndexMap<String, Id, FxBuildHasher>,
-    /// Results on constants: a search derives the same ones over and over.
+    /// Cached results of operations on constants, because a search derives the same constants many times.
     folded: HashMap<(Folding, Id, Id), Id, FxBuildHasher>,
 }
 
-/// The number of nodes: a graph is too large to print.
+/// Writes only the number of nodes, because a graph is too large to print.
 impl std::fmt::Debug for Graph {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(formatter, "Graph({} nodes)", self.len())
@@ -170,22 +170,23 @@ impl Graph {
         Graph::default()
     }
 
-    /// An empty graph for at most this many nodes: a derivation that is too long ends early and does not use up memory.
+    /// An empty graph with a limit on its number of nodes, so that a derivation that grows too long ends early instead
+    /// of using up the memory.
     ///
-    /// If the graph [is full](Graph::is_full), operations return one of their operands instead of a new node, so all
+    /// Once the graph [is full](Graph::is_full), operations return one of their operands instead of a new node, so all
     /// results are meaningless.
     #[must_use]
     pub fn limited(nodes: usize) -> Graph {
         Graph { limit: Some(nodes), ..Graph::default() }
     }
 
-    /// Whether the limit of the graph was reached: its expressions are then meaningless.
+    /// Whether the graph has reached its limit, so that its expressions are meaningless.
     #[must_use]
     pub fn is_full(&self) -> bool {
         self.limit.is_some_and(|limit| self.len() >= limit)
     }
 
-    /// The symbol of that name, the same at each call.
+    /// Returns the symbol with this name, which is the same at every call.
     pub fn symbol(&self, name: &str) -> Expr<'_> {
         let known = self.inner.borrow().symbols.get(name).copied();
         let id = known.unwrap_or_else(|| {
@@ -197,26 +198,26 @@ impl Graph {
         self.expr(id)
     }
 
-    /// The symbol of that name if one has been made.
+    /// Returns the symbol with this name, if it has been created.
     #[must_use]
     pub fn find_symbol(&self, name: &str) -> Option<Expr<'_>> {
         self.inner.borrow().symbols.get(name).map(|id| self.expr(*id))
     }
 
-    /// The name of a symbol of this graph; empty for the id of another graph's symbol.
+    /// The name of a symbol of this graph. The id of another graph's symbol gives a wrong name or an empty one.
     #[must_use]
     pub fn symbol_name(&self, symbol: SymbolId) -> String {
         let inner = self.inner.borrow();
         inner.symbols.get_index(symbol.index()).map(|(name, _)| name.clone()).unwrap_or_default()
     }
 
-    /// The number of symbols made so far.
+    /// The number of symbols created so far.
     #[must_use]
     pub fn symbol_count(&self) -> usize {
         self.inner.borrow().symbols.len()
     }
 
-    /// The symbols made so far, in the order of their ids.
+    /// The symbols created so far, in the order of their ids.
     pub fn symbols(&self) -> impl Iterator<Item = SymbolId> + use<> {
         (0..self.symbol_count() as u32).map(SymbolId)
     }
@@ -252,15 +253,16 @@ impl Graph {
         self.inner.borrow().nodes.len()
     }
 
-    /// Whether no expression has been made.
+    /// Whether no expression has been created.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The expression with an id of this graph.
+    /// Returns the expression with this id.
     ///
-    /// Ids of another graph name other expressions; one past the end reads as NaN.
+    /// The id must be one of this graph: an id of another graph denotes an unrelated expression or, if it is too large,
+    /// makes any use of the result panic.
     #[must_use]
     pub fn expr(&self, id: Id) -> Expr<'_> {
         Expr::new(self, id)
@@ -274,18 +276,18 @@ impl Graph {
         self.inner.borrow().nodes[id.index()]
     }
 
-    /// Lends all nodes, in the order of their ids.
+    /// Calls `read` with all nodes, in the order of their ids.
     pub(crate) fn with_nodes<T>(&self, read: impl FnOnce(&[Node]) -> T) -> T {
         read(&self.inner.borrow().nodes)
     }
 
-    /// Interns a constant; the sign of a negative one becomes a `Neg` node.
+    /// Interns a constant; a negative constant becomes a `Neg` node over its absolute value.
     pub(crate) fn intern_number(&self, value: &Number) -> Id {
         if value.is_negative() {
             let positive = self.intern_number(&-value);
             return self.intern(Node::Neg(positive));
         }
-        // One zero only: the float zero is the exact one.
+        // There is only one zero: a floating-point zero is stored as the exact one.
         let value = if value.is_zero() { Number::integer(0) } else { value.clone() };
         let (index, _) = self.inner.borrow_mut().numbers.insert_full(value);
         self.intern(Node::Number(index as u32))
@@ -322,7 +324,7 @@ impl Graph {
         }
     }
 
-    /// The constant that a node is, its sign included.
+    /// Returns the value of a constant node with its sign, or `None` for other nodes.
     pub(crate) fn as_number(&self, id: Id) -> Option<Number> {
         let inner = self.inner.borrow();
         let positive = |id: Id| match inner.nodes[id.index()] {
@@ -374,7 +376,7 @@ mod tests {
             (graph.len(), graph.is_full())
         };
         let (nodes, is_full) = grown(&limited);
-        // Symbols are made past the limit, operations are not.
+        // A full graph still creates symbols, but no operations.
         assert!(is_full && (50..=50 + 100).contains(&nodes), "{nodes}");
         let (nodes, is_full) = grown(&free);
         assert!(!is_full && nodes > 200, "{nodes}");

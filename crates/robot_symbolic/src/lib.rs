@@ -1,8 +1,8 @@
 //! Symbolic algebra for robot mechanics.
 //!
-//! A [`Graph`] interns expressions: every [`Expr`] is a small copyable handle, equal expressions are
-//! one node, and the operators `+ - * /` build new ones through local rules only (see [`rules`]).
-//! Constants are exact rationals ([`Number`]); sines and cosines at multiples of π/2 are exact.
+//! A [`Graph`] interns expressions: every [`Expr`] is a small handle that can be copied, and equal expressions share
+//! one node. The operators `+ - * /` simplify only by local rules (see [`rules`]). Constants are exact rational numbers
+//! ([`Number`]), and sines and cosines of multiples of π/2 are exact.
 //!
 //! ```
 //! use robot_symbolic::Graph;
@@ -12,12 +12,13 @@
 //! assert_eq!((q1 + graph.pi() / 2).sin(), q1.cos());
 //! ```
 //!
-//! Around the graph:
+//! The main parts beside the graph:
 //!
-//! - [`Formula`] is expression text that belongs to no graph, as in robot files, checked when it is read; [`Graph::parse`] makes an expression from text directly;
-//! - [`walk`] evaluates, substitutes and differentiates;
-//! - [`Polynomial`] is the canonical form: equality, expansion, collection by symbols;
-//! - [`mod@print`] writes expressions and polynomials as text that reads back.
+//! - [`Formula`] is the text of an expression, as in robot files. It belongs to no graph and is checked when it is
+//!   read; [`Graph::parse`] makes an expression directly from text.
+//! - [`walk`] evaluates, substitutes and differentiates expressions.
+//! - [`Polynomial`] is the canonical form: it decides equality, expands expressions and collects terms by symbols.
+//! - [`mod@print`] writes expressions and polynomials as text that can be parsed again.
 //!
 //! ```
 //! use robot_symbolic::{Graph, Polynomial, PolynomialOptions, polynomial, print};

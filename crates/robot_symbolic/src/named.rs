@@ -1,18 +1,18 @@
 //! Named expressions: functions of named inputs, as they are derived, compiled and printed.
 //!
-//! One set of types goes all the way: what derives a robot fills [`Function`]s, a compiler takes them, and what
-//! it makes of them keeps their [`Input`]s and, without the expressions, their [`Output`]s.
+//! All stages share these types: the derivation of a robot creates [`Function`]s, the compiler takes them, and the
+//! compiled program keeps their [`Input`]s and, without the expressions, their [`Output`]s.
 
 use crate::expr::Expr;
 
-/// A function: inputs, and outputs computed from them and from symbols that are given once.
+/// A function: its outputs are computed from its inputs and from symbols that are set only once.
 #[derive(Clone, Debug)]
 pub struct Function<'g> {
-    /// Its name.
+    /// The function's name.
     pub name: String,
-    /// What it computes, in Markdown, a paragraph each: conventions, frames, source.
+    /// What the function computes, with its conventions, frames and source, in Markdown; one string per paragraph.
     pub doc: Vec<String>,
-    /// The inputs, in the order of the call.
+    /// The inputs, in the order of the arguments.
     pub inputs: Vec<Input>,
     /// The outputs.
     pub outputs: Vec<Output<Vec<Expr<'g>>>>,
@@ -25,20 +25,20 @@ pub struct Input {
     pub name: String,
     /// Its meaning, in Markdown.
     pub doc: String,
-    /// Its unit, in words if the entries differ; empty if it has none.
+    /// The unit, described in words if the entries have different units; empty if there is none.
     pub unit: String,
     /// The symbol of each entry.
     pub symbols: Vec<String>,
 }
 
-/// An output: a scalar, a vector or a matrix; `V` is its entries, or nothing once they are part of a program.
+/// An output: a scalar, a vector or a matrix. `V` is the type of its entries, or `()` once they are part of a program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Output<V = ()> {
     /// The name of the array.
     pub name: String,
     /// Its meaning, in Markdown.
     pub doc: String,
-    /// Its unit, in words if the entries differ; empty if it has none.
+    /// The unit, described in words if the entries have different units; empty if there is none.
     pub unit: String,
     /// `[]` for a scalar, `[n]` for a vector, `[rows, columns]` for a matrix.
     pub shape: Vec<usize>,
@@ -47,19 +47,19 @@ pub struct Output<V = ()> {
 }
 
 impl<V> Output<V> {
-    /// The output with these entries.
+    /// Creates an output with these entries.
     #[must_use]
     pub fn new(name: &str, doc: &str, unit: &str, shape: Vec<usize>, values: V) -> Output<V> {
         Output { name: name.to_owned(), doc: doc.to_owned(), unit: unit.to_owned(), shape, values }
     }
 
-    /// The output without its entries.
+    /// Returns the output without its entries.
     #[must_use]
     pub fn described(&self) -> Output {
         Output::new(&self.name, &self.doc, &self.unit, self.shape.clone(), ())
     }
 
-    /// The number of entries that the shape has.
+    /// The number of entries according to the shape.
     #[must_use]
     pub fn len(&self) -> usize {
         self.shape.iter().product()

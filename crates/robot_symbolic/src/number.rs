@@ -1,4 +1,4 @@
-//! Constants: exact while they are rational, floating-point once an irrational enters.
+//! Constants: exact as long as they are rational and not too long, otherwise floating-point numbers.
 
 use std::hash::{Hash, Hasher};
 
@@ -6,9 +6,9 @@ use crate::rational::{MAX_BITS, Rational};
 
 /// A constant of an expression.
 ///
-/// Robot files contain decimals, which are exact rationals; sums and products of them stay exact. A constant becomes
-/// `Real` if it has no rational value (the sine of an arbitrary angle, evaluated for code), or would need more than a
-/// few thousand bits.
+/// Robot files contain decimal numbers, which are exact rationals, and their sums and products stay exact. A constant
+/// becomes `Real` if it has no rational value (for example the sine of an arbitrary angle, evaluated for code) or if it
+/// would need more than a few thousand bits.
 #[derive(Clone, Debug)]
 pub enum Number {
     /// An exact value.
@@ -42,7 +42,7 @@ impl Number {
         }
     }
 
-    /// Whether the value is 0 (exactly, or the float zero).
+    /// Whether the value is 0, exact or as a floating-point number.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         match self {
@@ -51,7 +51,7 @@ impl Number {
         }
     }
 
-    /// Whether the value is exactly 1.
+    /// Whether the value is 1 (exactly, or the floating-point number 1).
     #[must_use]
     pub fn is_one(&self) -> bool {
         match self {
@@ -60,7 +60,7 @@ impl Number {
         }
     }
 
-    /// Whether the value is below 0. NaN is not.
+    /// Whether the value is below 0; false for NaN.
     #[must_use]
     pub fn is_negative(&self) -> bool {
         match self {
@@ -69,7 +69,8 @@ impl Number {
         }
     }
 
-    /// `1 / self`; the reciprocal of 0 is the float NaN: a value that every reader can refuse.
+    /// `1 / self`. The reciprocal of an exact 0 is a floating-point NaN, which every user of the number can detect and
+    /// refuse.
     #[must_use]
     pub fn recip(&self) -> Number {
         match self {
@@ -80,8 +81,8 @@ impl Number {
         }
     }
 
-    /// The cost of arithmetic on the number beyond that on machine words, in units of that: nothing
-    /// for small numbers, memory to allocate and words to multiply for large ones.
+    /// The extra cost of arithmetic on the number, in units of the cost of arithmetic on machine words: 0 for small
+    /// numbers, and more for large ones, which need allocations and the multiplication of many words.
     pub(crate) fn weight(&self) -> u64 {
         match self {
             Number::Rational(rational) if rational.to_small().is_none() => {
@@ -160,7 +161,7 @@ impl std::ops::Neg for &Number {
     }
 }
 
-/// Identity of representation: floats by their bits, so that interning is deterministic.
+/// Equality of representation; floating-point numbers are compared by their bits, so that interning is deterministic.
 impl PartialEq for Number {
     fn eq(&self, other: &Number) -> bool {
         match (self, other) {

@@ -1,9 +1,9 @@
-//! Counting what an evaluation costs.
+//! Operation counts of expressions.
 
 use crate::expr::Expr;
 use crate::graph::{Function, Id, Node, SymbolId};
 
-/// Operations of a set of expressions; a shared operation counts once, and changes of sign do not count.
+/// The operation count of a set of expressions. A shared operation counts once, and changes of sign do not count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Operations {
     /// Products, including squares.
@@ -16,8 +16,8 @@ pub struct Operations {
     pub trigonometric: usize,
     /// Square roots, absolute values, signs and hyperbolic tangents.
     pub other: usize,
-    /// Sums and differences with a product that nothing else uses: each can be one instruction with
-    /// it, a multiply-add.
+    /// Sums and differences with an operand that is a product without other uses: each can be fused with that product
+    /// into one multiply-add instruction.
     pub fusible: usize,
 }
 
@@ -28,15 +28,15 @@ impl Operations {
         self.multiplications + self.additions
     }
 
-    /// Multiplications and additions if each fusible pair is one multiply-add.
+    /// Multiplications plus additions, with each fusible pair counted as one multiply-add.
     #[must_use]
     pub fn instructions(&self) -> usize {
         self.flops() - self.fusible
     }
 }
 
-/// The operations that `roots` need each time the symbols change that are not `free`: an expression that depends only
-/// on free symbols and constants is computed beforehand and does not count.
+/// Counts the operations that `roots` need whenever the symbols that are not `free` change. An expression that depends
+/// only on free symbols and constants is computed beforehand and does not count.
 ///
 /// Use a [`Counter`] to count repeatedly on one graph.
 #[must_use]
@@ -44,8 +44,8 @@ pub fn operations(roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operat
     Counter::default().count(roots, free)
 }
 
-/// Counts like [`operations`], repeatedly on one graph: the table of nodes is kept, so the time of a count depends on
-/// the expressions below its roots, not on the size of the graph.
+/// Counts like [`operations`], for repeated use on one graph. It keeps its table of nodes, so the time of a count
+/// depends on the expressions below the roots, not on the size of the graph.
 #[derive(Clone, Debug, Default)]
 pub struct Counter {
     marks: Vec<Mark>,
@@ -55,18 +55,18 @@ pub struct Counter {
 /// The state of a node during a count.
 #[derive(Clone, Copy, Debug, Default)]
 struct Mark {
-    /// The last count that met the node; the rest is of that count.
+    /// The number of the last count that reached the node; the other fields belong to that count.
     met: u64,
-    /// Whether it depends on symbols that are not free.
+    /// Whether the node depends on symbols that are not free.
     varies: bool,
-    /// Whether it has to be computed at each change.
+    /// Whether the node must be computed whenever these symbols change.
     needed: bool,
-    /// The number of needed uses.
+    /// The number of its uses by needed nodes and roots.
     uses: u32,
 }
 
 impl Counter {
-    /// The operations that `roots` need each time the symbols change that are not `free`.
+    /// Counts the operations that `roots` need whenever the symbols that are not `free` change.
     pub fn count(&mut self, roots: &[Expr<'_>], free: impl Fn(SymbolId) -> bool) -> Operations {
         let Some(graph) = roots.first().map(|root| root.graph()) else {
             return Operations::default();
@@ -80,7 +80,7 @@ impl Counter {
         })
     }
 
-    /// Meets what is below the roots, operands first, and marks what varies.
+    /// Visits all nodes below the roots, operands first, and marks those that vary.
     fn mark_varying(&mut self, nodes: &[Node], roots: &[Id], free: impl Fn(SymbolId) -> bool) {
         self.count += 1;
         self.marks.resize(nodes.len().max(self.marks.len()), Mark::default());
@@ -103,7 +103,7 @@ impl Counter {
         }
     }
 
-    /// The nodes below the roots that vary, in any order.
+    /// Marks the varying nodes below the roots as needed and returns them, in no particular order.
     fn mark_needed(&mut self, nodes: &[Node], roots: &[Id]) -> Vec<Id> {
         let mut needed = vec![];
         let mut pending = roots.to_vec();
@@ -117,8 +117,8 @@ impl Counter {
         needed
     }
 
-    /// The number of times that each node is an operand of `needed` nodes or a root; a change of sign is part of its
-    /// use.
+    /// Counts how often each node is an operand of a `needed` node or a root. A change of sign between the two is not a
+    /// use of its own.
     fn mark_uses(&mut self, nodes: &[Node], roots: &[Id], needed: &[Id]) {
         let users = needed.iter().map(|id| nodes[id.index()]);
         let users = users.filter(|node| !matches!(node, Node::Neg(_)));
@@ -151,7 +151,7 @@ impl Counter {
     }
 }
 
-/// The node without its changes of sign.
+/// Returns the node below all changes of sign.
 fn unsigned(nodes: &[Node], mut id: Id) -> Id {
     while let Node::Neg(inner) = nodes[id.index()] {
         id = inner;
@@ -197,9 +197,9 @@ mod tests {
         let count = |roots: &[crate::Expr<'_>]| operations(roots, |_| false);
         assert_eq!(count(&[a * b + c]).instructions(), 1);
         assert_eq!(count(&[c - a * b]).instructions(), 1);
-        // Of two products one.
+        // Only one of the two products can be fused.
         assert_eq!(count(&[a * b + c * d]).instructions(), 2);
-        // Used twice, or a result itself.
+        // These products are used twice, or are results themselves.
         assert_eq!(count(&[a * b + c, a * b + d]).instructions(), 3);
         assert_eq!(count(&[a * b + c, -(a * b)]).instructions(), 2);
     }

@@ -1,4 +1,4 @@
-//! `+ - * /` and the unary minus on expressions, with integers on the right.
+//! The operators `+ - * /` and the unary minus for expressions; the right operand can be an integer.
 
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 

@@ -1,4 +1,4 @@
-//! Pseudo-random numbers, the same on every machine for one seed.
+//! Pseudo-random numbers that depend only on the seed, on every machine.
 
 /// A generator: `SplitMix64` (G. L. Steele, D. Lea, C. H. Flood, "Fast Splittable Pseudorandom Number
 /// Generators", OOPSLA 2014).
@@ -6,7 +6,7 @@
 pub struct Random(u64);
 
 impl Random {
-    /// A generator; equal seeds give equal numbers.
+    /// Creates a generator; equal seeds give equal numbers.
     #[must_use]
     pub fn new(seed: u64) -> Random {
         Random(seed)
@@ -21,7 +21,7 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number from `low` to `high`; `high` is excluded, except for rounding.
+    /// A number from `low` to `high`; `high` is excluded, except when rounding reaches it.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * unit

@@ -10,13 +10,13 @@ use crate::rational::Rational;
 pub(crate) enum Kind {
     /// Sums, products, sines and cosines of integer combinations of angles.
     Trigonometric,
-    /// These, and quotients, roots, absolute values, signs, hyperbolic tangents.
+    /// The same, and quotients, roots, absolute values, signs and hyperbolic tangents.
     Any,
 }
 
 pub(crate) const SYMBOLS: [&str; 6] = ["x", "y", "l_1", "q1", "q2", "q3"];
 
-/// A random expression of `size` operations; parts are shared now and then.
+/// A random expression from `size` random operations, some of which share operands.
 pub(crate) fn expression<'g>(
     graph: &'g Graph,
     random: &mut Random,
@@ -47,7 +47,7 @@ pub(crate) fn expression<'g>(
     parts[parts.len() - 1]
 }
 
-/// An integer combination of the angles with quarter turns.
+/// An integer combination of the angles and quarter turns.
 pub(crate) fn angle<'g>(graph: &'g Graph, random: &mut Random) -> Expr<'g> {
     let mut sum = graph.pi() * random.index(4) as i64 / 2;
     for name in ["q1", "q2", "q3"] {
@@ -62,7 +62,7 @@ fn constant(random: &mut Random) -> Rational {
     Rational::new(numerator, denominator).unwrap()
 }
 
-/// Values of the symbols, by their order in the graph.
+/// Random values for `count` symbols, in the order of their ids.
 pub(crate) fn point(random: &mut Random, count: usize) -> Vec<f64> {
     (0..count).map(|_| random.uniform(-1.5, 1.5)).collect()
 }

@@ -1,4 +1,4 @@
-//! Exact rational numbers: machine words while they fit, `dashu`'s big rationals beyond.
+//! Exact rational numbers: machine words as long as they suffice, otherwise the big rationals of `dashu`.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -7,25 +7,26 @@ use dashu_base::{Approximation, BitTest, Sign};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
-/// Numerators and denominators beyond this many bits are no longer kept exactly (see
-/// [`crate::Number`]): no honest robot file needs more, and a hostile one must not fill the memory.
+/// The largest number of bits of a numerator or denominator that is kept exactly (see [`crate::Number`]): no reasonable
+/// robot file needs more, and a hostile one must not fill the memory.
 pub(crate) const MAX_BITS: usize = 8192;
 
-/// Decimal text of more digits than this is refused: no number of [`MAX_BITS`] bits has more.
+/// The largest number of digits in decimal text: a number of [`MAX_BITS`] bits does not have more.
 const MAX_DIGITS: usize = 2600;
 
 /// An exact rational number in lowest terms.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Rational(Repr);
 
-/// `Small` whenever numerator and denominator fit: equal values have equal representations.
+/// The representation. It is `Small` whenever numerator and denominator fit, so equal values have equal
+/// representations.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 enum Repr {
     Small {
         numerator: i64,
         denominator: i64,
     },
-    /// Behind a pointer: almost every number is small, and terms are moved about by the million.
+    /// A number beyond machine words, boxed because almost every number is small and terms are moved millions of times.
     Big(Box<RBig>),
 }
 
@@ -49,8 +50,8 @@ impl Rational {
 
     /// The exact value of decimal text as in robot files: `12`, `-0.35`, `1.5e-3`.
     ///
-    /// `None` if the text is not a finite decimal number, or its exponent is beyond ±400 (no `f64`
-    /// is that large or small).
+    /// Returns `None` if the text is not a finite decimal number, is too long, or has an exponent beyond ±400, which no
+    /// `f64` needs.
     #[must_use]
     pub fn from_decimal(text: &str) -> Option<Rational> {
         let text = text.replace('_', "");
@@ -90,7 +91,7 @@ impl Rational {
     #[must_use]
     pub fn to_f64(&self) -> f64 {
         match &self.0 {
-            // Both exact below 2^53, so that one division rounds once.
+            // Both are exact in an `f64` because they are below 2^53, so the division rounds only once.
             Repr::Small { numerator, denominator }
                 if numerator.unsigned_abs() < 1 << 53 && *denominator < 1 << 53 =>
             {
@@ -111,13 +112,13 @@ impl Rational {
         }
     }
 
-    /// The value as an integer if it is one and fits.
+    /// Returns the value as an integer if it is one and fits an `i64`.
     #[must_use]
     pub fn to_integer(&self) -> Option<i64> {
         self.to_small().and_then(|(numerator, denominator)| (denominator == 1).then_some(numerator))
     }
 
-    /// Numerator and denominator in decimal digits, the sign with the numerator.
+    /// Numerator and denominator in decimal digits; the numerator carries the sign.
     #[must_use]
     pub fn to_digits(&self) -> (String, String) {
         match &self.0 {
@@ -164,7 +165,7 @@ impl Rational {
         }
     }
 
-    /// The number of bits of the larger of numerator and denominator.
+    /// The number of bits of the numerator or denominator, whichever is larger; 64 for machine words.
     pub(crate) fn bits(&self) -> usize {
         match &self.0 {
             Repr::Small { .. } => 64,
@@ -181,8 +182,8 @@ impl Rational {
         }
     }
 
-    /// The operation on two integers, most of what polynomials do; `None` for other numbers and
-    /// results that need more than a word.
+    /// Applies an operation to two integers, the most frequent case in polynomials. Returns `None` if a number is not
+    /// an integer of one word or if the result does not fit one.
     #[inline]
     pub(crate) fn integers(
         &self,
@@ -217,7 +218,7 @@ impl Rational {
     }
 }
 
-/// Lowest terms, positive denominator. `denominator` is not 0.
+/// Reduces the fraction to lowest terms with a positive denominator. `denominator` must not be 0.
 fn reduce(numerator: i128, denominator: i128) -> Rational {
     let divisor = gcd(numerator.unsigned_abs(), denominator.unsigned_abs());
     // The divisor is at most |denominator| < 2^127, so the casts are exact.
@@ -225,10 +226,10 @@ fn reduce(numerator: i128, denominator: i128) -> Rational {
     of_lowest(numerator / divisor, denominator / divisor)
 }
 
-/// The quotient of numbers that have no common divisor, the denominator positive.
+/// The rational number with this numerator and positive denominator, which must have no common divisor.
 fn of_lowest(numerator: i128, denominator: i128) -> Rational {
     match (i64::try_from(numerator), i64::try_from(denominator)) {
-        // i64::MIN is left to the big form so that negation never overflows.
+        // i64::MIN uses the big representation so that a negation never overflows.
         (Ok(numerator), Ok(denominator)) if numerator != i64::MIN => {
             Rational(Repr::Small { numerator, denominator })
         }
@@ -239,7 +240,7 @@ fn of_lowest(numerator: i128, denominator: i128) -> Rational {
     }
 }
 
-/// The greatest common divisor of two numbers of one word, neither of them `i64::MIN`; of 0 and a denominator that
+/// The greatest common divisor of two `i64`, neither of which is `i64::MIN`. For 0 and a denominator, it is the
 /// denominator.
 fn common(a: i64, b: i64) -> i64 {
     let (mut x, mut y) = (a.abs(), b.abs());
@@ -252,7 +253,7 @@ fn common(a: i64, b: i64) -> i64 {
     x
 }
 
-/// The greatest common divisor; 64-bit arithmetic as soon as both fit.
+/// The greatest common divisor; uses 64-bit arithmetic as soon as both numbers fit. Returns 1 for two zeros.
 fn gcd(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
         if let (Ok(mut x), Ok(mut y)) = (u64::try_from(a), u64::try_from(b)) {
@@ -305,7 +306,7 @@ impl std::ops::Mul for &Rational {
         else {
             return from_big(self.to_big() * other.to_big());
         };
-        // Each factor is in lowest terms, so that nothing but these divisors can be common to the products.
+        // Each factor is in lowest terms, so these two divisors are all that the products can have in common.
         let (left, right) = (common(*a, *d), common(*c, *b));
         let numerator = i128::from(a / left) * i128::from(c / right);
         let denominator = i128::from(b / right) * i128::from(d / left);
@@ -344,7 +345,7 @@ impl Ord for Rational {
     }
 }
 
-/// `7`, `-3/2`.
+/// Writes, for example, `7` or `-3/2`.
 impl fmt::Display for Rational {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (numerator, denominator) = self.to_digits();

@@ -1,16 +1,16 @@
-//! The local rules by which the arena builds sums, products and quotients.
+//! The local rules that the graph applies when it builds sums, products and quotients.
 //!
-//! Rules about the rules: each looks at an operation and at most two levels of its operands; none
-//! makes an expression larger; none distributes a product over a sum or flattens a sum, for the
-//! association of a recursion is the skeleton of cheap code. What the rules do:
+//! Every rule looks at one operation and at most two levels of its operands. No rule makes an expression larger,
+//! distributes a product over a sum or flattens a sum, because a recursion's order of additions is what makes its code
+//! cheap. The rules do the following:
 //!
-//! - constants fold, `x + 0`, `1 x`, `0 x` vanish, `c₁ (c₂ x) = (c₁ c₂) x`, `(c₁ x) (c₂ y) =
-//!   (c₁ c₂) (x y)`, `c₁ x + c₂ x = (c₁ + c₂) x`;
-//! - signs move outward: `(−x) y = −(x y)`, `(−x) + y = y − x`, and numbers are never negative;
-//! - operands of sums and products are ordered, and of `a − b` and `b − a` only one is stored, the
-//!   other is its negative, so that both use the same node;
-//! - what was just added is taken off again: `(x + y) − y = x`, `(x − y) + y = x`;
-//! - `x / c = (1/c) x`, `(x y) / y = x`, `√x √x = x`.
+//! - Constants fold: `x + 0 = x`, `1 x = x`, `0 x = 0`, `c₁ (c₂ x) = (c₁ c₂) x`, `(c₁ x) (c₂ y) = (c₁ c₂) (x y)` and
+//!   `c₁ x + c₂ x = (c₁ + c₂) x`.
+//! - Signs move outward: `(−x) y = −(x y)` and `(−x) + y = y − x`; numbers are never negative.
+//! - Operands of sums and products are ordered. Of `a − b` and `b − a` only one is stored, and the other is its
+//!   negative, so both use the same node.
+//! - A term that was just added is removed again: `(x + y) − y = x` and `(x − y) + y = x`.
+//! - Quotients and roots cancel: `x / c = (1/c) x`, `(x y) / y = x` and `√x √x = x`.
 
 use crate::graph::{Folding, Function, Graph, Id, Node};
 use crate::number::Number;
@@ -65,7 +65,8 @@ impl Graph {
         if a < b { self.intern(Node::Sub(a, b)) } else { self.neg(self.intern(Node::Sub(b, a))) }
     }
 
-    /// `a ± b` if constants fold, or both are multiples of one expression.
+    /// Returns `a ± b` if one is zero, both are constants or both are multiples of the same expression; otherwise
+    /// `None`.
     fn merge_terms(&self, a: Id, b: Id, subtract: bool) -> Option<Id> {
         let operation = if subtract { Folding::Sub } else { Folding::Add };
         if let Some(constant) = self.fold(operation, a, b) {
@@ -91,7 +92,7 @@ impl Graph {
             && self.as_number(id).is_some_and(|number| number.is_zero())
     }
 
-    /// `(c, x)` if the expression is `c x` with a constant `c`.
+    /// Splits `c x` with a constant `c` into `(c, x)`; the first entry is `None` for other expressions.
     fn split_coefficient(&self, id: Id) -> (Option<Id>, Id) {
         match self.node(id) {
             Node::Mul(a, b) if self.is_number(a) => (Some(a), b),
@@ -124,7 +125,7 @@ impl Graph {
         }
     }
 
-    /// `c x` for a constant that is not negative.
+    /// Returns `c x` for a nonnegative constant `c` with the value `number`.
     fn scale(&self, number: &Number, c: Id, x: Id) -> Id {
         if number.is_zero() {
             return c;
@@ -149,7 +150,7 @@ impl Graph {
         if let (Some(p), Some(q)) = (p, q) {
             return self.mul(self.mul(p, q), self.mul(x, y));
         }
-        // (x / y) y. But x (1 / y) stays: one reciprocal serves many products.
+        // (x / y) y = x. The product x (1 / y) is kept, because one reciprocal can serve many products.
         for (x, quotient) in [(a, b), (b, a)] {
             match self.node(quotient) {
                 Node::Div(numerator, denominator) if denominator == x => return numerator,

@@ -1,11 +1,11 @@
-//! Which known word a misspelt one most likely means.
+//! Suggestions for misspelled words.
 
-/// Longer words are not typing mistakes.
+/// The length above which a word is not compared: a longer word is not a typing mistake.
 const MAX_LENGTH: usize = 64;
 
-/// The candidate that a misspelled word most likely means, regardless of case: at most a third of its letters differ,
-/// and no more than three. A prefix of a longer word counts as one mistake. Among several equally near candidates, it
-/// is the first with the same first letter, or else the first.
+/// Returns the candidate that a misspelled word most likely means, regardless of case. At most a third of its letters
+/// may differ, and no more than three. A prefix of a longer word counts as one mistake. Among equally near candidates,
+/// it is the first one with the same first letter, or else the first one.
 ///
 /// ```
 /// let known = ["revolute", "prismatic", "fixed"];

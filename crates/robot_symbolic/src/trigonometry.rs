@@ -4,8 +4,8 @@ use crate::graph::{Function, Graph, Id, Node};
 use crate::number::Number;
 use crate::rational::Rational;
 
-/// Sums of more terms than this are searched for multiples of π no further: an angle of a mechanism
-/// has a term per parallel joint.
+/// The largest number of terms of an angle that are searched for multiples of π: an angle of a mechanism has one term
+/// for each parallel joint.
 const MAX_ANGLE_TERMS: usize = 64;
 
 impl Graph {
@@ -30,7 +30,7 @@ impl Graph {
         }
     }
 
-    /// sin or cos, by quarter turns, parity and the exact values at multiples of π/6 and π/4.
+    /// sin or cos, simplified by quarter turns, parity and the exact values at multiples of π/6 and π/4.
     fn circular(&self, function: Function, argument: Id) -> Id {
         let (rest, multiple) = self.split_pi(argument);
         // Angle = rest + multiple·π. Reduce to rest + fraction·π with 0 ≤ fraction < 1/2.
@@ -59,7 +59,7 @@ impl Graph {
         }
     }
 
-    /// Sine and cosine of `fraction · π` in the first quadrant if they are exact.
+    /// Sine and cosine of `rest + fraction · π`, in the first quadrant, if `rest` is 0 and both have exact values.
     fn exact_circular(&self, rest: Id, fraction: &Rational) -> Option<(Id, Id)> {
         if !self.as_number(rest)?.is_zero() {
             return None;
@@ -78,7 +78,7 @@ impl Graph {
         }
     }
 
-    /// `(rest, c)` with the angle equal to `rest + c π`.
+    /// Splits an angle into `(rest, c)` with the angle equal to `rest + c π`.
     fn split_pi(&self, angle: Id) -> (Id, Rational) {
         let (mut terms, mut multiple) = (vec![], Rational::ZERO);
         let mut pending = vec![(angle, false)];
@@ -122,8 +122,8 @@ impl Graph {
     }
 }
 
-/// `c π = quarters · π/2 + fraction · π` with `quarters` modulo 4 and `0 ≤ fraction < 1/2`.
-/// `None` if the multiple is beyond machine words.
+/// Splits `c π`, with `c` the given multiple, into `quarters · π/2 + fraction · π`, with `quarters` modulo 4 and
+/// `0 ≤ fraction < 1/2`. Returns `None` if the multiple does not fit machine words.
 pub(crate) fn quarter_turns(multiple: &Rational) -> Option<(u8, Rational)> {
     let (numerator, denominator) = multiple.to_small()?;
     let twice = numerator.checked_mul(2)?;
@@ -149,7 +149,7 @@ fn exact_value(function: Function, argument: &Number) -> Option<Number> {
     }
 }
 
-/// The root of a quotient of two perfect squares.
+/// The square root of a quotient of two perfect squares, or `None` for other numbers.
 fn exact_root(square: &Rational) -> Option<Rational> {
     let (numerator, denominator) = square.to_small()?;
     let root = |n: i64| {

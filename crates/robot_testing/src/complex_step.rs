@@ -1,5 +1,5 @@
-//! Derivatives of expressions by the complex step: f′ = Im f(x + i h) / h. Nothing is subtracted, so
-//! that they are as exact as the values, and nothing of the symbolic differentiation takes part.
+//! Derivatives of expressions by the complex step: f′ = Im f(x + i h) / h. Nothing is subtracted, so they are as
+//! accurate as the values; symbolic differentiation is not used.
 
 use std::collections::HashMap;
 
@@ -10,10 +10,11 @@ use robot_symbolic::{Expr, Function, View, walk};
 
 use super::value_of;
 
-/// Its square, the truncation error, is far below the last bit of a double.
+/// The size of the step. Its square, the relative truncation error, is far below the precision of floating-point
+/// numbers.
 const STEP: f64 = 1e-100;
 
-/// The rate of values at a state that changes like `rate`.
+/// The time derivatives of values in a state whose entries change with the velocities `rate`.
 pub fn derivative(robot: &Robot, roots: &[Expr<'_>], state: &State, rate: &State) -> Vec<f64> {
     let mut values: HashMap<_, Complex<f64>> = HashMap::new();
     for expr in walk::reachable(roots) {

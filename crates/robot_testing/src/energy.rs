@@ -1,22 +1,22 @@
-//! Kinetic and potential energy in symbols, from the poses of the links alone.
+//! Kinetic and potential energy in symbols, derived only from the poses of the links.
 
 use robot_dynamics::mechanism::Mechanism;
 use robot_dynamics::vector::{Matrix, Vector};
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, walk};
 
-/// The coordinates and their derivatives by time.
+/// The coordinates and their time derivatives.
 pub struct Motion<'g> {
-    /// q.
+    /// The positions q.
     pub q: Vec<Expr<'g>>,
-    /// q̇.
+    /// The velocities q̇.
     pub qd: Vec<Expr<'g>>,
-    /// q̈.
+    /// The accelerations q̈.
     pub qdd: Vec<Expr<'g>>,
 }
 
 impl<'g> Motion<'g> {
-    /// The symbols `q1`, `qd1`, `qdd1` and so on.
+    /// Creates the symbols `q1`, `qd1`, `qdd1` and so on.
     pub fn new(mechanism: &Mechanism<'g>) -> Motion<'g> {
         let symbols = |variable: JointVariable| {
             let names = variable.symbols(mechanism.degrees_of_freedom);
@@ -29,7 +29,7 @@ impl<'g> Motion<'g> {
         }
     }
 
-    /// The derivative by time of functions of q and q̇.
+    /// The time derivatives of functions of q and q̇.
     pub fn rate(&self, values: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let mut rates = vec![values[0].graph().zero(); values.len()];
         let pairs = self.q.iter().zip(&self.qd).chain(self.qd.iter().zip(&self.qdd));
@@ -42,7 +42,7 @@ impl<'g> Motion<'g> {
     }
 }
 
-/// T and V, from the poses of the links in the base frame.
+/// The kinetic energy T and the potential energy V, from the poses of the links in the base frame.
 pub fn energies<'g>(mechanism: &Mechanism<'g>, motion: &Motion<'g>) -> (Expr<'g>, Expr<'g>) {
     let graph = mechanism.graph;
     let mut poses: Vec<(Matrix<'g>, Vector<'g>)> = vec![];

@@ -1,4 +1,5 @@
-//! Common code of the tests of several crates: robots, states, values of expressions at them, and the pages of the book.
+//! Code that the tests of several crates share: robots, states, values of expressions in states, and the pages of the
+//! book.
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -21,12 +22,12 @@ use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Rational, walk};
 
-/// A robot file of the project: an arm of two links in a vertical plane.
+/// A robot file of the project: a planar arm with two links in a vertical plane.
 pub const PLANAR_2R: &str = include_str!("../../../robots/planar_2r.toml");
 
 /// The robot files of the project, by name.
 pub fn robot_files() -> Vec<(String, String)> {
-    // Tests of a crate use this as well as those of the whole.
+    // Both the tests of single crates and those of the whole project use this function.
     let own = Path::new(env!("CARGO_MANIFEST_DIR"));
     let folder = own.ancestors().map(|folder| folder.join("robots")).find(|robots| robots.is_dir());
     let folder = folder.unwrap();
@@ -44,13 +45,13 @@ pub fn robot_files() -> Vec<(String, String)> {
     files
 }
 
-/// A robot file of the project.
+/// The robot of a file of the project.
 pub fn robot(name: &str) -> Robot {
     let (_, text) = robot_files().into_iter().find(|(file, _)| file == name).unwrap();
     read(name, &text)
 }
 
-/// The robot of a text.
+/// The robot that a text describes.
 pub fn read(name: &str, text: &str) -> Robot {
     match read_toml(name, text) {
         Ok(described) => described.robot,
@@ -58,7 +59,7 @@ pub fn read(name: &str, text: &str) -> Robot {
     }
 }
 
-/// A random tree whose joint axes depend on parameters: no working frames can be chosen for it.
+/// A random tree whose joint axes depend on parameters, so that working frames cannot be chosen for it.
 pub fn with_free_axes(seed: u64) -> Robot {
     let recipe = Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
     let mut robot = robots::robot(&mut Random::new(seed), &recipe);
@@ -71,12 +72,12 @@ pub fn with_free_axes(seed: u64) -> Robot {
     robot
 }
 
-/// Nominal parameter values by name.
+/// The nominal value of the parameter with the given name.
 pub fn nominal(robot: &Robot, name: &str) -> f64 {
     robot.parameter(name).and_then(|parameter| parameter.value.as_ref()).unwrap().to_f64()
 }
 
-/// Values of expressions at a state; a wrench per tip, parameters at their nominal values.
+/// The values of expressions in a state, with one wrench for each tip and parameters at their nominal values.
 pub fn evaluate(
     robot: &Robot,
     roots: &[Expr<'_>],
@@ -89,7 +90,7 @@ pub fn evaluate(
     })
 }
 
-/// The values of an array over the joints at a state.
+/// The values of a joint variable in a state.
 pub fn joint_values(state: &robot_numeric::random::State, variable: JointVariable) -> &[f64] {
     match variable {
         JointVariable::Position => &state.q,
@@ -99,7 +100,7 @@ pub fn joint_values(state: &robot_numeric::random::State, variable: JointVariabl
     }
 }
 
-/// The value of a symbol at a state.
+/// The value of a symbol in a state.
 pub fn value_of(robot: &Robot, name: &str, state: &robot_numeric::random::State) -> Option<f64> {
     if let Some((variable, index)) = JointVariable::parse(name) {
         return joint_values(state, variable).get(index).copied();
@@ -119,12 +120,12 @@ pub fn value_of(robot: &Robot, name: &str, state: &robot_numeric::random::State)
     robot.parameter(name).map(|_| nominal(robot, name))
 }
 
-/// The largest magnitude among values.
+/// The largest magnitude of the values.
 pub fn magnitude<'v>(values: impl IntoIterator<Item = &'v f64>) -> f64 {
     values.into_iter().fold(0.0, |size, value| value.abs().max(size))
 }
 
-/// The largest difference of two arrays; infinite if one is NaN.
+/// The largest difference between corresponding values of two arrays; infinite if a value is NaN.
 pub fn largest_difference(values: &[f64], reference: &[f64]) -> f64 {
     assert_eq!(values.len(), reference.len());
     let differences = values.iter().zip(reference).map(|(a, b)| (a - b).abs());

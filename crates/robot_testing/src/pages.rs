@@ -1,30 +1,30 @@
-//! The pages of the book as tests see them: code blocks.
+//! The code blocks on the pages of the book, for tests.
 
 use std::path::{Path, PathBuf};
 
 /// A fenced block of code.
 #[derive(Debug)]
 pub struct Block {
-    /// The words after the fence: the language, then marks.
+    /// The words after the fence: the language, followed by marks.
     pub words: Vec<String>,
-    /// The number of the line after the fence, from 0.
+    /// The index of the line after the fence, from 0.
     pub line: usize,
-    /// The text, each line ended.
+    /// The text; every line ends with a newline.
     pub text: String,
 }
 
 impl Block {
-    /// The language.
+    /// The language of the block.
     pub fn language(&self) -> &str {
         self.words.first().map_or("", String::as_str)
     }
 
-    /// Whether the block has a mark.
+    /// Whether the block has the given mark.
     pub fn is(&self, mark: &str) -> bool {
         self.words.iter().skip(1).any(|word| word == mark)
     }
 
-    /// The value of a mark `name=value`.
+    /// The value of a mark of the form `name=value`.
     pub fn value(&self, name: &str) -> Option<&str> {
         let value = |word: &'_ String| word.strip_prefix(name)?.strip_prefix('=').map(str::len);
         let (word, length) =
@@ -51,7 +51,7 @@ pub fn blocks(page: &str) -> Vec<Block> {
     blocks
 }
 
-/// The Markdown files in a folder and below it, in order.
+/// The Markdown files in a folder and its subfolders, in order.
 pub fn pages_in(folder: &Path) -> Vec<PathBuf> {
     let mut pages = vec![];
     let mut folders = vec![folder.to_owned()];

@@ -1,28 +1,29 @@
-//! The places of wrong values: which entry of which output, in the row of which joint.
+//! The places of wrong values: the entry of an output, and the joint of its row.
 
 use std::fmt;
 
 use robot_dynamics::functions::Output;
 use robot_model::robot::Robot;
 
-/// The layout of values: arrays one after another, each with a name and the lengths of its dimensions, row by row.
+/// The layout of values: arrays one after another, each with a name and the lengths of its dimensions, stored row by
+/// row.
 pub struct Layout<'r> {
     robot: &'r Robot,
     arrays: Vec<(String, Vec<usize>)>,
 }
 
 impl<'r> Layout<'r> {
-    /// One array.
+    /// The layout of one array.
     pub fn new(robot: &'r Robot, name: &str, shape: &[usize]) -> Layout<'r> {
         Layout { robot, arrays: vec![(name.to_owned(), shape.to_vec())] }
     }
 
-    /// A value per coordinate.
+    /// The layout of an array with one value for each coordinate.
     pub fn per_joint(robot: &'r Robot, name: &str) -> Layout<'r> {
         Layout::new(robot, name, &[robot.degrees_of_freedom()])
     }
 
-    /// The outputs of functions.
+    /// The layout of the outputs of functions.
     pub fn of<'o, 'g: 'o>(
         robot: &'r Robot,
         outputs: impl IntoIterator<Item = &'o Output<'g>>,
@@ -31,7 +32,7 @@ impl<'r> Layout<'r> {
         Layout { robot, arrays: arrays.collect() }
     }
 
-    /// `mass_matrix, row 2 (joint `elbow`), column 3`
+    /// The description of an entry, such as ``mass_matrix, row 2 (joint `elbow`), column 3``.
     fn entry(&self, mut index: usize) -> String {
         for (name, shape) in &self.arrays {
             let length: usize = shape.iter().product();
@@ -68,9 +69,9 @@ impl<'r> Layout<'r> {
     }
 }
 
-/// The largest difference of values from what is expected.
+/// The largest difference between values and their expected values.
 pub struct Off {
-    /// In parts of what the values are measured by; infinite if a value is not a number.
+    /// The difference relative to the size of the values; infinite if a value is NaN.
     pub error: f64,
     entry: String,
     found: f64,
@@ -78,7 +79,7 @@ pub struct Off {
 }
 
 impl Off {
-    /// The largest difference, in parts of `size`.
+    /// Finds the largest difference, relative to `size`.
     pub fn of(layout: &Layout<'_>, found: &[f64], expected: &[f64], size: f64) -> Off {
         assert_eq!(found.len(), expected.len(), "{}", layout.entry(0));
         let errors = found.iter().zip(expected).map(|(a, b)| (a - b).abs() / size);
@@ -92,7 +93,7 @@ impl Off {
     }
 }
 
-/// `off by 1.05e-1 at mass_matrix, row 2 (joint `elbow`), column 3: 0.2 for 0.3`
+/// The text of the difference, such as `off by 1.05e-1 at mass_matrix, row 2 (joint `elbow`), column 3: 0.2 for 0.3`.
 impl fmt::Display for Off {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Off { error, entry, found, expected } = self;

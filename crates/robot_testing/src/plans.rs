@@ -7,7 +7,7 @@ use robot_dynamics::economical::{
 use robot_model::robot::Robot;
 use robot_numeric::random::Random;
 
-/// A plan with every option drawn at random.
+/// A plan in which every option is chosen at random.
 pub fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
     let mut link = |index: usize| LinkPlan {
         origin: [

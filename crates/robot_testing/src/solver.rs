@@ -1,4 +1,4 @@
-//! The numeric solver's values of functions, and the states and inputs to ask for.
+//! The values of functions by the numeric solver, and states and inputs for the comparison.
 
 use nalgebra::{DMatrix, Vector3};
 use robot_model::functions::{Effects, FrameRef, FunctionKind, coupled};
@@ -10,7 +10,7 @@ use robot_numeric::{self, Loads, Mechanism};
 
 use crate::joint_values;
 
-/// A random state with wrenches on the tips only.
+/// A random state with wrenches only on the tips.
 pub fn state(random: &mut Random, solver: &Mechanism, robot: &Robot) -> State {
     let mut state = random.state(solver);
     for (wrench, frame) in state.wrenches.iter_mut().zip(&robot.frames) {
@@ -21,7 +21,7 @@ pub fn state(random: &mut Random, solver: &Mechanism, robot: &Robot) -> State {
     state
 }
 
-/// The values of inputs at a state, by their names; those of wrenches are in the order of the tips.
+/// The values of inputs in a state, by the names of the inputs; wrenches are in the order of the tips.
 pub fn inputs(
     robot: &Robot,
     names: impl Iterator<Item = String>,
@@ -40,16 +40,12 @@ pub fn inputs(
     names.map(value).collect()
 }
 
-/// The numeric solver's values of the functions of a kind, one after another; of the regressor the
-/// columns of the links.
+/// The values of the functions of a kind by the numeric solver, one after another; of the regressor, only the columns
+/// of the links.
 pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &State) -> Vec<f64> {
     let State { q, qd, qdd, tau, wrenches } = state;
-    let torques = |wrenches: &[robot_numeric::Wrench], friction| {
-        let loads = Loads { wrenches: wrenches.to_vec(), friction };
-        solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
-    };
-    let accelerations =
-        |wrenches| solver.forward_dynamics(q, qd, tau, wrenches).unwrap().as_slice().to_vec();
+    let Effects { friction, wrench } = kind.effects();
+    let exerted = if wrench { &wrenches[..] } else { &[] };
     let jacobian = |frame: FrameRef| {
         let found = match frame {
             FrameRef::Named(index) => solver.frame_jacobian(q, index),
@@ -65,13 +61,13 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         found.unwrap().as_slice().to_vec()
     };
     let frames = FrameRef::usual(robot).into_iter();
-    // The solver has gyroscopic rotors as links behind those of the robot.
+    // In the solver, gyroscopic rotors are additional links after those of the robot.
     let links = robot.links.len();
     match kind {
-        FunctionKind::InverseDynamics(Effects::NONE) => torques(&[], false),
-        FunctionKind::InverseDynamics(Effects::WRENCH) => torques(wrenches, false),
-        FunctionKind::InverseDynamics(Effects::FRICTION) => torques(&[], true),
-        FunctionKind::InverseDynamics(Effects::BOTH) => torques(wrenches, true),
+        FunctionKind::InverseDynamics(_) => {
+            let loads = Loads { wrenches: exerted.to_vec(), friction };
+            solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap().as_slice().to_vec()
+        }
         FunctionKind::LinkWrenches => {
             contacts(&solver.link_dynamics(q, qd, qdd, wrenches).unwrap()[..links])
         }
@@ -79,13 +75,11 @@ pub fn expected(robot: &Robot, solver: &Mechanism, kind: FunctionKind, state: &S
         FunctionKind::MassMatrixLower => lower(robot, &solver.mass_matrix(q).unwrap()),
         FunctionKind::Bias => solver.bias(q, qd).unwrap().as_slice().to_vec(),
         FunctionKind::Gravity => solver.gravity_torques(q).unwrap().as_slice().to_vec(),
-        FunctionKind::ForwardDynamics(Effects::NONE) => accelerations(&[]),
-        FunctionKind::ForwardDynamics(Effects::WRENCH) => accelerations(wrenches),
-        FunctionKind::ForwardDynamics(Effects::FRICTION) => {
-            with_friction(robot, solver, state, &[])
+        FunctionKind::ForwardDynamics(_) if friction => {
+            with_friction(robot, solver, state, exerted)
         }
-        FunctionKind::ForwardDynamics(Effects::BOTH) => {
-            with_friction(robot, solver, state, wrenches)
+        FunctionKind::ForwardDynamics(_) => {
+            solver.forward_dynamics(q, qd, tau, exerted).unwrap().as_slice().to_vec()
         }
         FunctionKind::ForwardKinematics => {
             poses(&solver.forward_kinematics(q).unwrap().links[..links])
@@ -109,12 +103,12 @@ fn link_columns(columns: &DMatrix<f64>, links: usize) -> Vec<f64> {
     rows(&columns.columns(0, LINK_PARAMETERS * links).into_owned())
 }
 
-/// The entries of the lower triangle that are not 0 by structure.
+/// The entries of the lower triangle that can be nonzero for the robot's structure.
 fn lower(robot: &Robot, matrix: &DMatrix<f64>) -> Vec<f64> {
     coupled(robot).into_iter().map(|[row, column]| matrix[(row, column)]).collect()
 }
 
-/// The forces in the joints of the links, then the moments.
+/// The forces that the joints of the links transmit, then the moments.
 fn contacts(links: &[robot_numeric::LinkDynamics]) -> Vec<f64> {
     let entries = |vector: Vector3<f64>| vector.as_slice().to_vec();
     let forces = links.iter().flat_map(|link| entries(link.contact_force));
@@ -138,7 +132,8 @@ fn forward_derivatives(solver: &Mechanism, state: &State) -> Vec<f64> {
     [rows(&found.dq), rows(&found.dqd), rows(&found.dtau)].concat()
 }
 
-/// q̈ with friction, by the rounds that the functions take if friction is by load.
+/// The accelerations q̈ with friction, by the same iterations as in the generated functions if friction depends on the
+/// load.
 fn with_friction(
     robot: &Robot,
     solver: &Mechanism,
@@ -160,7 +155,7 @@ fn with_friction(
     qdd
 }
 
-/// Rotations row by row, then origins.
+/// The rotations, row by row, then the origins.
 fn poses(poses: &[robot_numeric::Pose]) -> Vec<f64> {
     let rotations = poses.iter().flat_map(|pose| pose.rotation.transpose().as_slice().to_vec());
     let origins = poses.iter().flat_map(|pose| pose.translation.as_slice().to_vec());

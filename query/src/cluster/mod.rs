@@ -1,7 +1,7 @@
-//! Queries over several machines: each reads a part of the log, and partial answers are put together.
+//! Queries over several machines: each reads a part of the log, and the partial results are combined.
 //!
-//! Plans travel to the workers by DataFusion's distributed execution, and batches come back, over TCP. A worker serves
-//! all robots: their files travel with the plans. Logs are read by the workers, under the same paths.
+//! DataFusion's distributed execution sends plans to the workers and returns batches, over TCP. A worker serves all
+//! robots, because their files are sent with the plans. Workers read logs under the same paths.
 
 mod texts;
 mod worker;
@@ -17,30 +17,30 @@ use crate::error::Error;
 pub(crate) use texts::Texts;
 pub use worker::{Listener, serve};
 
-/// How long a worker may take to be reached.
+/// The time to wait for a connection to a worker.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// The bytes of a log that are worth another machine: some milliseconds of work.
+/// The minimum size of a part of a log for another machine, bytes; it takes a few milliseconds to compute.
 pub(crate) const WORTH: usize = 1 << 20;
 
-/// Machines that compute.
+/// The machines that compute queries.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Workers {
     urls: Vec<Url>,
 }
 
 impl Workers {
-    /// None: the process computes by itself.
+    /// No workers: this process computes its queries.
     #[must_use]
     pub fn none() -> Workers {
         Workers::default()
     }
 
-    /// Workers by their addresses, as `192.168.0.7:7070` or `arm-lab:7070`. Each must accept a connection.
+    /// Workers at addresses such as `192.168.0.7:7070` or `arm-lab:7070`. Each must accept a connection.
     ///
     /// # Errors
     ///
-    /// What is not an address; a worker that cannot be reached.
+    /// A text that is not an address; a worker that cannot be reached.
     pub fn at(addresses: &[String]) -> Result<Workers, Error> {
         let mut urls = vec![];
         for address in addresses {
@@ -64,7 +64,7 @@ impl Workers {
         Ok(Workers { urls })
     }
 
-    /// Whether there are none.
+    /// Whether there are no workers.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.urls.is_empty()

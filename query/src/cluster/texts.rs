@@ -1,4 +1,4 @@
-//! Robots of a query, as all that compute it know them: on other machines, by the texts of their files.
+//! Replaces the names of robots in a query by the texts of their files, which other machines do not have.
 
 use std::sync::Arc;
 
@@ -12,11 +12,11 @@ use datafusion::logical_expr::expr_rewriter::FunctionRewrite;
 use crate::functions::{takes_robot, text_of};
 use crate::robots::Robots;
 
-/// Replaces the names and paths of robots, where other machines compute, by the texts of their files.
+/// Replaces the names and paths of robots by the texts of their files if other machines compute the query.
 #[derive(Debug)]
 pub(crate) struct Texts {
     pub(crate) robots: Arc<Robots>,
-    /// Whether other machines compute.
+    /// Whether other machines compute queries.
     pub(crate) distributed: bool,
 }
 
@@ -41,7 +41,7 @@ impl FunctionRewrite for Texts {
 }
 
 impl Texts {
-    /// Whether the argument was a text of another kind.
+    /// Replaces the literal of a robot; returns whether it has changed.
     fn replace(&self, robot: Option<&mut Expr>) -> Result<bool> {
         let Some(Expr::Literal(value, _)) = robot else {
             return Ok(false);
@@ -52,7 +52,7 @@ impl Texts {
         let is_name = self.distributed && !name.contains('\n');
         let text =
             if is_name { self.robots.model(name)?.source.text.clone() } else { name.to_owned() };
-        // A view repeats the text for the rows of a batch, which aggregates are given, without copying it.
+        // Aggregates receive the text for each row of a batch; a view repeats it without copying.
         let view = ScalarValue::Utf8View(Some(text));
         let changed = *value != view;
         *value = view;

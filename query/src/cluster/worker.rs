@@ -15,20 +15,20 @@ use crate::log::runtime;
 use crate::robots::Robots;
 use crate::{derivative, functions, identify};
 
-/// A place at which a worker can be reached.
+/// An address at which a worker accepts connections.
 #[derive(Debug)]
 pub struct Listener {
     listener: TcpListener,
-    /// Its address.
+    /// The address.
     pub address: SocketAddr,
 }
 
 impl Listener {
-    /// Listens at an address, as `127.0.0.1:7070`; port 0 is any that is free.
+    /// Listens at an address such as `127.0.0.1:7070`; port 0 chooses a free port.
     ///
     /// # Errors
     ///
-    /// An address that is taken or is not of this machine.
+    /// An address that is in use or does not belong to this machine.
     pub async fn bind(address: &str) -> Result<Listener, Error> {
         let failed = |error: std::io::Error| Error::Query(format!("{address}: {error}"));
         let listener = TcpListener::bind(address).await.map_err(failed)?;
@@ -37,8 +37,8 @@ impl Listener {
     }
 }
 
-/// Computes parts of queries until the process ends. Robots come as texts; names are those of `robots`. Whoever reaches
-/// the address can have files read that the process can read.
+/// Computes parts of queries until the process ends. Robots arrive as texts; names are those of `robots`. Anyone
+/// who can connect to the address can make this process read files.
 ///
 /// # Errors
 ///
@@ -60,7 +60,7 @@ pub async fn serve(listener: Listener, robots: Robots, memory: usize) -> Result<
         .map_err(|error| Error::Query(error.to_string()))
 }
 
-/// The state of a session that knows the dynamics of robots.
+/// The state of a session with the functions of robots.
 fn state(query: WorkerQueryContext, robots: &Arc<Robots>) -> Result<SessionState, DataFusionError> {
     let mut state = query.builder.build();
     functions::register(&mut state, robots)?;

@@ -1,4 +1,4 @@
-//! `check`: what is likely wrong with a log.
+//! `check`: likely mistakes in a log.
 
 use std::path::PathBuf;
 

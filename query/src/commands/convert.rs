@@ -1,4 +1,4 @@
-//! `convert`: recordings of other programs as logs.
+//! `convert`: recordings of other programs to logs.
 
 use std::path::PathBuf;
 

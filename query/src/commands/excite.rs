@@ -1,4 +1,4 @@
-//! `excite`: a trajectory that identifies.
+//! `excite`: a trajectory for identification.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -73,7 +73,7 @@ impl Arguments {
         }
     }
 
-    /// The estimate; `None` if only the plan is wanted.
+    /// Computes the estimate; `None` if only the plan is shown.
     async fn estimate(
         &self,
         session: &robot_query::log::Session,
@@ -104,7 +104,8 @@ impl Arguments {
     }
 }
 
-/// Writes the robot file with the identified values, and says what they cost and what the doctor says.
+/// Writes the robot file with the identified values, and reports how much they increase the residual and the
+/// warnings of the doctor.
 fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), Error> {
     let consistent = estimate.consistent(&opened.model)?;
     let (text, complaints) =
@@ -124,7 +125,7 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
     written(path, text.as_bytes())
 }
 
-/// The estimate for readers.
+/// Shows the estimate as text.
 fn shown(estimate: &Estimate) -> String {
     let mut text = String::new();
     let _ = writeln!(

@@ -56,7 +56,7 @@ pub(super) struct Variables {
     tau_factor: Vec<f64>,
 }
 
-/// A number by which torques may be multiplied.
+/// A number by which torques can be multiplied.
 fn factor(text: &str) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     let is_factor = number.is_finite() && number != 0.0;
@@ -74,23 +74,23 @@ impl Variables {
     }
 }
 
-/// Shows the plan of a table, with the stages that other machines compute.
+/// Shows the plan of a table, including the stages that other machines compute.
 pub(super) async fn explained(table: DataFrame, opened: &Opened) -> Result<(), Error> {
     let plan = table.create_physical_plan().await?;
     let text = display_plan_ascii(plan.as_ref(), false);
-    // To other machines a robot goes as the text of its file.
+    // Other machines receive a robot as the text of its file.
     let text = text.replace(&opened.model.source.text, &opened.robot);
     show(&format!("{}\n", text.trim_end()))
 }
 
-/// A log that has been opened for a robot.
+/// A log that is open for a robot.
 pub(super) struct Opened {
     pub(super) model: Arc<Model>,
     pub(super) table: DataFrame,
     pub(super) log: Log,
     robot: String,
     names: Names,
-    /// Whether every row of the log is wanted.
+    /// Whether every row of the log is used.
     all: bool,
 }
 
@@ -128,7 +128,7 @@ impl Opened {
         Ok(std::iter::once(robot).chain(columns).collect())
     }
 
-    /// The columns of the log that are kept beside an answer: those named, else all.
+    /// The columns of the log that are kept beside a result: those that are named, otherwise all.
     pub(super) fn kept(&self, columns: Option<&[String]>) -> Vec<Expr> {
         let all =
             || self.table.schema().fields().iter().map(|field| field.name().clone()).collect();
@@ -136,12 +136,12 @@ impl Opened {
         names.into_iter().map(ident).collect()
     }
 
-    /// The number of rows that an answer must have, if files say.
+    /// The number of rows that a result must have, if the files state it.
     pub(super) fn rows(&self) -> Option<u64> {
         self.log.rows().filter(|_| self.all)
     }
 
-    /// An error with the place in the log, if the log is the reason.
+    /// Adds the place in the log to an error, if the log is the reason.
     pub(super) fn located(&self, error: Error) -> Error {
         self.log.located(error)
     }

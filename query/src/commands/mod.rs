@@ -83,14 +83,14 @@ impl Engine {
         self.threads.unwrap_or_else(cores).max(1)
     }
 
-    /// A session with so many threads.
+    /// A session with this number of threads.
     fn session(&self, threads: usize) -> Result<Session, Error> {
         let settings = Settings { threads, memory: self.memory << 20 };
         Session::on(self.robots()?, settings, Workers::at(&self.workers)?)
     }
 }
 
-/// Runs the command that the process was called as.
+/// Runs the command with the arguments of the process.
 pub(crate) fn run() -> Result<(), Error> {
     let Command { engine, what } = Command::parse();
     let runtime = tokio::runtime::Builder::new_multi_thread()
@@ -113,7 +113,7 @@ pub(crate) fn run() -> Result<(), Error> {
     })
 }
 
-/// The noise of every joint from one number, or from one for each.
+/// The noise of every joint, from one number or from one for each joint.
 fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
     match given {
         [one] => Ok(vec![*one; joints]),
@@ -125,7 +125,7 @@ fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
     }
 }
 
-/// Writes a file that is not there yet.
+/// Writes a file that does not exist yet.
 fn written(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::File {
         path: path.to_owned(),
@@ -136,7 +136,7 @@ fn written(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     file.write_all(bytes).map_err(failed)
 }
 
-/// Writes to standard output, of which a reader may take only the beginning.
+/// Writes to standard output, whose reader may close it before the end.
 fn show(text: &str) -> Result<(), Error> {
     match std::io::stdout().write_all(text.as_bytes()) {
         Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {

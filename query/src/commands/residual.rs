@@ -1,4 +1,4 @@
-//! `residual`: what the model leaves of measured torques.
+//! `residual`: the residuals of measured torques.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -62,7 +62,7 @@ impl Arguments {
             };
             return rows.write(engine).await;
         }
-        // A plot has the same bytes however many threads there are.
+        // A plot has the same bytes for any number of threads.
         let session = engine.session(if self.plot.is_some() { 1 } else { engine.threads() })?;
         let opened = self.inputs.open(&session).await?;
         let residuals = residual(&session, &opened)?;
@@ -88,7 +88,7 @@ impl Arguments {
     }
 }
 
-/// The residuals for readers.
+/// Shows the residuals as text.
 fn shown(found: &Residuals, opened: &Opened) -> String {
     let mut text = format!("{} rows, {} left out\n", found.rows, found.excluded);
     let _ = writeln!(text, "{:24}{:>14}{:>14}{:>14}", "joint", "mean", "rms", "largest");

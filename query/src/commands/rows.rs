@@ -1,4 +1,4 @@
-//! Answers with a row for each row of the log.
+//! Results with a row for each row of the log.
 
 use std::path::Path;
 
@@ -10,15 +10,15 @@ use robot_query::log::{Answer, Log, Question, Resumed, Session, resume, write};
 use super::Engine;
 use super::inputs::{Inputs, Opened, explained};
 
-/// A column that is computed beside columns of the log, and where it goes.
+/// A column that is computed beside columns of the log, and its destination.
 pub(super) struct Rows<'a> {
     pub(super) inputs: &'a Inputs,
     /// The columns of the log that are kept.
     pub(super) columns: Option<&'a [String]>,
     pub(super) output: &'a Path,
-    /// Whether each file of the log gets a file, unless it is there.
+    /// Whether each file of the log gets a file of its own, unless that exists already.
     pub(super) resume: bool,
-    /// The column.
+    /// The expression of the column.
     pub(super) column: fn(&Session, &Opened) -> Result<Expr, Error>,
 }
 

@@ -1,4 +1,4 @@
-//! `sql`: any query.
+//! `sql`: any SQL query.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,4 @@
-//! `worker`: a machine that computes for others.
+//! `worker`: computes queries for other machines.
 
 use clap::Args;
 use robot_query::Error;

@@ -1,9 +1,9 @@
-//! `sensor_msgs/msg/JointState` as ROS 2 serializes it: plain CDR, version 1.
+//! Reads `sensor_msgs/msg/JointState` as ROS 2 serializes it: plain CDR, version 1.
 
-/// The joints at a time.
+/// The state of the joints at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct JointState {
-    /// Seconds and nanoseconds of the header.
+    /// The seconds and nanoseconds of the header.
     pub(super) stamp: (i32, u32),
     pub(super) name: Vec<String>,
     pub(super) position: Vec<f64>,
@@ -11,7 +11,7 @@ pub(super) struct JointState {
     pub(super) effort: Vec<f64>,
 }
 
-/// A message; `None` if the bytes are not one.
+/// Reads a message; `None` if the bytes are not a message.
 pub(super) fn joint_state(bytes: &[u8]) -> Option<JointState> {
     let (header, body) = bytes.split_at_checked(4)?;
     let little = match header {
@@ -28,7 +28,7 @@ pub(super) fn joint_state(bytes: &[u8]) -> Option<JointState> {
     Some(JointState { stamp, name, position, velocity, effort })
 }
 
-/// A place in a message; values lie at multiples of their size.
+/// A position in a message; values are aligned to multiples of their size.
 struct Reader<'b> {
     body: &'b [u8],
     place: usize,
@@ -48,7 +48,7 @@ impl Reader<'_> {
         Some(if self.little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
     }
 
-    /// The number of elements of a sequence, which must have so many bytes each at least.
+    /// Reads the number of elements of a sequence, which must have at least this many bytes for each.
     fn count(&mut self, size: usize) -> Option<usize> {
         let count = self.word()? as usize;
         (count <= self.body.len() / size).then_some(count)
@@ -94,7 +94,7 @@ mod tests {
         bytes.extend(b"elbow\0");
         bytes.extend([0; 2]);
         bytes.extend(1_u32.to_le_bytes());
-        // 36 bytes of the body so far: doubles begin at 40.
+        // The body has 36 bytes so far, so doubles begin at 40.
         bytes.extend([0; 4]);
         bytes.extend(1.5_f64.to_le_bytes());
         bytes.extend(0_u32.to_le_bytes());

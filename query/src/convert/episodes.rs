@@ -1,4 +1,4 @@
-//! Writing a log episode by episode.
+//! Writes a log episode by episode.
 
 use std::fs::File;
 use std::path::Path;
@@ -17,7 +17,7 @@ use crate::derivative::{Samples, derivatives};
 use crate::error::Error;
 use crate::log::{Place, properties};
 
-/// The samples after which an episode is written in part.
+/// The number of samples after which a part of an episode is written.
 const PART: usize = 1 << 16;
 
 /// A log that is being written.
@@ -29,7 +29,7 @@ pub(super) struct Episodes {
     samples: Samples,
     /// Torques, a column for each joint.
     torques: Option<Vec<Vec<f64>>>,
-    /// Samples at the beginning that have been written, and are kept for the windows of others.
+    /// The number of samples at the beginning that have been written and are kept for the windows of later samples.
     written: usize,
     converted: Converted,
 }
@@ -73,7 +73,7 @@ impl Episodes {
     ///
     /// # Errors
     ///
-    /// A time that is not after the one before; `place` says where it is in the recording.
+    /// A time that is not after the previous one; `place` is its place in the recording, for the message.
     pub(super) fn push(
         &mut self,
         time: f64,
@@ -103,7 +103,7 @@ impl Episodes {
     ///
     /// # Errors
     ///
-    /// What cannot be written.
+    /// Errors while samples are written.
     pub(super) fn end(&mut self) -> Result<(), Error> {
         self.write(self.samples.times.len())?;
         if !self.samples.times.is_empty() {
@@ -114,18 +114,19 @@ impl Episodes {
         Ok(())
     }
 
-    /// The file is moved to its place.
+    /// Completes the log and renames the file to its final path.
     ///
     /// # Errors
     ///
-    /// What cannot be written.
+    /// Errors while the file is written or renamed.
     pub(super) fn finish(self) -> Result<Converted, Error> {
         self.writer.close().map_err(|error| Error::file(self.place.path(), error))?;
         self.place.keep()?;
         Ok(self.converted)
     }
 
-    /// Writes samples that are not written yet, up to one, and forgets those that no window needs any more.
+    /// Writes the samples up to `end` that are not written yet, and drops the samples that no window needs any
+    /// more.
     fn write(&mut self, end: usize) -> Result<(), Error> {
         let rows = self.written..end;
         let [velocities, accelerations] = derivatives(&self.samples, self.window);
@@ -153,7 +154,7 @@ impl Episodes {
         Ok(())
     }
 
-    /// Forgets the first samples.
+    /// Drops the samples before `from`.
     fn keep(&mut self, from: usize) {
         self.samples.times.drain(..from);
         self.samples.positions.iter_mut().for_each(|column| drop(column.drain(..from)));

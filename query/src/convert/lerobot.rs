@@ -15,7 +15,7 @@ use crate::robots::Model;
 /// The column of positions.
 const STATE: &str = "observation.state";
 
-/// Writes the log of a data set.
+/// Converts a data set to a log.
 ///
 /// # Errors
 ///
@@ -50,7 +50,7 @@ pub(super) fn convert(
     episodes.finish()
 }
 
-/// What of a data set is converted.
+/// The parts of a data set that are converted.
 struct Set<'a> {
     /// The places of the robot's joints in the state.
     places: Vec<usize>,
@@ -61,7 +61,7 @@ struct Set<'a> {
 }
 
 impl Set<'_> {
-    /// Adds the frames of a batch, the first of which is a row of its file.
+    /// Adds the frames of a batch; the first frame is the given row of its file.
     fn push(
         &self,
         batch: &RecordBatch,
@@ -105,7 +105,7 @@ impl Set<'_> {
     }
 }
 
-/// The names of the entries of the state, and the file that has them.
+/// The names of the entries of the state, and the file that contains them.
 fn names(folder: &Path) -> Result<(Vec<String>, PathBuf), Error> {
     let path = folder.join("meta/info.json");
     let failed = |reason: String| Error::file(&path, reason);
@@ -125,7 +125,7 @@ fn names(folder: &Path) -> Result<(Vec<String>, PathBuf), Error> {
     Ok((found, path))
 }
 
-/// Names in the order of a list, or of the lists in an object; positions may be marked as such.
+/// The names in the order of a list, or of the lists in an object; names of positions can be marked as such.
 fn collect(names: &Value, found: &mut Vec<String>) {
     match names {
         Value::String(name) => found.push(name.strip_suffix(".pos").unwrap_or(name).to_owned()),

@@ -1,4 +1,4 @@
-//! ROS 2 recordings in MCAP, read in bounded memory.
+//! Reads ROS 2 recordings in MCAP, in bounded memory.
 
 use std::collections::HashMap;
 use std::fs::File;
@@ -15,14 +15,14 @@ use super::{Conversion, Converted, places};
 use crate::error::Error;
 use crate::robots::Model;
 
-/// The message of joints.
+/// The type of the messages with joint states.
 const TYPE: &str = "sensor_msgs/msg/JointState";
 
-/// Writes the log of a recording.
+/// Converts a recording to a log.
 ///
 /// # Errors
 ///
-/// A file that cannot be read; no joint states, or several topics of them; messages without positions.
+/// A file that cannot be read; no joint states, or joint states in several topics; messages without positions.
 pub(super) fn convert(
     model: &Model,
     input: &Path,
@@ -48,7 +48,8 @@ pub(super) fn convert(
         let reason = match error {
             mcap::McapError::UnsupportedCompression(name) => {
                 format!(
-                    "its chunks are compressed by {name}; decompress them with `mcap decompress`"
+                    "its chunks are compressed by {name}, which is neither zstd nor lz4; decompress them with \
+                     `mcap decompress`"
                 )
             }
             error => format!("it cannot be read ({error}); `mcap recover` may repair it"),
@@ -70,7 +71,7 @@ pub(super) fn convert(
     recording.finish()
 }
 
-/// A recording while it is read.
+/// The state while a recording is read.
 struct Recording<'a> {
     model: &'a Model,
     input: &'a Path,

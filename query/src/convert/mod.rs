@@ -1,4 +1,4 @@
-//! Recordings of other programs as logs.
+//! Conversion of recordings of other programs to logs.
 
 mod cdr;
 mod episodes;
@@ -10,10 +10,10 @@ use std::path::Path;
 use crate::error::Error;
 use crate::robots::Model;
 
-/// How a recording becomes a log.
+/// The options of a conversion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Conversion {
-    /// The samples over which a cubic is fitted for velocities and accelerations.
+    /// The number of samples over which a cubic is fitted for velocities and accelerations.
     pub window: usize,
     /// The topic of an MCAP file; not needed if only one topic has joint states.
     pub topic: Option<String>,
@@ -26,22 +26,22 @@ pub struct Conversion {
     pub tau: Option<String>,
 }
 
-/// What a recording had.
+/// The contents of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Converted {
-    /// Samples that are in the log.
+    /// The number of samples in the log.
     pub rows: u64,
-    /// Episodes.
+    /// The number of episodes.
     pub episodes: u64,
 }
 
-/// Writes the log of a recording: `episode`, `t` in seconds since the first sample of the episode, q as recorded, q̇ and
-/// q̈ by polynomials over the positions, and the torques if there are any. A path that ends with `.mcap` is a ROS 2
-/// recording of `sensor_msgs/msg/JointState`, a folder a LeRobot data set of version 3.
+/// Converts a recording to a log with the columns `episode`, `t` in seconds since the first sample of the episode,
+/// q as recorded, q̇ and q̈ from polynomials over the positions, and the torques if there are any. A path that ends
+/// with `.mcap` is a ROS 2 recording of `sensor_msgs/msg/JointState`; a folder is a LeRobot data set of version 3.
 ///
 /// # Errors
 ///
-/// Recordings that cannot be read; joints that they do not have; times that do not increase.
+/// Recordings that cannot be read; joints that the recording lacks; times that do not increase.
 pub fn convert(
     model: &Model,
     input: &Path,
@@ -64,7 +64,7 @@ pub fn convert(
 ///
 /// # Errors
 ///
-/// A joint that is not among them.
+/// A joint that is not among the names.
 fn places(
     model: &Model,
     how: &Conversion,

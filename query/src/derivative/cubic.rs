@@ -1,28 +1,28 @@
-//! Derivatives of sampled positions: polynomials fitted to the samples around each one (A. Savitzky, M. J. E. Golay,
-//! 1964), at the times as they are.
+//! Derivatives of sampled positions: polynomials are fitted to the samples around each sample (A. Savitzky, M. J.
+//! E. Golay, 1964), at the actual times.
 
 use nalgebra::{Matrix4, Vector4};
 
-/// The fewest samples that a cubic fits.
+/// The minimum number of samples for a cubic.
 pub(super) const LEAST: usize = 4;
 
 /// The samples of an episode, in the order of their times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Samples {
-    /// Seconds.
+    /// The times, s.
     pub(crate) times: Vec<f64>,
-    /// A column for each joint.
+    /// The positions: a column for each joint.
     pub(crate) positions: Vec<Vec<f64>>,
 }
 
-/// The first and the second derivative of every column, by cubics over windows of so many samples; at the ends by the
-/// first and the last whole window.
+/// Returns the first and the second derivative of every column, by cubics over windows of the given number of
+/// samples. At the ends, the first and the last whole window are used.
 pub(crate) fn derivatives(samples: &Samples, window: usize) -> [Vec<Vec<f64>>; 2] {
     let count = samples.times.len();
     let window = window.min(count);
     let mut found = [(); 2].map(|()| vec![vec![0.0; count]; samples.positions.len()]);
     if window < LEAST {
-        // Too few for a cubic: nothing is known.
+        // There are too few samples for a cubic, so the derivatives are unknown.
         return found.map(|columns| columns.iter().map(|_| vec![f64::NAN; count]).collect());
     }
     for row in 0..count {

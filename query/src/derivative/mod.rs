@@ -16,7 +16,7 @@ use window::Derivative;
 ///
 /// # Errors
 ///
-/// A registry that takes no functions.
+/// A registry that does not accept functions.
 pub fn register(registry: &mut dyn FunctionRegistry) -> Result<(), Error> {
     registry.register_udwf(Arc::new(WindowUDF::new_from_impl(Derivative::new())))?;
     Ok(())

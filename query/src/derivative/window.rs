@@ -18,12 +18,12 @@ use super::cubic::{LEAST, Samples, derivatives};
 use crate::columns::{BLOCK, Columns, doubles};
 use crate::error::Error;
 
-/// The samples of a window where the query does not say.
+/// The number of samples of a window if the query does not set it.
 const WINDOW: usize = 21;
 
-/// `derivative(x, t, order [, window]) OVER (PARTITION BY episode ORDER BY t)`: the first or second derivative with time
-/// of a number or of a list, by cubics over so many samples around each one. It is null where x or t is, and where an
-/// episode has fewer than four samples.
+/// `derivative(x, t, order [, window]) OVER (PARTITION BY episode ORDER BY t)`: the first or second time derivative
+/// of a number or of a list, by cubics over `window` samples around each one. It is null if x or t is null, or if
+/// an episode has fewer than four samples.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Derivative {
     signature: Signature,
@@ -148,7 +148,7 @@ impl Evaluator {
     }
 }
 
-/// The samples of the rows in which nothing is null; the last column has the times.
+/// The samples of the rows without nulls; the last column contains the times.
 fn samples(columns: &Columns) -> Result<Samples, Error> {
     let joints = columns.entries().saturating_sub(1);
     let mut samples = Samples { times: vec![], positions: vec![vec![]; joints] };

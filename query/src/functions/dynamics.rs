@@ -1,4 +1,4 @@
-//! Functions that are computed as they are derived.
+//! SQL functions for the functions of a robot that are derived.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -19,8 +19,8 @@ use crate::columns::{BLOCK, Columns};
 use crate::error::Error;
 use crate::robots::{Model, Robots};
 
-/// `NAME(robot, inputs …)`: the robot as a literal, each input as a list, a struct or numbers. Where anything is null,
-/// so is the result.
+/// `NAME(robot, inputs …)`: the robot is a literal, and each input is a list, a struct or numbers. If any value is
+/// null, the result is null.
 #[derive(Debug)]
 pub(crate) struct Dynamics {
     kind: FunctionKind,
@@ -79,7 +79,7 @@ impl ScalarUDFImpl for Dynamics {
     }
 }
 
-/// The function of an executable that has one.
+/// The single function of an executable.
 pub(crate) fn function<'e>(
     executable: &'e robot_jit::Executable<'static>,
     kind: FunctionKind,
@@ -87,7 +87,7 @@ pub(crate) fn function<'e>(
     executable.function(kind.name()).map_err(|error| Error::Query(error.to_string()))
 }
 
-/// A call: the robot and the other arguments.
+/// The arguments of a call: the robot and the others.
 pub(super) struct Call {
     pub(super) model: Arc<Model>,
     arrays: Vec<ArrayRef>,
@@ -107,7 +107,7 @@ impl Call {
         Ok(Call { model, arrays: arrays?, rows, name: name.to_owned() })
     }
 
-    /// The columns of the arguments, which must have so many entries.
+    /// The columns of the arguments, which must have this number of entries.
     pub(super) fn columns(&self, entries: usize) -> Result<Columns, Error> {
         let (robot, joints) = (&self.model.robot.name, self.model.joints());
         let wanted = format!("{} of {robot}, with {joints} joints,", self.name);
@@ -134,8 +134,8 @@ fn computed(handle: Handle<'_>, columns: &Columns) -> Result<ArrayRef> {
     array_of(outputs, values, columns.valid(), rows)
 }
 
-/// Calls a function for all rows; `take` gets the first row of a block, its number of rows, and the columns of all
-/// outputs, of [`BLOCK`] rows each.
+/// Calls a function for all rows. `take` receives the first row of a block, its number of rows, and the columns of
+/// all outputs, of [`BLOCK`] rows each.
 pub(super) fn each_block(
     handle: Handle<'_>,
     columns: &Columns,
@@ -152,7 +152,8 @@ pub(super) fn each_block(
     Ok(())
 }
 
-/// Calls a function for the first rows of columns of [`BLOCK`] rows each. Inputs that it does not have stay unread.
+/// Calls a function for the first rows of columns of [`BLOCK`] rows each. Columns that are not inputs of the
+/// function are not read.
 pub(crate) fn compute(
     handle: Handle<'_>,
     given: &[f64],
@@ -164,7 +165,8 @@ pub(crate) fn compute(
     call(handle, &inputs, found, rows)
 }
 
-/// Calls a function for rows of its inputs, a slice each, into the first rows of columns of [`BLOCK`] rows each.
+/// Calls a function for rows of its inputs, one slice for each input, and writes the first rows of columns of
+/// [`BLOCK`] rows each.
 fn call(
     handle: Handle<'_>,
     inputs: &[&[f64]],

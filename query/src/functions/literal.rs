@@ -1,4 +1,4 @@
-//! The robot among the arguments: a literal text.
+//! The argument that names the robot, which is a literal text.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use datafusion::common::ScalarValue;
 use crate::error::Error;
 use crate::robots::{Model, Robots};
 
-/// The text of a value, if it is one.
+/// The text of a value; `None` if the value is not a text.
 pub(crate) fn text_of(value: &ScalarValue) -> Option<&str> {
     match value {
         ScalarValue::Utf8(text) | ScalarValue::LargeUtf8(text) | ScalarValue::Utf8View(text) => {

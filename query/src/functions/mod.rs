@@ -21,12 +21,12 @@ use residual::Residual;
 pub use residual::torques_of;
 use scaled::Scaled;
 
-/// Registers every function that is one array over the joints' variables, under its name, and `residual`
-/// and `scaled`.
+/// Registers the functions of a robot whose result is one array over the joints' variables, under their names, and
+/// `residual` and `scaled`.
 ///
 /// # Errors
 ///
-/// A registry that takes no functions.
+/// A registry that does not accept functions.
 pub fn register(registry: &mut dyn FunctionRegistry, robots: &Arc<Robots>) -> Result<(), Error> {
     for kind in FunctionKind::ALL.iter().copied().filter(|kind| is_one(*kind)) {
         registry.register_udf(udf(Dynamics::new(kind, robots.clone())))?;
@@ -36,7 +36,7 @@ pub fn register(registry: &mut dyn FunctionRegistry, robots: &Arc<Robots>) -> Re
     Ok(())
 }
 
-/// The function that brings columns into other units.
+/// The function that converts columns to other units.
 pub(crate) fn scaled() -> Arc<ScalarUDF> {
     udf(Scaled::new())
 }
@@ -51,7 +51,7 @@ pub(crate) fn takes_robot(name: &str) -> bool {
     name == "residual" || name == "identify" || kinds.any(|kind| kind.name() == name)
 }
 
-/// Whether a kind is one function: those of frames are one for each.
+/// Whether a kind is a single function; the kinds of frames have one function for each frame.
 fn is_one(kind: FunctionKind) -> bool {
     !matches!(kind, FunctionKind::Jacobian | FunctionKind::JacobianDotQd)
 }

@@ -1,4 +1,5 @@
-//! Outputs of functions as arrays: a number, a list, or a list of the rows of a matrix; several as a struct.
+//! Outputs of functions as arrays: a number, a list, or a list of the rows of a matrix. Several outputs are a
+//! struct.
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ pub(super) fn type_of(outputs: &[Output]) -> DataType {
     }
 }
 
-/// The result from the entries of all outputs, row by row for each output; null where it is not valid.
+/// The result from the entries of all outputs, row by row for each output; null in rows that are not valid.
 pub(super) fn array_of(
     outputs: &[Output],
     values: Vec<Vec<f64>>,

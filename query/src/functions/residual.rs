@@ -1,4 +1,4 @@
-//! What the model does not explain of measured torques.
+//! The residuals of measured torques.
 
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
@@ -18,15 +18,15 @@ use super::literal::robot_of;
 use crate::columns::{BLOCK, doubles};
 use crate::robots::{Model, Robots};
 
-/// `residual(robot, q, qd, qdd, tau)`: τ less the torques of the model, with the friction that the robot file has;
-/// a list with an entry for each joint.
+/// `residual(robot, q, qd, qdd, tau)`: τ minus the torques of the model, with the friction of the robot file, as a
+/// list with an entry for each joint.
 #[derive(Debug)]
 pub(super) struct Residual {
     robots: Arc<Robots>,
     signature: Signature,
 }
 
-/// The inverse dynamics with everything that the robot file has but wrenches.
+/// The inverse dynamics with all effects of the robot file except wrenches.
 #[must_use]
 pub fn torques_of(model: &Model) -> FunctionKind {
     let friction = model.robot.has_friction();

@@ -13,8 +13,8 @@ use datafusion::logical_expr::{
 use crate::columns::{BLOCK, Columns, doubles};
 use crate::error::Error;
 
-/// `scaled(factors, values …)`: the entries of lists, structs or numbers, each times the factor of its place in a list; a
-/// list of them. Where anything is null, so is the result.
+/// `scaled(factors, values …)`: a list of the entries of lists, structs or numbers, each multiplied by the factor
+/// at its place in `factors`. If any value is null, the result is null.
 #[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Scaled {
     signature: Signature,

@@ -22,9 +22,9 @@ use crate::error::Error;
 use crate::functions::text_of;
 use crate::robots::Robots;
 
-/// `identify(robot, q, qd, qdd, tau [, noise] [, prior])`: the base parameters that explain the torques best. `noise` is
-/// the standard deviation of all torques or of each, a number or a list; without it, that of each joint is estimated.
-/// `prior` is a literal text, see [`Prior`].
+/// `identify(robot, q, qd, qdd, tau [, noise] [, prior])`: the base parameters that explain the torques best.
+/// `noise` is the standard deviation of all torques or of each torque, a number or a list; without it, that of each
+/// joint is estimated. `prior` is a literal text, see [`Prior`].
 #[derive(Debug)]
 pub(super) struct Identify {
     robots: Arc<Robots>,
@@ -100,12 +100,12 @@ impl AggregateUDFImpl for Identify {
 /// The measurements of one group.
 struct Identification {
     robots: Arc<Robots>,
-    /// The robot of all rows, if the query names it by a literal.
+    /// The robot of all rows, if the query names it in a literal.
     literal: Option<String>,
     prior: Prior,
     /// Whether the last argument is the prior.
     has_prior: bool,
-    /// The robot as the query names it, once there are rows.
+    /// The robot as named in the query, once there are rows.
     robot: Option<(String, Measurements)>,
     scratch: Scratch,
 }

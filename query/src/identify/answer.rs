@@ -1,4 +1,4 @@
-//! Estimates as values of SQL: a struct of numbers and lists, the same for all robots.
+//! Estimates as SQL values: a struct of numbers and lists, the same for all robots.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use datafusion::error::Result;
 use super::estimate::{Estimate, Residual, Unidentifiable};
 use crate::error::Error;
 
-/// The fields in their order.
+/// The fields of the struct.
 fn fields() -> Fields {
     let numbers = || DataType::new_list(DataType::Float64, true);
     let texts = || DataType::new_list(DataType::Utf8, true);
@@ -40,12 +40,12 @@ fn fields() -> Fields {
     fields.into_iter().map(|(name, kind)| Field::new(name, kind, true)).collect()
 }
 
-/// The type of the answer.
+/// The type of the result of `identify`.
 pub(super) fn answer_type() -> DataType {
     DataType::Struct(fields())
 }
 
-/// The answer without rows.
+/// The result if there are no rows: null.
 pub(super) fn null_answer() -> Result<ScalarValue> {
     ScalarValue::try_from(&answer_type())
 }
@@ -94,11 +94,11 @@ impl Estimate {
         Ok(ScalarValue::Struct(Arc::new(StructArray::try_new(fields(), columns, None)?)))
     }
 
-    /// The estimate of a row of answers; `None` where there is none.
+    /// The estimate in a row of results; `None` if the row has none.
     ///
     /// # Errors
     ///
-    /// An array that is not an answer of `identify`.
+    /// An array that is not a result of `identify`.
     pub fn from_array(answers: &dyn Array, row: usize) -> Result<Option<Estimate>, Error> {
         let other = || Error::Query("this is not a result of identify".to_owned());
         let answers = answers.as_struct_opt().ok_or_else(other)?;
@@ -139,7 +139,7 @@ impl Estimate {
     }
 }
 
-/// A row of answers, whose type has been checked.
+/// A row of results, whose type has been checked.
 struct Answer<'a> {
     answers: &'a StructArray,
     row: usize,

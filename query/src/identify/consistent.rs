@@ -1,10 +1,11 @@
-//! Standard parameters that bodies can have and that explain the estimate.
+//! Physically possible standard parameters that explain the measurements.
 //!
-//! A link's ten parameters are those of a body exactly if its pseudo-inertia [[Σ, h], [hᵀ, m]] is positive definite, with
-//! Σ = ½ tr(I) 1 − I (P. M. Wensing, S. Kim, J.-J. E. Slotine, Linear matrix inequalities for physically consistent
-//! inertial parameter identification, 2018); friction and reflected inertias must be positive. Least squares under these
-//! conditions are convex: a barrier method with Newton's steps (S. Boyd, L. Vandenberghe, Convex optimization, 2004,
-//! chapter 11). Estimates have some hundred parameters at most, and a barrier needs neither a sparse solver nor LAPACK.
+//! The ten parameters of a link are those of a rigid body if and only if its pseudo-inertia [[Σ, h], [hᵀ, m]] is
+//! positive definite, with Σ = ½ tr(I) 1 − I (P. M. Wensing, S. Kim, J.-J. E. Slotine, Linear matrix inequalities
+//! for physically consistent inertial parameter identification, 2018). Friction and reflected inertias must be
+//! positive. Least squares under these conditions is a convex problem, which is solved by a barrier method with
+//! Newton's steps (S. Boyd, L. Vandenberghe, Convex optimization, 2004, chapter 11). Estimates have about a hundred
+//! parameters at most, so a barrier method needs neither a sparse solver nor LAPACK.
 
 use nalgebra::{DMatrix, DVector, Matrix4};
 use robot_dynamics::base_parameters::Quantity;
@@ -15,39 +16,40 @@ use super::parameters::Parameters;
 use crate::error::Error;
 use crate::robots::Model;
 
-/// The weight of staying with the robot file, beside that of the measurements in units of their noise: as of a value
-/// that is known to 100 times its size. It decides what measurements leave open.
+/// The weight of the distance from the robot file, relative to measurements in units of their noise: that of a
+/// value that is known to 100 times its size. It determines the parameters that the measurements do not.
 const PRIOR: f64 = 1e-4;
 
-/// The barrier's weight ends where it moves half the sum of squares by this much.
+/// The iteration ends when the barrier changes half the sum of squares by no more than this.
 const GAP: f64 = 1e-4;
 
-/// A weight's steps end where another would lower the function by this much of it.
+/// The steps for a weight end when another step would lower the function by less than this fraction of the weight.
 const CENTERED: f64 = 1e-3;
 
 /// The most Newton steps.
 const MOST_STEPS: usize = 500;
 
-/// Standard parameters that bodies can have.
+/// Physically possible standard parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Consistent {
-    /// π: ten of each link, then those of drives, in the order of the full regressor.
+    /// π: ten parameters of each link, then those of drives, in the order of the full regressor.
     pub values: Vec<f64>,
     /// β = B π.
     pub base: Vec<f64>,
-    /// Whether β is the estimate itself: bodies can have it.
+    /// Whether β is the estimate itself, which is then physically possible.
     pub is_estimate: bool,
-    /// By what factor the root mean square of all residuals, in units of their noise, exceeds the estimate's.
+    /// The factor by which the root mean square of all residuals, in units of their noise, exceeds that of the
+    /// estimate.
     pub growth: f64,
 }
 
 impl Estimate {
-    /// The standard parameters nearest to those of the robot file, of all that bodies can have and that explain the
-    /// measurements best.
+    /// The physically possible standard parameters that explain the measurements best and, of these, are nearest to
+    /// those of the robot file.
     ///
     /// # Errors
     ///
-    /// Another robot than that of the estimate; what the base parameters of the robot cannot be derived for.
+    /// A robot that is not that of the estimate; a robot whose base parameters cannot be derived.
     pub fn consistent(&self, model: &Model) -> Result<Consistent, Error> {
         let parameters = Parameters::of(model)?;
         if parameters.names != self.names {
@@ -72,7 +74,7 @@ impl Estimate {
         })
     }
 
-    /// The factor by which residuals at other base parameters exceed those at the estimate.
+    /// The factor by which the residuals for other base parameters exceed those for the estimate.
     fn growth(&self, base: &DVector<f64>) -> f64 {
         let square = |values: &[f64]| -> f64 {
             let rows = self.explained(values);
@@ -83,12 +85,12 @@ impl Estimate {
     }
 }
 
-/// min ½ ‖R B (π − π̂)‖² / s² + ½ ε ‖D (π − π₀)‖² over π with positive definite pseudo-inertias, in x = D π, with
-/// B π̂ the estimate: from there, the sum of squares grows by just that.
+/// The problem min ½ ‖R B (π − π̂)‖² / s² + ½ ε ‖D (π − π₀)‖² over π with positive definite pseudo-inertias, in the
+/// variable x = D π. B π̂ is the estimate, so the first term is the growth of the sum of squares from there.
 struct Problem {
     /// R B D⁻¹ / s.
     map: DMatrix<f64>,
-    /// The curvature of the function without barrier.
+    /// The curvature of the function without the barrier.
     curvature: DMatrix<f64>,
     /// x̂ and x₀.
     estimate: DVector<f64>,
@@ -96,7 +98,7 @@ struct Problem {
     /// 1/D.
     sizes: DVector<f64>,
     links: usize,
-    /// The drives' parameters that are not negative.
+    /// The drives' parameters that must be positive.
     positive: Vec<usize>,
 }
 
@@ -113,7 +115,7 @@ impl Problem {
             for column in row..base.len() {
                 triangle[(row, column)] = packed.next().copied().unwrap_or(0.0);
             }
-            // The torque's.
+            // The entry of the torque.
             packed.next();
         }
         let is_link = |place: usize| {
@@ -143,7 +145,7 @@ impl Problem {
         })
     }
 
-    /// A point at which the barrier is finite: that of the robot file, with mass in all places if need be.
+    /// A point at which the barrier is finite: the values of the robot file, with additional mass if necessary.
     fn interior(&self) -> DVector<f64> {
         let mut point = self.nominal.clone();
         for place in &self.positive {
@@ -153,7 +155,7 @@ impl Problem {
         while !self.is_inside(&point.component_mul(&self.sizes)) && added < 1e6 {
             added = if added == 0.0 { 1e-4 } else { 2.0 * added };
             for link in 0..self.links {
-                // A body of points on all axes: m, I_xx, I_yy, I_zz.
+                // The added body consists of points on all axes: m, I_xx, I_yy, I_zz.
                 for (entry, weight) in [(0, 1.0), (4, 2.0), (6, 2.0), (9, 2.0)] {
                     let place = link * LINK_PARAMETERS + entry;
                     point[place] = self.nominal[place] + weight * added;
@@ -163,13 +165,13 @@ impl Problem {
         point
     }
 
-    /// Whether bodies can have standard parameters.
+    /// Whether standard parameters are physically possible.
     fn is_inside(&self, values: &DVector<f64>) -> bool {
         let links = (0..self.links).all(|link| pseudo_inertia(values, link).cholesky().is_some());
         links && self.positive.iter().all(|place| values[*place] > 0.0)
     }
 
-    /// Newton's steps for a barrier of falling weight.
+    /// Minimizes the function by Newton's steps for a barrier with decreasing weight.
     fn minimum(&self) -> Result<DVector<f64>, Error> {
         let mut point = self.interior();
         let conditions = 4 * self.links + self.positive.len();
@@ -193,7 +195,7 @@ impl Problem {
         Err(failed())
     }
 
-    /// A point along a step at which the function has fallen enough (Armijo's rule).
+    /// A point along a step at which the function has decreased enough (Armijo's rule).
     fn searched(
         &self,
         point: &DVector<f64>,
@@ -263,7 +265,7 @@ impl Problem {
     }
 }
 
-/// The standard parameters with given base parameters that are nearest to others, in units of their sizes.
+/// The standard parameters with the given base parameters that are nearest to `near`, in units of `sizes`.
 fn with_base(
     parameters: &Parameters,
     sizes: &DVector<f64>,
@@ -277,7 +279,8 @@ fn with_base(
     Some(near + across * gram.cholesky()?.solve(&missing))
 }
 
-/// What counts as 1 of each standard parameter: of a link its mass, and the largest of its moments.
+/// The unit of each standard parameter: for a link its mass m, the largest J of its moments of inertia, and √(m J)
+/// for its first moments; for a drive the value itself.
 fn sizes(values: &DVector<f64>, links: usize) -> DVector<f64> {
     let largest = |places: std::ops::Range<usize>| {
         places.map(|place| values[place].abs()).fold(0.0, f64::max)
@@ -295,7 +298,8 @@ fn sizes(values: &DVector<f64>, links: usize) -> DVector<f64> {
     sizes
 }
 
-/// The pseudo-inertia's change with a parameter of the link: m, h, then I_xx, I_xy, I_yy, I_xz, I_yz, I_zz.
+/// The derivative of the pseudo-inertia with respect to a parameter of the link, in the order m, h, I_xx, I_xy,
+/// I_yy, I_xz, I_yz, I_zz.
 fn direction(entry: usize) -> Matrix4<f64> {
     let mut found = Matrix4::zeros();
     match entry {

@@ -1,4 +1,4 @@
-//! Least squares from the triangles.
+//! The estimate by least squares, from the triangles.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,61 +9,63 @@ use super::triangle::Triangle;
 use crate::error::Error;
 use crate::log::unit;
 
-/// Columns of length 1 of which less than this is left beside the others count as combinations of them. The triangle's
-/// rounding errors are some 10⁻¹⁴ of the columns.
+/// If the part of a column of length 1 that is orthogonal to the others is shorter than this, the column counts as
+/// a combination of them. The triangle's rounding errors are about 10⁻¹⁴ of the columns.
 const INDEPENDENT: f64 = 1e-11;
 
-/// How much a parameter must contribute to a combination to be named.
+/// The coefficient in a combination above which a parameter is named.
 const NAMED: f64 = 1e-6;
 
-/// The most rounds of estimating noise and parameters in turn.
+/// The maximum number of rounds in which noise and parameters are estimated in turn.
 const MOST_ROUNDS: usize = 50;
 
-/// What is estimated.
+/// The estimate of a robot's base parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
     /// The name of the robot.
     pub robot: String,
     /// The names of the base parameters.
     pub names: Vec<String>,
-    /// The estimates β; of parameters that are not identifiable the value of the robot file.
+    /// The estimates β; for parameters that are not identifiable, the values of the robot file.
     pub values: Vec<f64>,
-    /// Their standard deviations; `None` for parameters that are not identifiable.
+    /// The standard deviations of the estimates; `None` for parameters that are not identifiable.
     pub deviations: Vec<Option<f64>>,
     /// The values of the robot file.
     pub nominal: Vec<f64>,
     /// The covariance of β, row by row; rows and columns of parameters that are not identifiable are 0.
     pub covariance: Vec<f64>,
     /// The ratio of the largest to the smallest singular value of the regressor over the identifiable parameters,
-    /// rows divided by their noise and columns brought to length 1.
+    /// with rows divided by their noise and columns scaled to length 1.
     pub condition: f64,
     /// The number of identifiable parameters.
     pub rank: usize,
-    /// The rows of the log that were used.
+    /// The number of rows of the log that were used.
     pub rows: u64,
-    /// The rows that were left out: a NaN, an infinity or a null among their values.
+    /// The number of rows that were omitted because a value is a NaN, an infinity or null.
     pub excluded: u64,
-    /// √(χ²/degrees of freedom): what the deviations were multiplied with; 1 if the noise is as large as given.
+    /// √(χ²/degrees of freedom), the factor by which the deviations were multiplied; 1 if the noise has the given
+    /// size.
     pub scale: f64,
-    /// The joints, with what is left of their torques.
+    /// The joints, with the residuals of their torques.
     pub joints: Vec<Residual>,
     /// The parameters that are not identifiable.
     pub unidentifiable: Vec<Unidentifiable>,
     /// The names of the parameters that were fixed beforehand.
     pub fixed: Vec<String>,
-    /// R of [Y τ], rows divided by their noise, on and above the diagonal, row by row: it determines the estimates
-    /// of all models that are linear in these columns. What is known beforehand is among the rows.
+    /// R of [Y τ], with rows divided by their noise, on and above the diagonal, row by row. It determines the
+    /// estimates of all models that are linear in these columns. Priors are among the rows.
     pub triangle: Vec<f64>,
 }
 
-/// What is left of the torques of a joint.
+/// The residuals of the torques of a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Residual {
     /// The name of the joint.
     pub name: String,
-    /// Root mean square, weighted, N m or N.
+    /// The weighted root mean square, N m or N.
     pub rms: f64,
-    /// The standard deviation of the noise that weighted the joint's rows, N m or N; `None` if it came with the rows.
+    /// The standard deviation of the noise by which the joint's rows were divided, N m or N; `None` if it was given
+    /// with the rows.
     pub noise: Option<f64>,
 }
 
@@ -72,17 +74,18 @@ pub struct Residual {
 pub struct Unidentifiable {
     /// Its name.
     pub name: String,
-    /// The identifiable parameters that it acts together with; none if it does not act at all.
+    /// The identifiable parameters with which it acts together; empty if it has no effect.
     pub with: Vec<String>,
 }
 
 impl Measurements {
-    /// Weighted least squares. Unless noise came with the rows, that of each joint is estimated with the parameters.
+    /// Estimates the parameters by weighted least squares. If noise was not given with the rows, that of each joint
+    /// is estimated together with the parameters.
     ///
     /// # Errors
     ///
-    /// Fewer rows than parameters; values that overflow; names of the prior that no parameter has; what
-    /// [`Parameters::of`] refuses.
+    /// Fewer rows than parameters; values that overflow; names in the prior that no parameter has; errors of
+    /// [`Parameters::of`].
     pub(crate) fn estimate(&self) -> Result<Estimate, Error> {
         let parameters = Parameters::of(&self.model)?;
         self.check(&parameters)?;
@@ -102,11 +105,12 @@ impl Measurements {
         Ok(self.answer(&parameters, &prior, solution, &noise))
     }
 
-    /// The condition of the regressor with the noise of each joint; infinite where parameters are not identifiable.
+    /// The condition number of the regressor with the noise of each joint; infinite if parameters are not
+    /// identifiable.
     ///
     /// # Errors
     ///
-    /// No parameter that acts.
+    /// No parameter has an effect.
     pub(crate) fn condition(&self, noise: &[f64]) -> Result<f64, Error> {
         let solution = self.solve(&Placed::none(self.parameters()), noise)?;
         Ok(if solution.left.is_empty() { solution.condition } else { f64::INFINITY })
@@ -137,7 +141,7 @@ impl Measurements {
         Ok(())
     }
 
-    /// The triangle of all joints over all parameters and the torque, rows divided by noise.
+    /// The triangle of all joints over all parameters and the torque, with rows divided by their noise.
     fn stacked(&self, noise: &[f64]) -> Triangle {
         let mut all = Triangle::new(self.parameters() + 1);
         for (joint, noise) in self.joints.iter().zip(noise) {
@@ -154,7 +158,7 @@ impl Measurements {
         all
     }
 
-    /// [`Measurements::stacked`], with what is known beforehand as further rows.
+    /// The triangle of [`Measurements::stacked`], with priors as further rows.
     fn informed(&self, prior: &Placed, noise: &[f64]) -> Triangle {
         let mut all = self.stacked(noise);
         if prior.has_weights() {
@@ -201,7 +205,7 @@ impl Measurements {
             |row: usize, column: usize| if row > column { 0.0 } else { sorted.get(row, column) };
         let top = DMatrix::from_fn(rank, rank, entry);
         let right = DMatrix::from_fn(rank, left.len(), |row, place| entry(row, rank + place));
-        // What is not identifiable stays at the value of the robot file.
+        // Parameters that are not identifiable keep the values of the robot file.
         let fixed = DVector::from_fn(left.len(), |place, _| {
             let scale = scales[left[place]];
             if scale > 0.0 { nominal[left[place]] / scale } else { 0.0 }
@@ -223,7 +227,8 @@ impl Measurements {
         Ok(Solution { values, root, condition, kept, left, together, all })
     }
 
-    /// The noise of the joints by what is left of their torques, less what the parameters took.
+    /// The noise of the joints from the residuals of their torques, with the degrees of freedom that the parameters
+    /// take away.
     fn noise(&self, solution: &Solution, noise: &[f64]) -> Vec<f64> {
         let rows = self.rows as f64;
         let torque = |joint: &Joint| {
@@ -253,7 +258,7 @@ impl Measurements {
         let joints = self.joints.iter().zip(noise);
         let squares: f64 = joints.map(|(joint, noise)| joint.left(&values) / noise.powi(2)).sum();
         let joints = self.joints.iter().zip(noise);
-        // The number of identifiable parameters, less what of them is known beforehand.
+        // The number of identifiable parameters, reduced by the part that priors determine.
         let taken: f64 = joints.map(|(joint, noise)| joint.taken(&root) / noise.powi(2)).sum();
         let degrees = self.rows as f64 * self.joints.len() as f64 - taken;
         let scale = (squares / degrees).sqrt();
@@ -300,7 +305,7 @@ impl Measurements {
 }
 
 impl Estimate {
-    /// Of each row of the triangle, what base parameters explain of the torque, and the torque.
+    /// For each row of the triangle, the part of the torque that the base parameters explain, and the torque.
     pub(super) fn explained(&self, base: &[f64]) -> Vec<(f64, f64)> {
         let count = self.names.len();
         let mut packed = self.triangle.iter();
@@ -312,7 +317,8 @@ impl Estimate {
         (0..=count).map(row).collect()
     }
 
-    /// What is likely wrong with the units of the torques, judged by those of the robot file along the log.
+    /// The likely mistake in the units of the torques, from a comparison with the torques by the robot file along
+    /// the log.
     #[must_use]
     pub fn unit(&self) -> Option<String> {
         let rows = self.explained(&self.nominal);
@@ -323,29 +329,29 @@ impl Estimate {
     }
 }
 
-/// The lengths of the columns of a triangle but for the last.
+/// The lengths of the columns of a triangle except the last.
 fn lengths(triangle: &Triangle) -> Vec<f64> {
     let square =
         |column: usize| -> f64 { (0..=column).map(|row| triangle.get(row, column).powi(2)).sum() };
     (0..triangle.size() - 1).map(|column| square(column).sqrt()).collect()
 }
 
-/// Least squares with given noise.
+/// The solution of least squares with given noise.
 struct Solution {
     values: DVector<f64>,
-    /// A root of the covariance at noise as given: a row for each parameter.
+    /// A root of the covariance for the given noise, with a row for each parameter.
     root: DMatrix<f64>,
     condition: f64,
     /// The identifiable parameters, and the others.
     kept: Vec<usize>,
     left: Vec<usize>,
-    /// Each of the others as a combination of the identifiable ones, columns of length 1.
+    /// Each of the others as a combination of the identifiable parameters, for columns of length 1.
     together: DMatrix<f64>,
     all: Triangle,
 }
 
-/// The columns that are independent of one another, and those that are combinations of them, both in order. The columns
-/// have length 1 or are 0.
+/// The columns that are independent of one another, and those that are combinations of them, both in order. All
+/// columns have length 1 or are 0.
 fn independent(columns: DMatrix<f64>) -> (Vec<usize>, Vec<usize>) {
     let count = columns.ncols();
     let pivoted = columns.col_piv_qr();
@@ -361,7 +367,7 @@ fn independent(columns: DMatrix<f64>) -> (Vec<usize>, Vec<usize>) {
 }
 
 impl Joint {
-    /// The sum of squares of what parameters leave of the joint's torques.
+    /// The sum of squares of the residuals of the joint's torques.
     fn left(&self, values: &DVector<f64>) -> f64 {
         let last = self.columns.len();
         let row = |row: usize| {
@@ -373,7 +379,8 @@ impl Joint {
         (0..=last).map(row).sum()
     }
 
-    /// The trace of the joint's part of the projection on the columns: the degrees of freedom that they take of it.
+    /// The trace of the joint's part of the projection on the columns: the degrees of freedom that the columns take
+    /// from it.
     fn taken(&self, root: &DMatrix<f64>) -> f64 {
         let size = self.columns.len();
         let own = DMatrix::from_fn(size, root.ncols(), |place, column| {

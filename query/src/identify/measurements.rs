@@ -1,4 +1,5 @@
-//! What is kept of a log: for each joint the triangle of [Y τ], the regressor and the torque over all rows.
+//! The measurements of a log in constant memory: for each joint the triangle of [Y τ], the regressor and the torque
+//! over all rows.
 
 use std::sync::Arc;
 
@@ -11,8 +12,9 @@ use crate::error::Error;
 use crate::functions::{compute, function};
 use crate::robots::{Compiled, Model};
 
-/// The measurements of a robot, as many as there may be. A joint has a triangle of its own, over the columns of the
-/// regressor that its torque depends on: about half the work, and weights of joints can be chosen afterwards.
+/// The measurements of a robot, for any number of rows. Each joint has a triangle of its own, over the columns of
+/// the regressor that its torque depends on. This halves the work, and the weights of joints can be chosen
+/// afterwards.
 #[derive(Debug)]
 pub(crate) struct Measurements {
     pub(crate) model: Arc<Model>,
@@ -20,13 +22,13 @@ pub(crate) struct Measurements {
     /// The number of base parameters.
     parameters: usize,
     pub(super) joints: Vec<Joint>,
-    /// The rows that are folded in.
+    /// The number of rows that were added.
     pub(super) rows: u64,
-    /// The rows that were left out: a NaN, an infinity or a null among their values.
+    /// The number of rows that were omitted because a value is a NaN, an infinity or null.
     pub(super) excluded: u64,
     /// Whether noise was given with the rows.
     pub(super) weighted: bool,
-    /// What is known of the parameters besides.
+    /// The priors.
     pub(crate) prior: Prior,
 }
 
@@ -35,13 +37,13 @@ pub(crate) struct Measurements {
 pub(super) struct Joint {
     /// The columns of the regressor that are not 0 by structure.
     pub(super) columns: Vec<usize>,
-    /// Over these columns and the torque, each row divided by its noise.
+    /// The triangle over these columns and the torque, with each row divided by its noise.
     pub(super) triangle: Triangle,
-    /// Σ 1/noise², the number of rows if no noise is given.
+    /// Σ 1/noise², which is the number of rows if no noise is given.
     pub(super) weight: f64,
 }
 
-/// The memory that folding needs.
+/// The working memory for adding rows.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     given: Vec<f64>,
@@ -50,7 +52,7 @@ pub(crate) struct Scratch {
 }
 
 impl Measurements {
-    /// None yet.
+    /// Makes measurements without rows.
     ///
     /// # Errors
     ///
@@ -81,13 +83,14 @@ impl Measurements {
         self.parameters
     }
 
-    /// Bytes in memory.
+    /// The size in memory, bytes.
     pub(crate) fn size(&self) -> usize {
         let triangles = self.joints.iter().map(|joint| joint.triangle.size().pow(2));
         triangles.sum::<usize>() * size_of::<f64>() + size_of::<Measurements>()
     }
 
-    /// Folds rows in: q, q̇, q̈, τ and, if there are more columns, the noise of all torques or of each.
+    /// Adds rows: columns of q, q̇, q̈, τ and, if there are more columns, the noise of all torques or of each
+    /// torque.
     ///
     /// # Errors
     ///
@@ -115,7 +118,7 @@ impl Measurements {
         Ok(())
     }
 
-    /// Folds the first rows of a block into the triangle of a joint.
+    /// Adds the first rows of a block to the triangle of a joint.
     fn fold(&mut self, joint: usize, rows: usize, scratch: &mut Scratch) {
         let count = self.joints.len();
         let column = |values: &'_ [f64], place: usize| {
@@ -152,7 +155,7 @@ impl Measurements {
         }
     }
 
-    /// The state as numbers: those of rows, then the weight and the triangle of each joint.
+    /// The state as numbers: the counts of rows, then the weight and the triangle of each joint.
     pub(crate) fn numbers(&self) -> Vec<f64> {
         // Counts are exact up to 2⁵³ rows.
         let mut numbers =
@@ -164,7 +167,7 @@ impl Measurements {
         numbers
     }
 
-    /// Adds a state of other rows, as [`Measurements::numbers`] gives it.
+    /// Adds the state of other rows, as returned by [`Measurements::numbers`].
     ///
     /// # Errors
     ///
@@ -193,7 +196,8 @@ impl Measurements {
     }
 }
 
-/// Moves the rows of a block that are complete and finite, and whose noise is above 0, to its front; gives their number.
+/// Moves the rows of a block that are complete and finite and have noise above 0 to its front; returns their
+/// number.
 fn usable(columns: &Columns, start: usize, rows: usize, first: usize, given: &mut [f64]) -> usize {
     let mut wanted = [true; BLOCK];
     if let Some(valid) = columns.valid() {

@@ -27,7 +27,7 @@ pub use prior::{Known, Prior};
 ///
 /// # Errors
 ///
-/// A registry that takes no functions.
+/// A registry that does not accept functions.
 pub fn register(registry: &mut dyn FunctionRegistry, robots: &Arc<Robots>) -> Result<(), Error> {
     let identify = AggregateUDF::new_from_impl(Identify::new(robots.clone()));
     registry.register_udaf(Arc::new(identify))?;

@@ -1,4 +1,4 @@
-//! The base parameters of a robot in numbers.
+//! The base parameters of a robot as numbers.
 
 use nalgebra::{DMatrix, DVector};
 use robot_dynamics::base_parameters::{StandardParameter, base_parameters};
@@ -9,7 +9,7 @@ use robot_symbolic::Graph;
 use crate::error::Error;
 use crate::robots::Model;
 
-/// The expressions that the derivation may have.
+/// The maximum number of expressions in the derivation.
 const MOST_EXPRESSIONS: usize = 500_000;
 
 /// The base parameters β = B π at the nominal values of the robot file.
@@ -21,7 +21,7 @@ pub(crate) struct Parameters {
     pub(crate) nominal: DVector<f64>,
     /// B: a row for each base parameter, a column for each standard one.
     pub(crate) regrouping: DMatrix<f64>,
-    /// The standard parameters, ten of each link and those of drives.
+    /// The standard parameters: ten of each link, and those of drives.
     pub(crate) standard: Vec<StandardParameter>,
     /// π, the values of the standard parameters.
     pub(crate) values: DVector<f64>,
@@ -30,7 +30,7 @@ pub(crate) struct Parameters {
 impl Parameters {
     /// # Errors
     ///
-    /// A robot whose base parameters are out of reach; parameters without a nominal value.
+    /// A robot whose base parameters cannot be derived; parameters without a nominal value.
     pub(crate) fn of(model: &Model) -> Result<Parameters, Error> {
         let robot = &model.robot;
         let failed = |reason: &str| Error::Robot {

@@ -1,4 +1,4 @@
-//! What is known of parameters before there are measurements.
+//! Priors: knowledge about parameters that does not come from the log.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,18 +6,18 @@ use std::str::FromStr;
 use super::parameters::Parameters;
 use crate::error::Error;
 
-/// What is known beforehand, in words: `ridge=0.01, ZZR_2=1.2:0.1, MX_3=:0.05, FV_1=0:0`. A parameter has a value and its
-/// standard deviation; without a value, that of the robot file; with deviation 0, it is fixed. A ridge keeps all
-/// parameters near the robot file, each with that part of the weight that the log's rows give it.
+/// Priors in a text such as `ridge=0.01, ZZR_2=1.2:0.1, MX_3=:0.05, FV_1=0:0`. A parameter has a value and its
+/// standard deviation. Without a value, that of the robot file is used; with deviation 0, the parameter is fixed. A
+/// ridge keeps all parameters near the robot file, each with that fraction of the weight of the log's rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Prior {
-    /// The weight of the values of the robot file, beside that of all rows of the log.
+    /// The weight of the values of the robot file relative to that of all rows of the log.
     pub ridge: f64,
-    /// Parameters by name.
+    /// The known parameters, by name.
     pub known: Vec<Known>,
 }
 
-/// A parameter that is known.
+/// A known parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Known {
     /// Its name, such as `ZZR_2`.
@@ -85,21 +85,21 @@ impl FromStr for Prior {
     }
 }
 
-/// What is known, by the places of parameters.
+/// Priors by the places of the parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Placed {
-    /// The values that parameters are expected to have, fixed ones among them.
+    /// The expected values of the parameters, including fixed ones.
     pub(super) expected: Vec<f64>,
-    /// The weights of these values, 1/deviation; 0 if nothing is known.
+    /// The weights of these values, 1/deviation; 0 for parameters without a prior.
     pub(super) weights: Vec<f64>,
     /// The parameters that are not estimated.
     pub(super) fixed: Vec<usize>,
-    /// The root of the ridge.
+    /// The square root of the ridge.
     pub(super) ridge: f64,
 }
 
 impl Placed {
-    /// Nothing is known of so many parameters.
+    /// No priors, for this number of parameters.
     pub(super) fn none(count: usize) -> Placed {
         Placed { expected: vec![0.0; count], weights: vec![0.0; count], fixed: vec![], ridge: 0.0 }
     }

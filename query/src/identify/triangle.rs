@@ -1,11 +1,11 @@
-//! The triangle R of a table's QR decomposition, of rows that come a few at a time (TSQR).
+//! The triangle R of the QR decomposition of a table whose rows arrive a few at a time (TSQR).
 //!
-//! Householder reflections fold a block of rows into the triangle: nothing is squared, so that the condition of the
-//! table is that of the result, and triangles of parts of the table fold into one another in any order.
+//! Householder reflections fold a block of rows into the triangle. Nothing is squared, so the triangle has the
+//! condition number of the table, and triangles of parts of the table can be folded into one another in any order.
 
 use pulp::{Simd, WithSimd};
 
-/// The rows of a block. A column of them stays in the registers of a processor with AVX-512.
+/// The number of rows of a block. A column of them fits in the registers of a processor with AVX-512.
 pub(super) const ROWS: usize = 64;
 
 /// A column of a block.
@@ -19,7 +19,7 @@ pub(super) struct Triangle {
 }
 
 impl Triangle {
-    /// That of a table without rows.
+    /// The triangle of a table without rows.
     pub(super) fn new(size: usize) -> Triangle {
         Triangle { size, values: vec![0.0; size * size] }
     }
@@ -34,17 +34,18 @@ impl Triangle {
         self.values[row * self.size + column]
     }
 
-    /// A row from the diagonal on.
+    /// The part of a row from the diagonal on.
     pub(super) fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.size + row..(row + 1) * self.size]
     }
 
-    /// Folds a block of rows in; a column of it for each of the triangle. What the block has then means nothing.
+    /// Folds a block of rows into the triangle, with a column of the block for each column of the triangle. The
+    /// values of the block are arbitrary afterwards.
     pub(super) fn fold(&mut self, block: &mut [Column]) {
         pulp::Arch::new().dispatch(Fold { triangle: self, block });
     }
 
-    /// Folds in rows that are functions of their number and of the column.
+    /// Folds rows into the triangle whose entries are functions of their row and column.
     pub(super) fn fold_rows(&mut self, rows: usize, entry: impl Fn(usize, usize) -> f64) {
         let mut block = vec![[0.0; ROWS]; self.size];
         for start in (0..rows).step_by(ROWS) {
@@ -58,7 +59,7 @@ impl Triangle {
         }
     }
 
-    /// Folds another triangle of the same columns in.
+    /// Folds another triangle with the same columns into this one.
     pub(super) fn merge(&mut self, other: &Triangle) {
         self.fold_rows(other.size, |row, column| other.get(row, column));
     }
@@ -68,7 +69,7 @@ impl Triangle {
         (0..self.size).flat_map(|row| self.row(row).iter().copied())
     }
 
-    /// From [`Triangle::packed`], whose length must fit.
+    /// The triangle from the numbers of [`Triangle::packed`], whose length must fit.
     pub(super) fn unpacked(size: usize, packed: &[f64]) -> Option<Triangle> {
         let mut triangle = Triangle::new(size);
         let mut packed = packed.iter();
@@ -103,7 +104,7 @@ impl WithSimd for Fold<'_> {
             }
             let row = &mut triangle.values[place * size + place..(place + 1) * size];
             let (diagonal, row) = row.split_first_mut().unwrap_or((&mut reflected[0], &mut []));
-            // Away from the diagonal's sign, so that nothing cancels (Golub and Van Loan, section 5.1).
+            // The opposite sign of the diagonal entry, so that nothing cancels (Golub and Van Loan, section 5.1).
             let length = (*diagonal * *diagonal + square).sqrt().copysign(-*diagonal);
             let scale = 1.0 / (*diagonal - length);
             let factor = (length - *diagonal) / length;
@@ -120,7 +121,7 @@ impl WithSimd for Fold<'_> {
     }
 }
 
-/// The scalar product, summed in sixteen parts that registers hold.
+/// The scalar product, summed in sixteen parts that stay in registers.
 #[inline(always)]
 fn product(a: &Column, b: &Column) -> f64 {
     let mut sums = [0.0; 16];
@@ -148,7 +149,7 @@ mod tests {
         (0..rows).map(row).collect()
     }
 
-    /// RᵀR, which the signs of rows do not change.
+    /// RᵀR, which does not depend on the signs of rows.
     fn squared(triangle: &Triangle) -> Vec<f64> {
         let size = triangle.size();
         let entry = |i: usize, j: usize| -> f64 {

@@ -1,4 +1,4 @@
-//! What is likely wrong with a log.
+//! Finds likely mistakes in a log.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ use crate::columns::{BLOCK, Columns};
 use crate::error::Error;
 use crate::robots::Model;
 
-/// A revolute joint's position beyond this many turns is more likely in degrees.
+/// The position of a revolute joint, in turns, beyond which it is more likely in degrees.
 const TURNS: f64 = 10.0;
 
-/// Samples that lie further apart than this are more likely in another unit than seconds.
+/// The time between two samples, s, beyond which time is more likely in another unit than seconds.
 const APART: f64 = 60.0;
 
 /// A finding about a row group.
@@ -29,11 +29,11 @@ pub struct Finding {
     pub path: PathBuf,
     /// The row group, from 0.
     pub row_group: usize,
-    /// The first row of the file that it is about, from 0, and how many there are in the row group.
+    /// The first row of the file that the finding is about, from 0.
     pub row: u64,
-    /// The number of rows.
+    /// The number of such rows in the row group.
     pub rows: u64,
-    /// What is found.
+    /// The text of the finding.
     pub what: String,
 }
 
@@ -45,15 +45,15 @@ impl fmt::Display for Finding {
     }
 }
 
-/// How far beyond its limits a joint may be, of its range.
+/// The distance beyond its limits at which a position is reported, as a fraction of the range.
 const BEYOND: f64 = 0.1;
 
-/// What is looked for in a row, in the order of checks.
+/// The number of kinds of mistakes in a row, in the order of [`WHAT`].
 const KINDS: usize = 7;
 
-/// Looks through the Parquet files of a log: rows with nulls, NaN or infinities, times that repeat, go back or are not in
-/// seconds, positions that are not in radians, and torques that are not in N m. `time` and `episode` are columns; time is
-/// compared within an episode.
+/// Checks the Parquet files of a log and finds rows with nulls, NaN or infinities, times that repeat, go back or
+/// are not in seconds, positions that are not in radians, and torques that are not in N m. `time` and `episode` are
+/// columns; times are compared within an episode.
 ///
 /// # Errors
 ///
@@ -75,7 +75,7 @@ pub fn check(
     Ok(search.found)
 }
 
-/// A search through the files of a log, in their order.
+/// A check of the files of a log, in their order.
 struct Search<'a> {
     model: &'a Model,
     names: &'a Names,
@@ -86,7 +86,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Looks through a row group, whose first row in the file is `first`; gives the row after its last.
+    /// Checks a row group, whose first row in the file is `first`; returns the row after its last.
     fn group(&mut self, path: &Path, group: usize, first: u64) -> Result<u64, Error> {
         let failed = |error: &dyn fmt::Display| Error::File {
             path: path.to_owned(),
@@ -125,12 +125,12 @@ impl Search<'_> {
     }
 }
 
-/// The columns that are looked at: episode and time, if they are named, then those of the variables that are there.
+/// The columns to check: episode and time, if they are named, then those of the variables that the log has.
 struct Wanted {
     names: Vec<String>,
     has_episode: bool,
     has_time: bool,
-    /// The factors that bring the columns of variables into SI units, in their order.
+    /// The factors that convert the columns of variables to SI units, in their order.
     factors: Vec<f64>,
     has_positions: bool,
     has_all: bool,
@@ -145,7 +145,7 @@ impl Wanted {
         let mut factors = vec![];
         let mut are_there = vec![];
         for variable in JointVariable::ALL {
-            // A log may lack variables; what needs them says so.
+            // A log need not have all variables; the functions that need a missing one report it.
             let columns = names.of(schema, variable, model)?;
             are_there.push(columns.is_some());
             if let Some(columns) = columns {
@@ -167,7 +167,7 @@ impl Wanted {
         })
     }
 
-    /// The columns before those of variables.
+    /// The number of columns before those of variables.
     fn before(&self) -> usize {
         usize::from(self.has_episode) + usize::from(self.has_time)
     }
@@ -192,10 +192,10 @@ const WHAT: [&str; KINDS] = [
      joint?",
 ];
 
-/// What positions a coordinate may have.
+/// The plausible positions of a coordinate.
 #[derive(Clone, Copy)]
 struct Bounds {
-    /// The largest absolute value.
+    /// The largest absolute value, rad or m.
     turns: f64,
     low: f64,
     high: f64,
@@ -217,14 +217,14 @@ fn bounds(model: &Model) -> Vec<Bounds> {
     bounds.collect()
 }
 
-/// Episode and time of the row before.
+/// The episode and the time of the row before.
 #[derive(Clone, Copy, Debug, Default)]
 struct Last {
     episode: f64,
     time: Option<f64>,
 }
 
-/// What was found in a row group.
+/// The findings in a row group.
 struct Rows {
     first: [Option<u64>; KINDS],
     count: [u64; KINDS],
@@ -244,7 +244,7 @@ impl Rows {
         self.count[kind] += 1;
     }
 
-    /// Looks at the rows of a batch, whose first is `first`.
+    /// Checks the rows of a batch, whose first row in the file is `first`.
     fn look(
         &mut self,
         wanted: &Wanted,
@@ -255,7 +255,7 @@ impl Rows {
     ) -> Result<(), Error> {
         let columns = Columns::of_all(arrays, rows)?;
         let before = wanted.before();
-        // Lists of rows that are all null have no length.
+        // If all rows are null, the length of their lists is unknown.
         let are_null = columns.valid().is_some_and(|valid| valid.null_count() == rows);
         if columns.entries() != before + wanted.factors.len() && !are_null {
             return Err(Error::Columns(format!(
@@ -286,7 +286,7 @@ impl Rows {
         Ok(())
     }
 
-    /// Looks at a row; gives whether all its values are numbers.
+    /// Checks a row; returns whether all its values are numbers.
     fn row(&mut self, wanted: &Wanted, row: &Row<'_>, is_null: bool, last: &mut Last) -> bool {
         if is_null {
             self.note(0, row.row);

@@ -8,12 +8,12 @@ use datafusion::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 
 use crate::error::Error;
 
-/// Files of one table, Parquet or CSV.
+/// The files of one table, Parquet or CSV.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
     files: Vec<PathBuf>,
     format: Format,
-    /// The rows of each file, where footers say.
+    /// The number of rows of each file, from the footers of Parquet files.
     rows: Vec<u64>,
 }
 
@@ -25,13 +25,14 @@ pub(super) enum Format {
 }
 
 impl Log {
-    /// The log of files and folders; of a folder all `.parquet` files in it and below, in the order of their names.
-    /// The footer of each Parquet file is read. Files and folders of buckets, as `s3://logs/arm`, are read by the query
-    /// alone.
+    /// Opens the log of files and folders. A folder contributes all `.parquet` files in it and its subfolders, in
+    /// the order of their names. The footer of each Parquet file is read. Files and folders of buckets, such as
+    /// `s3://logs/arm`, are read only by the query.
     ///
     /// # Errors
     ///
-    /// Paths that do not exist; files of different formats or with different columns; Parquet files that are not whole.
+    /// Paths that do not exist; files of different formats or with different columns; Parquet files that are
+    /// incomplete.
     pub fn open(paths: &[PathBuf]) -> Result<Log, Error> {
         let mut files = vec![];
         for path in paths {
@@ -66,14 +67,14 @@ impl Log {
         &self.files
     }
 
-    /// The number of rows, which footers of Parquet files say; `None` for CSV and for buckets.
+    /// The number of rows, from the footers of Parquet files; `None` for CSV and for buckets.
     #[must_use]
     pub fn rows(&self) -> Option<u64> {
         let are_known = self.format == Format::Parquet && self.remote().is_none();
         are_known.then(|| self.rows.iter().sum())
     }
 
-    /// The first file or folder that lies in a bucket.
+    /// The first file or folder that is in a bucket.
     fn remote(&self) -> Option<&PathBuf> {
         self.files.iter().find(|path| is_remote(path))
     }
@@ -82,7 +83,7 @@ impl Log {
     ///
     /// # Errors
     ///
-    /// CSV files and buckets, of which `what` knows nothing.
+    /// CSV files and buckets, which the command `what` does not support.
     pub(super) fn parquet(&self, what: &str) -> Result<&[PathBuf], Error> {
         if let Some(path) = self.remote() {
             let reason =
@@ -100,7 +101,7 @@ impl Log {
         }
     }
 
-    /// Each Parquet file with its rows.
+    /// Each Parquet file with its number of rows.
     ///
     /// # Errors
     ///
@@ -113,7 +114,7 @@ impl Log {
         self.format
     }
 
-    /// That all files have the same columns; gives the rows of each.
+    /// Checks that all files have the same columns, and returns the number of rows of each.
     fn check_columns(&self) -> Result<Vec<u64>, Error> {
         let mut known: Option<(&Path, SchemaRef)> = None;
         let mut rows = vec![];
@@ -140,7 +141,7 @@ impl Log {
         Ok(rows)
     }
 
-    /// An error of a query over the log with the place in it, if the log is the reason.
+    /// Adds the place in the log to an error of a query over the log, if the log is the reason.
     #[must_use]
     pub fn located(&self, error: Error) -> Error {
         let Error::Engine(reason) = &error else {
@@ -156,7 +157,7 @@ impl Log {
         }
     }
 
-    /// The first place at which the files cannot be read: why a query over them failed.
+    /// The first place at which the files cannot be read, which is why a query over them failed.
     #[must_use]
     pub fn fault(&self) -> Option<Error> {
         if self.format == Format::Csv {
@@ -173,7 +174,7 @@ impl Log {
     }
 }
 
-/// Why a row group cannot be read; `None` if it can.
+/// The reason why a row group cannot be read; `None` if it can be read.
 fn unreadable(path: &Path, group: usize) -> Option<String> {
     let batches = match reader(path).map(|reader| reader.with_row_groups(vec![group]).build()) {
         Err(error) => return Some(error.to_string()),
@@ -188,7 +189,7 @@ fn unreadable(path: &Path, group: usize) -> Option<String> {
 ///
 /// # Errors
 ///
-/// A file that cannot be opened, or is not whole.
+/// A file that cannot be opened, or that is incomplete.
 pub(crate) fn reader(path: &Path) -> Result<ParquetRecordBatchReaderBuilder<File>, Error> {
     let file = File::open(path).map_err(|error| Error::file(path, error))?;
     ParquetRecordBatchReaderBuilder::try_new(file).map_err(|error| {
@@ -204,7 +205,7 @@ fn is_remote(path: &Path) -> bool {
 
 fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
     if is_remote(path) {
-        // The name of a folder ends with a slash, which is how the engine knows it.
+        // The engine recognizes a folder by the slash at the end of its name.
         let folder = if path.extension().is_none() { path.join("") } else { path.to_owned() };
         files.push(folder);
         return Ok(());

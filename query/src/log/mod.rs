@@ -1,4 +1,4 @@
-//! Logs: tables in files, checked before they are read.
+//! Logs: tables in files that are checked before they are read.
 
 mod check;
 mod files;

@@ -1,22 +1,22 @@
-//! Files that are whole or not there.
+//! Files and folders that are written completely or not at all.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// A file that is written beside its place, and moved there when it is whole.
+/// A file that is written under another name beside its path, and renamed when it is complete.
 #[derive(Debug)]
 pub(crate) struct Place {
     path: PathBuf,
     beside: PathBuf,
 }
 
-/// A new folder, or one that has nothing in it.
+/// Makes a new folder, or accepts an empty one.
 ///
 /// # Errors
 ///
-/// A folder with files; one that cannot be made.
+/// A folder with files in it; a folder that cannot be made.
 pub(crate) fn empty_folder(folder: &Path) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::file(folder, error);
     std::fs::create_dir_all(folder).map_err(failed)?;
@@ -27,11 +27,11 @@ pub(crate) fn empty_folder(folder: &Path) -> Result<(), Error> {
 }
 
 impl Place {
-    /// A new file.
+    /// Creates the file under its temporary name.
     ///
     /// # Errors
     ///
-    /// A place where something is; a file that cannot be made.
+    /// A path that exists already; a file that cannot be created.
     pub(crate) fn create(path: &Path) -> Result<(Place, File), Error> {
         if std::fs::symlink_metadata(path).is_ok() {
             return Err(Error::file(path, "it exists; remove it or choose another name"));
@@ -43,16 +43,16 @@ impl Place {
         Ok((Place { path: path.to_owned(), beside }, file))
     }
 
-    /// The path at which the file will be.
+    /// The final path of the file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Moves the file to its place.
+    /// Renames the file to its final path.
     ///
     /// # Errors
     ///
-    /// A file that cannot be moved.
+    /// A file that cannot be renamed.
     pub(crate) fn keep(self) -> Result<(), Error> {
         std::fs::rename(&self.beside, &self.path).map_err(|error| Error::file(&self.path, error))
     }
@@ -60,7 +60,7 @@ impl Place {
 
 impl Drop for Place {
     fn drop(&mut self) {
-        // A file that was kept is no longer here.
+        // A file that was kept no longer exists under this name.
         let _ = std::fs::remove_file(&self.beside);
     }
 }

@@ -1,4 +1,4 @@
-//! How far a query is, for those who wait for it.
+//! The progress of a query on the terminal.
 
 use std::io::{IsTerminal, Write};
 use std::sync::Arc;
@@ -7,10 +7,10 @@ use std::time::Duration;
 use datafusion::physical_plan::ExecutionPlan;
 use tokio::task::JoinHandle;
 
-/// Between two messages.
+/// The time between two messages.
 const PAUSE: Duration = Duration::from_millis(500);
 
-/// Shows how far a query is, as long as it is kept.
+/// Shows the progress of a query until it is dropped.
 #[derive(Debug)]
 pub struct Progress(Option<JoinHandle<()>>);
 
@@ -25,7 +25,7 @@ impl Progress {
                 loop {
                     tokio::time::sleep(PAUSE).await;
                     let percent = 100 * read(plan.as_ref()).min(rows) / rows;
-                    // A terminal that is gone is not the query's concern.
+                    // The query continues if the terminal no longer exists.
                     let mut terminal = std::io::stderr();
                     let _ = write!(terminal, "\r{percent:3} %\r");
                     let _ = terminal.flush();

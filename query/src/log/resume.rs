@@ -1,4 +1,4 @@
-//! Answers of long queries file by file, of which those that are there need not be computed again.
+//! Results of long queries, one file for each file of the log; results that exist already are not computed again.
 
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
@@ -10,36 +10,37 @@ use super::files::{Log, reader};
 use super::write::{Sink, drain, is_whole};
 use crate::error::Error;
 
-/// The key of a file's metadata under which the question stands that the file answers.
+/// The key in a file's metadata whose value describes the query of which the file is the result.
 const KEY: &str = "robot-query";
 
-/// What is asked of each file of a log.
+/// The query that is computed for each file of a log.
 #[derive(Clone, Debug)]
 pub struct Question {
-    /// In words, robot and columns among them: answers to other questions are not taken for this one's.
+    /// A description of the query with the robot and the columns, which must match that of a result to keep it.
     pub words: String,
-    /// Whether rows may be left out.
+    /// Whether the query selects rows, so that a result can have fewer rows than the log.
     pub filtered: bool,
-    /// The files that are computed at the same time.
+    /// The number of files that are computed at the same time.
     pub threads: usize,
 }
 
-/// Rows that were computed, and those that were there.
+/// The numbers of rows that were computed and kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Resumed {
-    /// Rows of files that were computed.
+    /// The number of rows in files that were computed.
     pub computed: u64,
-    /// Rows of files that were there already.
+    /// The number of rows in files that existed already.
     pub kept: u64,
 }
 
-/// Writes a Parquet file into a folder for each file of a log, under its name. A file that is there and answers the same
-/// question of the same file is kept. `table` gives the answer for a log of one file, whose rows stay in their order.
+/// Writes a Parquet file into a folder for each file of a log, under the same name. A file that exists and is the
+/// result of the same query over the same file is kept. `table` computes the result for a log of one file, whose
+/// rows keep their order.
 ///
 /// # Errors
 ///
-/// Two files of one name; a file in the folder that answers another question; what fails while an answer is computed or
-/// written. Files that were finished by then are whole, and are kept.
+/// Two files with the same name; a file in the folder that is the result of another query; errors while a result is
+/// computed or written. Files that were finished before the error are complete and are kept.
 pub async fn resume(
     log: &Log,
     folder: &Path,
@@ -69,7 +70,7 @@ pub async fn resume(
         let answer = table(Log::open(std::slice::from_ref(&path))?).await?;
         let schema = answer.schema().inner().clone();
         let sink = Sink::parquet(&output, schema, Some((KEY, words)))?;
-        // Each in a thread of its own.
+        // Each file is computed in a thread of its own.
         let stream = answer.execute_stream().await?;
         let sink = tokio::spawn(drain(stream, sink)).await;
         let sink = sink.map_err(|error| Error::Query(error.to_string()))??;
@@ -88,7 +89,7 @@ pub async fn resume(
     Ok(found)
 }
 
-/// A file as it is now: another one under its name has another time or size.
+/// The path, size and time of change of a file, by which a changed file is recognized.
 fn version(path: &Path) -> Result<String, Error> {
     let failed = |error: std::io::Error| Error::file(path, error);
     let found = std::fs::metadata(path).map_err(failed)?;
@@ -97,7 +98,7 @@ fn version(path: &Path) -> Result<String, Error> {
     Ok(format!("{}, {} bytes, changed at {changed:?}", path.display(), found.len()))
 }
 
-/// The rows of a file that is there, if it answers the question.
+/// The number of rows of an existing file, if it is the result of the same query.
 fn kept(path: &Path, words: &str) -> Result<Resumed, Error> {
     let reader = reader(path)?;
     let metadata = reader.metadata().file_metadata();

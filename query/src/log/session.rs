@@ -1,4 +1,4 @@
-//! A session of the query engine that knows the dynamics of robots.
+//! A session of the query engine with the functions of robots.
 
 use std::sync::Arc;
 
@@ -16,16 +16,17 @@ use crate::error::Error;
 use crate::robots::Robots;
 use crate::{derivative, functions, identify};
 
-/// How a session computes.
+/// The settings of a session.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// Partitions that are computed at the same time. With 1, rows keep their order.
+    /// The number of partitions that are computed at the same time. With 1, rows keep their order.
     pub threads: usize,
-    /// The most memory that queries may take for what they keep, bytes.
+    /// The most memory that queries may use for intermediate results, bytes.
     pub memory: usize,
 }
 
-/// What queries share: the most memory that they may keep, bytes, and the stores that they read from.
+/// Makes the environment that queries share: the limit of the memory for intermediate results, in bytes, and the
+/// stores that they read from.
 ///
 /// # Errors
 ///
@@ -40,12 +41,12 @@ pub(crate) fn runtime(memory: usize) -> Result<Arc<RuntimeEnv>, Error> {
 pub struct Session {
     /// The engine.
     pub context: SessionContext,
-    /// The robots that queries may name.
+    /// The robots that queries can name.
     pub robots: Arc<Robots>,
 }
 
 impl Session {
-    /// A session with all functions of this crate. Tables are named by their paths, or registered.
+    /// Makes a session with all functions of this crate. Tables are named by their paths, or registered.
     ///
     /// # Errors
     ///
@@ -54,7 +55,8 @@ impl Session {
         Session::on(robots, settings, Workers::none())
     }
 
-    /// A session whose queries are computed by workers, where a log is large enough; without workers by this process.
+    /// Makes a session whose queries are computed by workers if a log is large enough. Without workers this process
+    /// computes them.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! Where tables lie: the files of this machine, and buckets of S3 or of what speaks its protocol.
+//! The stores of tables: the files of this machine, and buckets of S3 or of stores with its protocol.
 
 use std::sync::Arc;
 
@@ -10,9 +10,9 @@ use url::Url;
 
 use crate::error::Error;
 
-/// The stores of a process: a bucket is opened when a query first names it, with what the environment says of keys and
-/// endpoint (`AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_SESSION_TOKEN`, `AWS_REGION`, `AWS_ENDPOINT_URL` and,
-/// for one without TLS, `AWS_ALLOW_HTTP=true`).
+/// The stores of a process. A bucket is opened when a query first names it. Its keys and endpoint come from the
+/// environment (`AWS_ACCESS_KEY_ID`, `AWS_SECRET_ACCESS_KEY`, `AWS_SESSION_TOKEN`, `AWS_REGION`, `AWS_ENDPOINT_URL`
+/// and, for an endpoint without TLS, `AWS_ALLOW_HTTP=true`).
 #[derive(Debug, Default)]
 pub(super) struct Stores {
     known: DefaultObjectStoreRegistry,

@@ -1,4 +1,4 @@
-//! Whether measured torques are in the units of the model.
+//! Checks whether measured torques are in the units of the model.
 
 use std::sync::Arc;
 
@@ -9,19 +9,21 @@ use crate::error::Error;
 use crate::functions::{compute, function, torques_of};
 use crate::robots::{Compiled, Model};
 
-/// Torques that are this many times those of the model, or the model's of them, are more likely in another unit.
+/// The ratio of measured torques to those of the model, or its inverse, beyond which they are more likely in
+/// another unit.
 const OFTEN: f64 = 20.0;
 
-/// The correlation with the model's torques from which on a joint's are the same torques in another unit or direction.
+/// The correlation with the model's torques above which a joint's torques are the same in another unit or
+/// direction.
 const ALIKE: f64 = 0.5;
 
-/// Torques whose variance is less than this of their mean square do not vary.
+/// The ratio of the variance to the mean square below which torques count as constant.
 const RESTING: f64 = 1e-9;
 
-/// The rows from which on there is anything to say.
+/// The number of rows below which nothing is reported.
 const ROWS: u64 = 30;
 
-/// Measured torques beside the model's, over rows that come a block at a time.
+/// Sums over measured torques and those of the model, over rows that are added a block at a time.
 pub(super) struct Torques {
     kind: FunctionKind,
     compiled: Arc<Compiled>,
@@ -30,7 +32,7 @@ pub(super) struct Torques {
     sums: Vec<Sums>,
 }
 
-/// Sums over rows of a joint: of measured torques, those of the model, and their products.
+/// The sums over the rows of a joint: of the measured torques, of the model's, and of their products.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     measured: f64,
@@ -41,11 +43,11 @@ struct Sums {
 }
 
 impl Torques {
-    /// Over no rows yet.
+    /// Makes empty sums.
     ///
     /// # Errors
     ///
-    /// A model that has no torques.
+    /// A model without inverse dynamics.
     pub(super) fn new(model: &Model) -> Result<Torques, Error> {
         let kind = torques_of(model);
         let joints = model.joints();
@@ -54,12 +56,12 @@ impl Torques {
         Ok(Torques { kind, compiled: model.compiled(kind)?, found, rows: 0, sums })
     }
 
-    /// The rows so far.
+    /// The number of rows so far.
     pub(super) fn rows(&self) -> u64 {
         self.rows
     }
 
-    /// Adds the rows of a block that are whole: columns of q, q̇, q̈ and τ of [`BLOCK`] rows each.
+    /// Adds the rows of a block that have no nulls or NaN: columns of q, q̇, q̈ and τ of [`BLOCK`] rows each.
     ///
     /// # Errors
     ///
@@ -83,7 +85,7 @@ impl Torques {
         Ok(())
     }
 
-    /// What is likely wrong with the units or directions of torques, joint by joint.
+    /// The likely mistakes in the units or directions of torques, joint by joint.
     pub(super) fn units(&self, model: &Model) -> Vec<String> {
         if self.rows < ROWS {
             return vec![];
@@ -98,16 +100,16 @@ impl Torques {
 }
 
 impl Sums {
-    /// What is likely wrong with the unit of so many rows.
+    /// The likely mistake in the unit over this number of rows.
     fn unit(&self, rows: f64) -> Option<String> {
-        // Torques that are 0 throughout were not measured.
+        // Torques that are 0 in all rows were not measured.
         if self.measured_squared == 0.0 {
             return None;
         }
         let ratio = (self.measured_squared / self.model_squared).sqrt();
         let measured = self.measured_squared - self.measured.powi(2) / rows;
         let model = self.model_squared - self.model.powi(2) / rows;
-        // A robot at rest has torques that vary by rounding alone.
+        // The torques of a robot at rest vary only by rounding.
         let vary =
             measured > RESTING * self.measured_squared && model > RESTING * self.model_squared;
         let product = self.product - self.measured * self.model / rows;
@@ -115,9 +117,10 @@ impl Sums {
     }
 }
 
-/// What is likely wrong with the unit of torques that are so many times those of the model, with such a correlation.
+/// The likely mistake in the unit of torques, from their ratio to those of the model and the correlation of the
+/// two.
 pub(crate) fn unit((ratio, alike): (f64, f64)) -> Option<String> {
-    // Friction may make torques many times larger than the model's, but then they are not alike.
+    // Friction can make torques many times larger than the model's, but then the correlation is low.
     if ratio > OFTEN && alike.abs() > ALIKE || ratio < 1.0 / OFTEN {
         return Some(format!(
             "{ratio:.3e} times those of the model: are they in N m or N (see --tau-factor), and of this robot?"

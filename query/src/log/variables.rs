@@ -1,4 +1,4 @@
-//! The columns of a log that have the joints' variables, and their units.
+//! The columns of a log that contain the joints' variables, and their units.
 
 use datafusion::arrow::datatypes::{DataType, Schema};
 use datafusion::functions_nested::expr_fn::make_array;
@@ -11,14 +11,15 @@ use crate::robots::Model;
 use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
 
-/// The names and units of columns where they are not the usual ones.
+/// The names and units of columns that differ from the usual ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Names {
-    /// Of q, q̇, q̈ and τ, by the variable's place in [`JointVariable::ALL`]: one name, or one for each joint.
+    /// The names for q, q̇, q̈ and τ, by the variable's place in [`JointVariable::ALL`]: one name, or one for each
+    /// joint.
     pub variables: [Option<Vec<String>>; 4],
     /// Whether angles are in degrees, and their derivatives in degrees per s and s².
     pub degrees: bool,
-    /// What torques are multiplied with to be in N m or N: nothing, one number, or one for each joint.
+    /// The factors that convert torques to N m or N: none, one number, or one for each joint.
     pub tau_factor: Vec<f64>,
 }
 
@@ -26,18 +27,18 @@ pub struct Names {
 enum Found {
     Columns(Vec<String>),
     Missing,
-    /// Columns numbered from 0 to the number of joints.
+    /// Columns with all numbers from 0 to the number of joints, one more than the joints.
     Ambiguous(String),
 }
 
 impl Names {
-    /// The columns of variables of a robot's joints, in the order of a call, in SI units: a list or struct of the name, or
-    /// numbers with the name and the number of the joint behind it, as `q1` or `q_1`, from 1 or from 0. `{}` in a name
-    /// stands for the name of the joint.
+    /// The expressions for the variables of a robot's joints, in the order of a call and in SI units. A variable is
+    /// a list or struct with its name, or columns of numbers with its name and the number of the joint, such as
+    /// `q1` or `q_1`, from 1 or from 0. `{}` in a name is replaced by the name of the joint.
     ///
     /// # Errors
     ///
-    /// Columns that are missing or could be others; another number of factors than joints.
+    /// Columns that are missing or ambiguous; a number of factors that differs from the number of joints.
     pub fn columns(
         &self,
         schema: &Schema,
@@ -60,11 +61,11 @@ impl Names {
         Ok(found)
     }
 
-    /// What a variable's entries are multiplied with to be in SI units; `None` if they are.
+    /// The factors that convert a variable's entries to SI units; `None` if the entries are in SI units.
     ///
     /// # Errors
     ///
-    /// Another number of factors than joints.
+    /// A number of factors that differs from the number of joints.
     pub(super) fn factors(
         &self,
         variable: JointVariable,
@@ -95,7 +96,7 @@ impl Names {
     ///
     /// # Errors
     ///
-    /// Columns that could be others.
+    /// Columns that are ambiguous.
     pub(super) fn of(
         &self,
         schema: &Schema,
@@ -116,7 +117,7 @@ impl Names {
         }
     }
 
-    /// The names that are looked for.
+    /// The names to search for.
     fn given(&self, variable: JointVariable) -> Vec<String> {
         let place = JointVariable::ALL.iter().position(|other| *other == variable);
         let given = place.and_then(|place| self.variables[place].clone());
@@ -158,7 +159,7 @@ impl Names {
     }
 }
 
-/// A name with the name of each joint in it.
+/// A name for each joint, with `{}` replaced by the joint's name.
 fn by_joints(name: &str, model: &Model) -> Vec<String> {
     let coordinates = model.robot.coordinates.iter();
     coordinates.map(|coordinate| name.replace("{}", &coordinate.joint)).collect()

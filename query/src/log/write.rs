@@ -1,4 +1,4 @@
-//! Answers as files: Parquet or CSV, whole or not at all.
+//! Results as files: Parquet or CSV, complete or not at all.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -23,10 +23,10 @@ use super::place::{Place, empty_folder};
 use super::progress::Progress;
 use crate::error::Error;
 
-/// Where an answer goes.
+/// The destination of a result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// A Parquet file; rows in the order of the log if the session has one thread.
+    /// A Parquet file; its rows are in the order of the log if the session has one thread.
     Parquet(PathBuf),
     /// A CSV file; lists become a column for each entry.
     Csv(PathBuf),
@@ -35,11 +35,11 @@ pub enum Answer {
 }
 
 impl Answer {
-    /// By the ending of the path: `.parquet`, `.csv`, or none for a folder.
+    /// Chooses the destination by the extension of the path: `.parquet`, `.csv`, or none for a folder.
     ///
     /// # Errors
     ///
-    /// Other endings.
+    /// Other extensions.
     pub fn at(path: &Path) -> Result<Answer, Error> {
         match path.extension().and_then(|ending| ending.to_str()) {
             Some("parquet") => Ok(Answer::Parquet(path.to_owned())),
@@ -53,11 +53,11 @@ impl Answer {
     }
 }
 
-/// Computes a table and writes it. The result is the number of rows, which must be that wanted, if one is.
+/// Computes a table and writes it. Returns the number of rows, which must be `wanted`, if that is given.
 ///
 /// # Errors
 ///
-/// What fails while it is computed or written; another number of rows. Then no file is left.
+/// Errors while the table is computed or written; another number of rows. Then no file remains.
 pub async fn write(table: DataFrame, answer: &Answer, wanted: Option<u64>) -> Result<u64, Error> {
     let schema = table.schema().inner().clone();
     let context = Arc::new(table.task_ctx());
@@ -93,7 +93,8 @@ pub async fn write(table: DataFrame, answer: &Answer, wanted: Option<u64>) -> Re
     Ok(rows)
 }
 
-/// That an answer has as many rows as its log, if that is known: a part that got lost is not to pass for the whole.
+/// Checks that a result has as many rows as its log, if that number is known, so that a result with a lost part is
+/// not mistaken for a complete one.
 ///
 /// # Errors
 ///
@@ -136,7 +137,8 @@ enum Writer {
     Csv(Box<csv::Writer<BufWriter<File>>>),
 }
 
-/// How tables of numbers are best written: doubles have few repeated values, and hardly shrink.
+/// The properties with which tables of numbers are written. Doubles have few repeated values, and compression
+/// hardly shrinks them.
 pub(crate) fn properties(compressed: bool) -> WriterProperties {
     let compression = if compressed {
         Compression::ZSTD(ZstdLevel::default())
@@ -160,11 +162,11 @@ impl Sink {
         Ok(Sink { place, schema, writer, rows: 0 })
     }
 
-    /// A Parquet file, perhaps with a text in its metadata under a key.
+    /// Creates a Parquet file, with a key and a text in its metadata if they are given.
     ///
     /// # Errors
     ///
-    /// A file that cannot be made.
+    /// A file that cannot be created.
     pub(super) fn parquet(
         path: &Path,
         schema: SchemaRef,
@@ -178,7 +180,7 @@ impl Sink {
         Ok(Sink { place, schema, writer, rows: 0 })
     }
 
-    /// The rows so far.
+    /// The number of rows so far.
     pub(super) fn rows(&self) -> u64 {
         self.rows
     }
@@ -203,7 +205,7 @@ impl Sink {
                 writer.close().map_err(|error| Error::file(path, error))?;
             }
             Writer::Csv(mut writer) => {
-                // An answer without rows has its header all the same.
+                // A result without rows still has its header.
                 let empty = flat(&RecordBatch::new_empty(self.schema))?;
                 writer.write(&empty).map_err(|error| Error::file(path, error))?;
                 writer.into_inner().flush().map_err(|error| Error::file(path, error))?;
@@ -213,11 +215,11 @@ impl Sink {
     }
 }
 
-/// A batch whose lists of fixed length and structs are columns of their own: `tau` becomes `tau_1`, `tau_2` …
+/// Replaces lists of fixed length and structs by columns of their own: `tau` becomes `tau_1`, `tau_2` …
 ///
 /// # Errors
 ///
-/// Columns of other lists.
+/// Columns of lists of another kind.
 fn flat(batch: &RecordBatch) -> Result<RecordBatch, Error> {
     let mut columns: Vec<(String, ArrayRef)> = vec![];
     for (field, column) in batch.schema().fields().iter().zip(batch.columns()) {

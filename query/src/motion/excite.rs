@@ -1,4 +1,4 @@
-//! Trajectories that condition the regressor well.
+//! Trajectories with a small condition number of the regressor.
 
 use std::sync::Arc;
 
@@ -11,10 +11,10 @@ use crate::error::Error;
 use crate::identify::{Measurements, Scratch};
 use crate::robots::Model;
 
-/// The states of a period at which the regressor is taken.
+/// The number of states of a period at which the regressor is computed.
 const SAMPLES: usize = 250;
 
-/// How a trajectory is looked for.
+/// The options of the search for a trajectory.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Excitation {
     /// The limits of the joints.
@@ -23,17 +23,17 @@ pub struct Excitation {
     pub period: f64,
     /// The standard deviations of the torques' noise, N m or N.
     pub noise: Vec<f64>,
-    /// How many trajectories are tried: a third at random, the others near the best so far.
+    /// The number of trajectories to try: a third of them at random, the others near the best so far.
     pub tries: usize,
-    /// Where pseudo-random numbers start.
+    /// The seed of the pseudo-random numbers.
     pub seed: u64,
 }
 
-/// The trajectory with the smallest condition of those tried, and that condition.
+/// Returns the trajectory with the smallest condition number of those tried, and that number.
 ///
 /// # Errors
 ///
-/// A robot without base parameters; motions that leave some of them without effect.
+/// A robot without base parameters; motions in which some base parameters have no effect.
 pub fn excite(model: &Arc<Model>, how: &Excitation) -> Result<(Trajectory, f64), Error> {
     let mut random = Random::new(how.seed);
     let frequency = 1.0 / how.period;
@@ -58,7 +58,7 @@ pub fn excite(model: &Arc<Model>, how: &Excitation) -> Result<(Trajectory, f64),
     })
 }
 
-/// The condition of the regressor along a trajectory; infinite where parameters are not identifiable.
+/// The condition number of the regressor along a trajectory; infinite if parameters are not identifiable.
 fn condition(model: &Arc<Model>, trajectory: &Trajectory, noise: &[f64]) -> Result<f64, Error> {
     let joints = model.joints();
     let mut columns = vec![Vec::with_capacity(SAMPLES); 3 * joints];

@@ -1,4 +1,4 @@
-//! Logs of simulated measurements, of any size, the same for the same seed.
+//! Logs of simulated measurements, of any size. The same seed yields the same log.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -20,33 +20,33 @@ use crate::functions::{compute, function, torques_of};
 use crate::log::{Place, empty_folder, properties};
 use crate::robots::Model;
 
-/// The rows of a batch.
+/// The number of rows of a batch.
 const BATCH: usize = 64 * BLOCK;
 
-/// What a log is made of.
+/// The options of a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generation {
     /// The number of rows.
     pub rows: u64,
-    /// The number of files that they are spread over.
+    /// The number of files.
     pub files: u64,
-    /// Rows in a second.
+    /// The number of rows per second.
     pub rate: f64,
-    /// Rows of an episode, each a trajectory of its own.
+    /// The number of rows of an episode; each episode has a trajectory of its own.
     pub episode: u64,
     /// The limits of the joints.
     pub limits: Vec<Limits>,
     /// The standard deviations of the torques' noise, N m or N.
     pub noise: Vec<f64>,
-    /// The columns of a joint's variable.
+    /// The layout of the columns of the joints' variables.
     pub layout: Layout,
-    /// Whether the variables are written in single precision, which needs half the space.
+    /// Whether the variables are written in single precision, in half the space.
     pub single: bool,
-    /// Where pseudo-random numbers start.
+    /// The seed of the pseudo-random numbers.
     pub seed: u64,
 }
 
-/// How the variables of all joints lie in a table.
+/// The layout of the variables of all joints in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// A list of fixed size for each variable.
@@ -121,22 +121,22 @@ fn schema(model: &Model, how: &Generation) -> Schema {
     Schema::new(first.into_iter().chain(variables).collect::<Vec<_>>())
 }
 
-/// The type of numbers of variables.
+/// The type of the numbers of variables.
 fn number(single: bool) -> DataType {
     if single { DataType::Float32 } else { DataType::Float64 }
 }
 
-/// The type of lists of variables.
+/// The type of the lists of variables.
 fn list(joints: usize, single: bool) -> DataType {
     let item = Arc::new(Field::new_list_field(number(single), true));
     DataType::FixedSizeList(item, i32::try_from(joints).unwrap_or(i32::MAX))
 }
 
-/// The states of rows.
+/// The generator of the states of rows.
 struct States<'a> {
     model: &'a Model,
     how: &'a Generation,
-    /// The trajectory of the episode that came last.
+    /// The trajectory of the latest episode.
     trajectory: Option<(u64, Trajectory)>,
 }
 
@@ -145,7 +145,7 @@ impl<'a> States<'a> {
         States { model, how, trajectory: None }
     }
 
-    /// The columns of rows.
+    /// Computes the columns of rows.
     fn arrays(&mut self, rows: std::ops::Range<u64>) -> Result<Vec<ArrayRef>, Error> {
         let joints = self.model.joints();
         let count = (rows.end - rows.start) as usize;
@@ -216,7 +216,7 @@ impl<'a> States<'a> {
         Ok(())
     }
 
-    /// Adds noise, which depends on the seed and the row of the batch's begin alone.
+    /// Adds noise, which depends only on the seed and on the first row of the batch.
     fn disturb(&self, torques: &mut [Vec<f64>], start: u64) {
         let mut random = Random::new(mixed(self.how.seed, 2 * start + 1));
         for (column, deviation) in torques.iter_mut().zip(&self.how.noise) {
@@ -227,7 +227,7 @@ impl<'a> States<'a> {
     }
 }
 
-/// Columns as one column of lists.
+/// Joins columns into one column of lists.
 fn lists(columns: &[Vec<f64>], rows: usize) -> Result<ArrayRef, Error> {
     let entries = (0..rows).flat_map(|row| columns.iter().map(move |column| column[row]));
     let values: Arc<Float64Array> = Arc::new(entries.collect::<Vec<f64>>().into());
@@ -236,7 +236,7 @@ fn lists(columns: &[Vec<f64>], rows: usize) -> Result<ArrayRef, Error> {
     Ok(Arc::new(lists.map_err(|error| Error::Query(error.to_string()))?))
 }
 
-/// A seed of a part of a log (the finalizer of splitmix64).
+/// The seed of a part of a log (by the finalizer of splitmix64).
 fn mixed(seed: u64, part: u64) -> u64 {
     let mut bits = seed.wrapping_add(part.wrapping_mul(0x9e37_79b9_7f4a_7c15));
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -244,7 +244,7 @@ fn mixed(seed: u64, part: u64) -> u64 {
     bits ^ (bits >> 31)
 }
 
-/// A number of the standard normal distribution (Box and Muller 1958).
+/// A random number with the standard normal distribution (Box and Muller 1958).
 fn normal(random: &mut Random) -> f64 {
     let radius = (-2.0 * (1.0 - random.uniform(0.0, 1.0)).ln()).sqrt();
     radius * (std::f64::consts::TAU * random.uniform(0.0, 1.0)).cos()

@@ -1,4 +1,4 @@
-//! Motions that identify: periodic trajectories, and logs of them with noise.
+//! Motions for identification: periodic trajectories, and logs of them with noise.
 
 mod excite;
 mod generate;

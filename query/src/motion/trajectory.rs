@@ -8,13 +8,13 @@ use robot_symbolic::{Random, Rational};
 
 use crate::robots::Model;
 
-/// Sines and cosines of so many multiples of the base frequency.
+/// The number of harmonics: multiples of the base frequency.
 const HARMONICS: usize = 5;
 
-/// How much of a joint's range is used.
+/// The fraction of a joint's range that is used.
 const RANGE: f64 = 0.9;
 
-/// What a joint may do.
+/// The limits of a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
     /// The lowest and the highest position, rad or m.
@@ -23,7 +23,8 @@ pub struct Limits {
     pub speed: f64,
 }
 
-/// The limits of the joints in the robot file; where it has none, half a turn or half a meter to both sides.
+/// The limits of the joints in the robot file; without limits in the file, half a turn or half a meter to both
+/// sides.
 #[must_use]
 pub fn limits(model: &Model, speed: f64) -> Vec<Limits> {
     let coordinates = model.robot.coordinates.iter();
@@ -52,7 +53,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// A random one within limits.
+    /// Returns a random trajectory within the limits.
     #[must_use]
     pub fn random(limits: &[Limits], frequency: f64, random: &mut Random) -> Trajectory {
         let mut uniform = || random.uniform(-1.0, 1.0);
@@ -62,7 +63,7 @@ impl Trajectory {
         Trajectory { frequency, centers, coefficients }.within(limits)
     }
 
-    /// The trajectory with each joint's series shrunk or stretched until its bounds are those of the limits.
+    /// Scales each joint's series so that its bounds are the limits.
     #[must_use]
     pub(super) fn within(mut self, limits: &[Limits]) -> Trajectory {
         for (joint, limits) in limits.iter().enumerate() {
@@ -73,7 +74,7 @@ impl Trajectory {
             let [lower, upper] = limits.position;
             let scale =
                 (RANGE * (upper - lower) / 2.0 / reach).min(limits.speed / rates.sum::<f64>());
-            // A joint that may not move has no series.
+            // A joint that must not move has no series.
             let scale = if scale.is_finite() { scale } else { 0.0 };
             self.coefficients[joint] =
                 self.coefficients[joint].map(|pair| pair.map(|one| one * scale));
@@ -82,7 +83,7 @@ impl Trajectory {
         self
     }
 
-    /// Another trajectory within the same limits, near to this one.
+    /// Returns another trajectory within the same limits that is close to this one.
     #[must_use]
     pub(super) fn near(&self, limits: &[Limits], random: &mut Random) -> Trajectory {
         let mut next = self.clone();
@@ -101,7 +102,7 @@ impl Trajectory {
         1.0 / self.frequency
     }
 
-    /// q, q̇ and q̈ of all joints at a time, s: the columns of a row.
+    /// Writes q, q̇ and q̈ of all joints at a time, in s: the columns of a row.
     pub fn at(&self, time: f64, row: &mut [f64]) {
         let joints = self.centers.len();
         let (sine, cosine) = (TAU * self.frequency * time).sin_cos();

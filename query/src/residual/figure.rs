@@ -1,4 +1,4 @@
-//! Residuals over time, as a picture.
+//! A plot of residuals over time.
 
 use datafusion::arrow::array::{Array, AsArray, RecordBatch};
 use datafusion::arrow::compute::cast;
@@ -12,7 +12,7 @@ use robot_model::robot::JointKind;
 use crate::error::Error;
 use crate::robots::Model;
 
-/// The parts into which the time is divided.
+/// The number of intervals into which the time is divided.
 const PARTS: usize = 300;
 
 /// The width of a picture, and the heights of its title and panels, px.
@@ -20,16 +20,16 @@ const WIDTH: u32 = 900;
 const TITLE: u32 = 40;
 const PANEL: u32 = 190;
 
-/// The colors of curves: three of the palette of Okabe and Ito (Color Universal Design, 2008).
+/// The colors of curves: three colors of the palette of Okabe and Ito (Color Universal Design, 2008).
 const COLORS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(213, 94, 0), RGBColor(150, 150, 150), RGBColor(150, 150, 150)];
 
-/// Residuals of all joints over time.
+/// The residuals of all joints over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// The title above the panels.
     pub title: String,
-    /// The middles of the parts of the time, s.
+    /// The midpoints of the intervals, s.
     pub t: Vec<f64>,
     /// A panel for each joint.
     pub panels: Vec<Panel>,
@@ -40,25 +40,26 @@ pub struct Figure {
 pub struct Panel {
     /// The name of the joint and the unit of its residuals.
     pub joint: String,
-    /// Mean, root mean square, smallest and largest in each part of the time; NaN in those without rows.
+    /// The mean, the root mean square, the smallest and the largest residual in each interval; NaN in intervals
+    /// without rows.
     pub curves: [Curve; 4],
 }
 
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What it shows.
+    /// The label of the curve.
     pub name: &'static str,
-    /// A value for each part of the time.
+    /// A value for each interval.
     pub values: Vec<f64>,
 }
 
 impl Figure {
-    /// The picture as SVG.
+    /// The plot as SVG.
     ///
     /// # Errors
     ///
-    /// If it cannot be drawn.
+    /// A plot that cannot be drawn.
     pub fn svg(&self) -> Result<String, Error> {
         let mut text = String::new();
         self.draw(&mut text)
@@ -106,7 +107,7 @@ impl Figure {
     }
 }
 
-/// The residuals of a joint in a part of the time.
+/// The residuals of a joint in an interval.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     count: f64,
@@ -134,12 +135,12 @@ impl Part {
     }
 }
 
-/// The residuals of each joint over time: mean, root mean square, smallest and largest in each part of the time, of all
-/// episodes together. The table has the residuals as lists, then the times in a column `t`.
+/// Computes the residuals of each joint over time: mean, root mean square, smallest and largest value in each
+/// interval, over all episodes together. The table has the residuals as lists, then the times in a column `t`.
 ///
 /// # Errors
 ///
-/// Times that are not numbers; a log without rows; what fails while residuals are computed.
+/// Times that are not numbers; a log without rows; errors while residuals are computed.
 pub async fn figure(table: DataFrame, model: &Model) -> Result<Figure, Error> {
     let [first, last] = range(table.clone()).await?;
     let width = if last > first { (last - first) / PARTS as f64 } else { 1.0 };
@@ -159,7 +160,7 @@ pub async fn figure(table: DataFrame, model: &Model) -> Result<Figure, Error> {
             if !is_there || !time.is_finite() || values.iter().any(|value| !value.is_finite()) {
                 continue;
             }
-            // Times lie between the first and the last.
+            // All times are between the first and the last.
             let part = (((time - first) / width) as usize).min(PARTS - 1);
             parts.iter_mut().zip(values).for_each(|(joint, value)| joint[part].push(*value));
         }
@@ -179,7 +180,7 @@ pub async fn figure(table: DataFrame, model: &Model) -> Result<Figure, Error> {
         }
     });
     Ok(Figure {
-        // In the colors of the curves.
+        // The title names the colors of the curves.
         title: format!(
             "Residuals of {}: mean (blue), rms (orange), smallest and largest (gray)",
             model.robot.name

@@ -17,9 +17,9 @@ pub use figure::{Curve, Figure, Panel, figure};
 /// The residuals of all joints over a log.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
-    /// The rows that count.
+    /// The number of rows that are included.
     pub rows: u64,
-    /// The rows that were left out: null, or with a NaN or infinity.
+    /// The number of rows that were omitted because a value is null, NaN or infinite.
     pub excluded: u64,
     /// Sum, sum of squares and largest absolute value for each joint.
     sums: Vec<[f64; 3]>,
@@ -30,7 +30,7 @@ pub struct Residuals {
 pub struct Statistics {
     /// The mean.
     pub mean: f64,
-    /// The root of the mean square.
+    /// The root mean square.
     pub rms: f64,
     /// The largest absolute value.
     pub largest: f64,
@@ -48,11 +48,12 @@ impl Residuals {
     }
 }
 
-/// The residuals of a table whose only column has them as lists; `rows` is how many there are, if that is known.
+/// Computes the residuals of a table whose only column contains them as lists; `rows` is the number of rows, if it
+/// is known.
 ///
 /// # Errors
 ///
-/// What fails while they are computed.
+/// Errors while the table is computed.
 pub async fn statistics(table: DataFrame, rows: Option<u64>) -> Result<Residuals, Error> {
     let mut found = Residuals::default();
     let context = Arc::new(table.task_ctx());

@@ -1,20 +1,20 @@
-//! Friction of joints that a robot file does not have: coefficients that are 0 until they are identified.
+//! Adds friction to joints without friction in the robot file: coefficients that are 0 until they are identified.
 
 use robot_build::Source;
 use robot_model::description::{self, Options};
 use robot_model::robot::{JointKind, Link};
 use toml_edit::{DocumentMut, InlineTable, Item, Table, value};
 
-/// The keys of dry friction; a joint that has one of them needs no other.
+/// The keys of dry friction; a joint with one of them gets no other.
 const DRY: [&str; 5] =
     ["coulomb", "coulomb_torque", "coulomb_force", "coulomb_positive", "coulomb_negative"];
 
-/// The robot file, in TOML, with viscous and constant dry friction in every moving joint: that of the file, for URDF that
-/// of `<dynamics>`, else parameters whose value is 0.
+/// Returns the robot file, in TOML, with viscous and constant dry friction in every moving joint: that of the file,
+/// for URDF that of `<dynamics>`, otherwise parameters whose value is 0.
 ///
 /// # Errors
 ///
-/// What the reader finds wrong with the file; links that are rows of a table.
+/// Errors of the file; links that are rows of a table.
 pub(super) fn with_friction(source: Source) -> Result<Source, String> {
     let options = Options { friction: true, ..Options::default() };
     let import = description::import(&source.name, &source.text, &options)
@@ -31,7 +31,7 @@ pub(super) fn with_friction(source: Source) -> Result<Source, String> {
         };
         let table = tables.iter_mut().find(is_link);
         let table = table.ok_or_else(|| format!("link `{}` is not in the file", link.name))?;
-        // A joint that follows another has no torque of its own.
+        // A joint that mimics another has no torque of its own.
         let joint = table.get("joint").and_then(Item::as_table_like);
         if joint.is_none_or(|joint| !joint.contains_key("mimic")) {
             complete(link, place + 1, table, &mut parameters)?;
@@ -51,7 +51,7 @@ pub(super) fn with_friction(source: Source) -> Result<Source, String> {
     Ok(Source { name, text: document.to_string() })
 }
 
-/// Adds what the friction of a link's joint lacks; names of new parameters go to `parameters`.
+/// Adds the missing friction of a link's joint; names of new parameters are added to `parameters`.
 fn complete(
     link: &Link,
     number: usize,

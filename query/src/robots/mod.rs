@@ -1,4 +1,4 @@
-//! Robots as queries name them: by a registered name, a path, or the text of a robot file.
+//! Robots as they are named in queries: by a registered name, a path, or the text of a robot file.
 
 mod friction;
 mod model;
@@ -12,16 +12,16 @@ use robot_build::{Options, RobotFile, Source};
 use crate::error::Error;
 pub use model::{Compiled, Model};
 
-/// The robots of a process: each is read and compiled once, whoever asks for it, and under whichever name.
+/// The robots of a process. Each is read and compiled once, for all queries and under all its names.
 #[derive(Debug, Default)]
 pub struct Robots {
     names: BTreeMap<String, PathBuf>,
-    /// Whether joints get friction that their files do not have.
+    /// Whether joints without friction in their files get friction.
     friction: bool,
     models: Mutex<Models>,
 }
 
-/// The robots that have been asked for.
+/// The robots that have been read.
 #[derive(Debug, Default)]
 struct Models {
     by_literal: HashMap<String, Arc<Model>>,
@@ -30,24 +30,24 @@ struct Models {
 }
 
 impl Robots {
-    /// No names: robots are paths or texts.
+    /// No registered names: robots are named by paths or texts.
     #[must_use]
     pub fn new() -> Robots {
         Robots::default()
     }
 
-    /// Gives a robot file a name.
+    /// Registers a robot file under a name.
     pub fn register(&mut self, name: &str, path: &Path) {
         self.names.insert(name.to_owned(), path.to_owned());
     }
 
-    /// Gives all joints viscous and constant dry friction: that of the robot file, for URDF that of `<dynamics>`, else with
-    /// coefficients that are 0 until they are identified.
+    /// Gives all joints viscous and constant dry friction: that of the robot file, for URDF that of `<dynamics>`,
+    /// otherwise with coefficients that are 0 until they are identified.
     pub fn with_friction(&mut self) {
         self.friction = true;
     }
 
-    /// Registers the robot files of a folder, `.toml` and `.urdf`, under their names without the ending.
+    /// Registers the robot files of a folder, `.toml` and `.urdf`, under their names without the extension.
     ///
     /// # Errors
     ///
@@ -70,7 +70,7 @@ impl Robots {
     ///
     /// # Errors
     ///
-    /// A name that is not registered; everything that is wrong with the file.
+    /// A name that is not registered; all errors of the file.
     pub fn model(&self, literal: &str) -> Result<Arc<Model>, Error> {
         let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(model) = models.by_literal.get(literal) {
@@ -87,7 +87,8 @@ impl Robots {
         Ok(model)
     }
 
-    /// The text of a robot and the options with its pinned plan, which is of the file without other friction.
+    /// The text of a robot and the options with its pinned plan. The plan belongs to the file without added
+    /// friction.
     fn source(&self, literal: &str) -> Result<(Source, Options), Error> {
         let (source, options) = self.read(literal)?;
         if !self.friction {
@@ -115,7 +116,7 @@ impl Robots {
         Ok((file.source, options))
     }
 
-    /// Why a name is not a robot's.
+    /// The error about a name that is not the name of a robot.
     fn unknown(&self) -> String {
         let names: Vec<&str> = self.names.keys().map(String::as_str).collect();
         let known = match names.as_slice() {

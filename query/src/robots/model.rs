@@ -10,7 +10,7 @@ use robot_jit::Executable;
 
 use crate::error::Error;
 
-/// A robot that has been read. Functions are compiled when they are first asked for.
+/// A robot after reading. Its functions are compiled when they are first needed.
 #[derive(Debug)]
 pub struct Model {
     /// The robot.
@@ -21,12 +21,13 @@ pub struct Model {
     compiled: Mutex<HashMap<FunctionKind, Arc<Compiled>>>,
 }
 
-/// A function that was compiled.
+/// A compiled function.
 #[derive(Debug)]
 pub struct Compiled {
-    /// Machine code, or the interpreter where there is none for the machine; its only function has the kind's name.
+    /// Machine code, or the interpreter if there is no machine code for the processor; its only function has the
+    /// kind's name.
     pub executable: Executable<'static>,
-    /// Which entries of the outputs are 0 at all states, by structure.
+    /// For each entry of the outputs, whether it is 0 at all states by structure.
     pub(crate) zeros: Vec<bool>,
 }
 
@@ -43,11 +44,11 @@ impl Model {
         self.robot.degrees_of_freedom()
     }
 
-    /// A function, compiled when it is first asked for.
+    /// Returns a function, which is compiled when it is first needed.
     ///
     /// # Errors
     ///
-    /// A function that the robot has not; parameters without a nominal value.
+    /// A function that the robot does not have; parameters without a nominal value.
     pub fn compiled(&self, kind: FunctionKind) -> Result<Arc<Compiled>, Error> {
         let mut known = self.compiled.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(compiled) = known.get(&kind) {
@@ -68,7 +69,7 @@ impl Model {
     }
 }
 
-/// Which results of a program are the constant 0.
+/// For each result of a program, whether it is the constant 0.
 fn zeros(program: &Program) -> Vec<bool> {
     let operations = program.operations();
     let is_zero = |operation: Operation| matches!(operation, Operation::Constant(constant) if constant.get() == 0.0);

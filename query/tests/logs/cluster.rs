@@ -1,4 +1,4 @@
-//! Workers over TCP against the single process.
+//! Compares queries over workers, by TCP, with those of a single process.
 
 use std::path::PathBuf;
 use std::time::Duration;
@@ -15,7 +15,7 @@ use super::support::{difference, files, generation, log, robot, rows, rows_of};
 
 const SETTINGS: Settings = Settings { threads: 2, memory: 1 << 30 };
 
-/// A worker with a runtime of its own, which can end at any moment.
+/// A worker with a runtime of its own, which can end at any time.
 struct Worker {
     runtime: Runtime,
     address: String,
@@ -30,7 +30,7 @@ impl Worker {
         Worker { runtime, address }
     }
 
-    /// Ends it, with its connections.
+    /// Ends the worker and its connections.
     fn kill(self) {
         self.runtime.shutdown_background();
     }
@@ -46,7 +46,7 @@ fn asked(addresses: &[String], files: &[PathBuf], query: &str) -> Result<RecordB
     rows_of(&session, files, query)
 }
 
-/// The plan of a query, with its stages.
+/// The plan of a query, including its stages.
 fn planned(addresses: &[String], files: &[PathBuf], query: &str) -> String {
     let workers = Workers::at(addresses).unwrap();
     Runtime::new().unwrap().block_on(async {
@@ -75,7 +75,7 @@ fn three_workers_give_the_answer_of_one_process() {
     assert_eq!((found.rows, found.excluded), (60_000, 0));
     assert!(difference(&found.values, &alone.values) < 1e-12);
     assert!(difference(&found.covariance, &alone.covariance) < 1e-9);
-    // Rows come back, in groups, too.
+    // Queries also return rows, in groups.
     let query = format!(
         "SELECT episode, count(*), sum(energies('{path}', q, qd)['kinetic']) AS e FROM log GROUP BY episode ORDER BY episode"
     );
@@ -98,7 +98,7 @@ fn a_worker_that_ends_gives_the_right_answer_or_an_error() {
     for pause in [0, 20, 60, 150, 300] {
         let mut workers: Vec<Worker> = (0..3).map(|_| Worker::start()).collect();
         let addresses = addresses(&workers);
-        // The machine code is there before the worker ends.
+        // The machine code is compiled before the worker ends.
         let warm = format!("{query} WHERE t < 1");
         assert!(asked(&addresses, &files, &warm).is_ok());
         let answer = std::thread::scope(|scope| {

@@ -1,4 +1,4 @@
-//! Recordings as logs.
+//! Tests the conversion of recordings to logs.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -21,14 +21,14 @@ fn usual() -> Conversion {
     Conversion { window: 11, topic: None, joints: None, degrees: false, tau: None }
 }
 
-/// The motion of a joint: position, velocity, acceleration.
+/// The motion of a joint: its position, velocity and acceleration.
 fn motion(joint: usize, time: f64) -> [f64; 3] {
     let rate = 1.0 + joint as f64;
     let (s, c) = (rate * time).sin_cos();
     [s, rate * c, -rate * rate * s]
 }
 
-/// A message of the joints of the planar arm, the second joint first.
+/// A message with the joints of the planar arm, the second joint first.
 fn message(row: usize, time: f64) -> Vec<u8> {
     let mut bytes = vec![0, 1, 0, 0];
     let nanoseconds = (time * 1e9).round() as u64 + 5_000_000_000;
@@ -60,10 +60,15 @@ fn message(row: usize, time: f64) -> Vec<u8> {
     bytes
 }
 
-/// A recording with messages at times.
+/// Writes a recording with messages at the given times, in chunks without compression.
 fn recording(path: &Path, times: &[f64]) {
+    compressed(path, times, None);
+}
+
+/// Writes a recording with messages at these times, in chunks that are compressed.
+fn compressed(path: &Path, times: &[f64], compression: Option<mcap::Compression>) {
     let file = std::io::BufWriter::new(fs::File::create(path).unwrap());
-    let options = mcap::WriteOptions::new().compression(None).profile("ros2");
+    let options = mcap::WriteOptions::new().compression(compression).profile("ros2");
     let mut writer = options.create(file).unwrap();
     let schema = writer.add_schema("sensor_msgs/msg/JointState", "ros2msg", b"").unwrap();
     let channel = writer.add_channel(schema, "/joint_states", "cdr", &BTreeMap::new()).unwrap();
@@ -84,7 +89,7 @@ fn converted(input: &Path, how: &Conversion, output: &Path) -> Result<Converted,
     convert(&model, input, how, output)
 }
 
-/// The entries of a column of lists of two.
+/// The entries of a column of lists with two entries.
 fn entries(batch: &RecordBatch, name: &str) -> Vec<f64> {
     let lists = batch.column_by_name(name).unwrap().as_fixed_size_list();
     lists.values().as_primitive::<Float64Type>().values().to_vec()
@@ -111,6 +116,27 @@ fn a_recording_of_ros_is_a_log() {
         // The message has the second joint first.
         assert_eq!([tau[2 * row], tau[2 * row + 1]], [-(row as f64), row as f64]);
     }
+}
+
+#[test]
+fn compressed_recordings_give_the_same_log() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let times: Vec<f64> = (0..500).map(|row| STEP * row as f64).collect();
+    let kinds = [None, Some(mcap::Compression::Zstd), Some(mcap::Compression::Lz4)];
+    let (sizes, logs): (Vec<u64>, Vec<RecordBatch>) = kinds
+        .into_iter()
+        .enumerate()
+        .map(|(place, compression)| {
+            let file = |suffix: &str| folder.path().join(format!("{place}.{suffix}"));
+            compressed(&file("mcap"), &times, compression);
+            converted(&file("mcap"), &usual(), &file("parquet")).unwrap();
+            let size = fs::metadata(file("mcap")).unwrap().len();
+            (size, rows(1, &[file("parquet")], "SELECT * FROM log").unwrap())
+        })
+        .unzip();
+    assert!(sizes[1] < sizes[0] && sizes[2] < sizes[0], "{sizes:?}");
+    assert_eq!(logs[1], logs[0]);
+    assert_eq!(logs[2], logs[0]);
 }
 
 #[test]
@@ -181,7 +207,7 @@ fn a_data_set_of_lerobot_is_a_log() {
         for joint in 0..2 {
             let [position, velocity, _] = motion(joint, STEP * (row % 200) as f64);
             assert!((q[2 * row + joint] - position).abs() < 1e-6, "{row}");
-            // Windows do not reach into the other episode.
+            // Windows do not extend into the other episode.
             assert!((qd[2 * row + joint] - velocity).abs() < 0.02, "{row} {joint}");
         }
     }

@@ -1,4 +1,4 @@
-//! Logs with something wrong: messages with file and row group, never a number.
+//! Tests damaged logs: they yield messages with file and row group, and never numbers.
 
 use std::fs;
 use std::path::Path;
@@ -33,7 +33,7 @@ fn a_damaged_row_group_is_named() {
     let path = folder.path().join("log.parquet");
     write(&path, 400, |_, _| 0.5);
     let mut bytes = fs::read(&path).unwrap();
-    // Of four row groups, the headers of pages of the third.
+    // The headers of pages in the third of four row groups are damaged.
     let place = bytes.len() / 2 + 100;
     let end = place + bytes.len() / 8;
     bytes[place..end].fill(0xff);
@@ -44,7 +44,7 @@ fn a_damaged_row_group_is_named() {
     assert!(fault.contains("log.parquet, row group 2: it cannot be read"), "{fault}");
 }
 
-/// A log of the planar arm in row groups of 100 rows; the value of each variable in each row.
+/// A log of the planar arm in row groups of 100 rows; a function defines the value of each variable in each row.
 fn write(path: &Path, rows: usize, value: impl Fn(&str, usize) -> f64) {
     let field = Arc::new(Field::new_list_field(DataType::Float64, true));
     let list = |name: &str| -> ArrayRef {
@@ -77,7 +77,7 @@ fn likely_mistakes_are_found_with_their_rows() {
         ("tau", 310) => f64::NAN,
         ("q", 50) => 90.0,
         ("t", row) => 0.01 * row as f64,
-        // Of the size of the model's.
+        // The torques have the size of the model's.
         ("tau", _) => 30.0,
         _ => 0.5,
     };
@@ -105,7 +105,7 @@ fn positions_beyond_the_limits_of_the_robot_are_found() {
     let text = fs::read_to_string(robot("planar_2r")).unwrap();
     let limited = text.replacen("type = \"revolute\"", "type = \"revolute\", limits = [-1, 3]", 1);
     assert_ne!(text, limited);
-    // Within 10 % of the range is within reason; 45 is degrees.
+    // Positions within 10 % of the range beyond the limits are accepted; 45 is in degrees.
     let value = |name: &str, row: usize| match (name, row) {
         ("q", 120) => 3.3,
         ("q", 130) => 45.0,

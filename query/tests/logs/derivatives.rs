@@ -15,7 +15,8 @@ use super::support::rows;
 const STEP: f64 = 0.01;
 const ROWS: usize = 200;
 
-/// Two episodes in turns, the later row first; positions of two joints as lists of both kinds and as a number.
+/// The rows of two episodes alternate, with later rows first. The positions of two joints are lists of both kinds
+/// and a number.
 fn recording(folder: &Path, time: impl Fn(usize) -> f64) -> PathBuf {
     let order: Vec<usize> = (0..2 * ROWS).rev().collect();
     let episode: ArrayRef =
@@ -31,7 +32,7 @@ fn recording(folder: &Path, time: impl Fn(usize) -> f64) -> PathBuf {
     let values: ArrayRef = Arc::new(Float64Array::from(pairs));
     let fixed: ArrayRef = Arc::new(FixedSizeListArray::try_new(field, 2, values, None).unwrap());
     let any = order.iter().map(|row| {
-        // One row is not known.
+        // One row is null.
         (*row != 100).then(|| vec![Some(position(*row, 0)), Some(position(*row, 1))])
     });
     let any: ArrayRef = Arc::new(ListArray::from_iter_primitive::<Float64Type, _, _>(any));
@@ -109,7 +110,7 @@ fn calls_that_make_no_sense_are_refused() {
         let is_said = error.contains("derivative takes") || error.contains("No field named x");
         assert!(is_said, "{wrong}: {error}");
     }
-    // Too few samples for a cubic are no error: nothing is known.
+    // Too few samples for a cubic are not an error: the derivatives are null.
     let query = "SELECT derivative(q, t, 1) OVER (PARTITION BY episode ORDER BY t) FROM log WHERE t < 0.001";
     let short = recording(folder.path(), |row| STEP * row as f64);
     let answer = rows(1, &[short], query).unwrap();

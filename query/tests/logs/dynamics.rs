@@ -1,4 +1,4 @@
-//! The functions against the numeric solver, over all kinds of columns.
+//! Compares the functions with the numeric solver, over all kinds of columns.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ use super::support::{difference, files, generation, log, robot, rows, session};
 
 const ROWS: usize = 300;
 
-/// The answer of a query over one batch.
+/// The result of a query over one batch.
 fn answered(columns: Vec<(String, ArrayRef)>, query: &str) -> ArrayRef {
     let batch = RecordBatch::try_from_iter(columns).unwrap();
     Runtime::new().unwrap().block_on(async {
@@ -34,7 +34,7 @@ fn answered(columns: Vec<(String, ArrayRef)>, query: &str) -> ArrayRef {
     })
 }
 
-/// The numbers of an answer, however they are nested.
+/// The numbers of a result, nested in any way.
 fn numbers(answer: &ArrayRef) -> Vec<f64> {
     match answer.data_type() {
         DataType::Float64 => answer.as_primitive::<Float64Type>().values().to_vec(),
@@ -68,9 +68,10 @@ fn every_function_is_that_of_the_solver() {
         .unwrap();
         let mut random = Random::new(11);
         let states: Vec<_> = (0..ROWS).map(|_| state(&mut random, &solver, &model.robot)).collect();
-        // Wrenches of tips are further inputs; Jacobians are functions of frames. The solver has no base parameters: the
-        // truth of identification, whose torques are of inverse dynamics, holds their regressor. Nor has it columns for
-        // friction.
+        // These functions are tested elsewhere or not with columns of joint variables only. Wrenches of tips are
+        // further inputs, and Jacobians are functions of frames. The solver has no base parameters; identification
+        // tests their regressor, because it recovers the true parameters from torques of inverse dynamics. The
+        // solver also has no columns for friction.
         let others = [
             FunctionKind::Regressor,
             FunctionKind::RegressorBase,
@@ -107,10 +108,10 @@ fn every_function_is_that_of_the_solver() {
     }
 }
 
-/// What a form is called, the columns of a log in it, and the argument of a function.
+/// The name of a form, the columns of a log in it, and the argument of a function.
 type Form = (&'static str, Vec<(String, ArrayRef)>, String);
 
-/// Positions of the UR5 in every form that a log may have.
+/// The positions of the UR5 in every form that a log can have.
 fn forms(values: &[f64]) -> Vec<Form> {
     let rows = values.len() / 6;
     let field = || Arc::new(Field::new_list_field(DataType::Float64, true));

@@ -1,4 +1,4 @@
-//! Friction that a robot file does not have.
+//! Tests friction that is added to robot files.
 
 use std::fs;
 
@@ -23,7 +23,7 @@ fn friction_that_the_file_lacks_is_identified_and_written() {
     fs::write(&start, &model.source.text).unwrap();
     let estimate = identified(2, &files(logged.path()), &start, "").unwrap();
     let place = |name: &str| estimate.names.iter().position(|other| other == name).unwrap();
-    // Only the last joint of the truth has friction.
+    // In the true robot, only the last joint has friction.
     for (name, wanted) in
         [("FV_6", 0.8), ("FP_6", 1.5), ("FN_6", 1.5), ("FV_1", 0.0), ("FP_3", 0.0)]
     {
@@ -34,7 +34,7 @@ fn friction_that_the_file_lacks_is_identified_and_written() {
     }
     let consistent = estimate.consistent(&model).unwrap();
     let (text, _) = estimate.robot_file(&model, &consistent, "identified.toml").unwrap();
-    // The parameters that were 0 have gone with their last use.
+    // The parameters that were 0 are removed, since nothing uses them any more.
     assert!(!text.contains("viscous_friction") && !text.contains("[parameters]"), "{text}");
     let written = Robots::new().model(&text).unwrap();
     let viscous = &written.robot.links[5].friction.viscous;
@@ -57,7 +57,7 @@ fn friction_of_a_file_stays_as_it_is() {
     robots.with_friction();
     let text = robots.model(&path).unwrap().source.text.clone();
     assert!(text.contains("viscous = 0.7") && text.contains("dry_friction_1 = 0"), "{text}");
-    // What a file has is not added a second time.
+    // Friction that a file has is not added again.
     let again = robots.model(&text).unwrap().source.text.clone();
     assert_eq!(again, text);
 }

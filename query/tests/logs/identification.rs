@@ -1,4 +1,5 @@
-//! Estimates against dense least squares, against the truth, and against themselves in other orders.
+//! Compares estimates with dense least squares, with the true parameters, and with themselves for other orders of
+//! rows.
 
 use datafusion::arrow::array::AsArray;
 use datafusion::arrow::datatypes::Float64Type;
@@ -63,7 +64,8 @@ fn partitions_and_orders_give_the_same() {
     }
 }
 
-/// How far an estimate is from the truth in units of its covariance: χ² with a degree for each parameter.
+/// The distance of an estimate from the true parameters in units of its covariance: χ² with one degree of freedom
+/// for each parameter.
 fn distance(estimate: &Estimate, truth: &[f64]) -> f64 {
     let count = truth.len();
     let covariance = DMatrix::from_column_slice(count, count, &estimate.covariance);
@@ -83,7 +85,7 @@ fn the_truth_is_within_what_the_deviations_say() {
         let folder = log(&path, &how);
         let found = identified(2, &files(folder.path()), &path, "").unwrap();
         let square = distance(&found, &found.nominal);
-        // χ² of 36 degrees: beyond 85 with probability 10⁻⁵.
+        // χ² with 36 degrees of freedom exceeds 85 with probability 10⁻⁵.
         assert!(square < 85.0, "seed {seed}: {square}");
         all += square;
         for place in 0..found.values.len() {
@@ -95,7 +97,8 @@ fn the_truth_is_within_what_the_deviations_say() {
             assert!((estimated / noise - 1.0).abs() < 0.05, "{}: {estimated}", joint.name);
         }
     }
-    // χ² of 288 degrees has deviation 24; 0.27 % of normal errors are beyond three deviations.
+    // χ² with 288 degrees of freedom has the standard deviation 24; 0.27 % of normal errors exceed three
+    // deviations.
     assert!((all - 288.0).abs() < 5.0 * 24.0, "{all}");
     assert!(beyond <= 5, "{beyond} of 288");
 }
@@ -104,7 +107,7 @@ fn the_truth_is_within_what_the_deviations_say() {
 fn a_badly_conditioned_log_keeps_its_digits() {
     let path = robot("ur5");
     let mut how = generation(&path, 2000);
-    // Small motions about one position, exact torques: the truth is known to all digits.
+    // These are small motions about one position with exact torques, so the true values are known to all digits.
     for limits in &mut how.limits {
         limits.position = [0.3, 0.3 + 2e-3];
     }
@@ -144,7 +147,7 @@ fn what_does_not_move_is_not_identified() {
         assert_eq!(found.values[place], found.nominal[place]);
         assert!(parameter.with.iter().all(|other| found.names.contains(other)), "{parameter:?}");
     }
-    // What is left is explained all the same.
+    // The other parameters still explain the torques.
     for joint in &found.joints {
         assert!((joint.rms - 0.5).abs() < 0.03, "{joint:?}");
     }
@@ -160,7 +163,7 @@ fn rows_that_are_no_measurements_are_left_out_and_counted() {
     let query = format!("SELECT identify('{path}', {nan}, {good}, qdd, tau) FROM log");
     let answer = rows(2, &files, &query).unwrap();
     let found = Estimate::from_array(answer.column(0), 0).unwrap().unwrap();
-    // Three episodes have a row at either time.
+    // There are three episodes, with a row at each of two times.
     assert_eq!((found.rows, found.excluded), (2994, 6));
     let query = format!(
         "SELECT identify('{path}', q, qd, qdd, tau) FROM log WHERE t <> 0.05 AND t <> 0.07"

@@ -1,4 +1,4 @@
-//! Dynamics and identification over logs, from files to answers.
+//! Tests dynamics and identification over logs, from files to results.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 

@@ -1,4 +1,4 @@
-//! Residuals as pictures.
+//! Tests plots of residuals.
 
 use robot_query::Robots;
 use robot_query::log::Log;
@@ -18,7 +18,7 @@ fn a_joint_with_a_wrong_model_is_seen() {
         let session = session(1);
         let table = session.table(&Log::open(&files(folder.path())).unwrap()).await.unwrap();
         session.context.register_table("log", table.into_view()).unwrap();
-        // The second joint has 0.3 N m too much from the middle of each episode on.
+        // The torque of the second joint is too large by 0.3 N m from the middle of each episode on.
         let tau = "CASE WHEN t < 5 THEN tau ELSE make_array(tau[1], tau[2] + 0.3) END";
         let query = format!("SELECT residual('{path}', q, qd, qdd, {tau}) AS r, t FROM log");
         figure(session.context.sql(&query).await.unwrap(), &model).await.unwrap()
@@ -34,7 +34,7 @@ fn a_joint_with_a_wrong_model_is_seen() {
     let (means, largest) = (curve(1, "mean"), curve(1, "largest"));
     for part in 0..300 {
         let wanted = if part < 150 { 0.0 } else { 0.3 };
-        // 13 rows in a part, or 14.
+        // An interval has 13 or 14 rows.
         assert!((means[part] - wanted).abs() < 0.02, "{part}: {}", means[part]);
         assert!(largest[part] >= means[part]);
     }

@@ -1,4 +1,4 @@
-//! Identification with what is known beforehand.
+//! Tests identification with priors.
 
 use robot_query::Robots;
 use robot_query::identify::Estimate;
@@ -16,7 +16,7 @@ fn a_ridge_moves_estimates_towards_the_robot_file() {
     let files = files(folder.path());
     let free = identified(1, &files, &path, ", 0.5").unwrap();
     assert_eq!(identified(1, &files, &path, ", 0.5, 'ridge=0'").unwrap(), free);
-    // The distance in which the ridge measures: each parameter by the length of its column.
+    // The distance that a ridge minimizes: each parameter is multiplied by the length of its column.
     let count = free.names.len();
     let mut squares = vec![0.0; count];
     let mut packed = free.triangle.iter();
@@ -41,13 +41,13 @@ fn a_ridge_moves_estimates_towards_the_robot_file() {
             assert!(one.unwrap() < other.unwrap());
         }
     }
-    // The largest eigenvalue of 36 columns of length 1 is 36 at most: 36/136, squared.
+    // The largest eigenvalue of 36 columns of length 1 is at most 36, hence (36/136)².
     assert!(last < 0.071 * distance(&free), "{last}");
 }
 
 #[test]
 fn a_known_parameter_is_weighed_as_a_measurement() {
-    // In one dimension more: the estimate with a prior is that with a further row.
+    // The formulas are those of one dimension: the estimate with a prior is that with one more row.
     let path = robot("ur5");
     let folder = log(&path, &generation(&path, 2000));
     let files = files(folder.path());
@@ -55,16 +55,16 @@ fn a_known_parameter_is_weighed_as_a_measurement() {
     let name = "ZZR_2";
     let place = place(&free, name);
     let (value, deviation) = (free.values[place], free.deviations[place].unwrap());
-    // Known as well as measured, and five deviations away: the mean of both.
+    // The prior is as accurate as the measurement and five deviations away, so the estimate is the mean of both.
     let told = value + 5.0 * deviation;
     let more = format!(", 0.5, '{name}={told}:{}'", deviation / free.scale);
     let found = identified(1, &files, &path, &more).unwrap();
     let moved = (found.values[place] - value) / deviation;
     assert!((moved - 2.5).abs() < 1e-6, "{moved}");
-    // Rows fit less well: the scale grows with χ² by 25/2 in 12000.
+    // The residuals increase: χ² grows by 25/2 in 12000, and the scale with it.
     let ratio = found.deviations[place].unwrap() / deviation * free.scale / found.scale;
     assert!((ratio - 0.5_f64.sqrt()).abs() < 1e-9, "{ratio}");
-    // Any partitioning gives the same.
+    // The result does not depend on the partitioning.
     let again = identified(3, &files, &path, &more).unwrap();
     assert!(difference(&again.values, &found.values) < 1e-12);
 }

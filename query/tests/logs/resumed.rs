@@ -1,4 +1,4 @@
-//! Answers that go on where an earlier run ended.
+//! Tests results that are continued where an earlier run ended.
 
 use std::fs;
 use std::path::Path;
@@ -36,7 +36,7 @@ fn files_that_are_there_are_kept_and_the_others_computed() {
     let bytes = |name: &str| fs::read(answers.join(name)).unwrap();
     let whole: Vec<Vec<u8>> =
         (0..4).map(|file| bytes(&format!("part-000{file}.parquet"))).collect();
-    // A run that was interrupted: a file is missing, and one is not finished.
+    // An interrupted run: one file is missing, and one is incomplete.
     fs::remove_file(answers.join("part-0002.parquet")).unwrap();
     fs::write(answers.join("part-0002.parquet.incomplete"), "half").unwrap();
     let found = torques(&log, &answers, "torques", "").unwrap();
@@ -57,7 +57,7 @@ fn answers_to_other_questions_are_not_taken() {
     torques(&log, &answers, "torques", "").unwrap();
     let error = torques(&log, &answers, "torques of another robot", "").unwrap_err().to_string();
     assert!(error.contains("part-0000.parquet: it is the result of a different query"), "{error}");
-    // The log has changed since: another file of the same size.
+    // The log has changed since: a file was replaced by another one of the same size.
     fs::copy(&logged[0], &logged[1]).unwrap();
     let error = torques(&log, &answers, "torques", "").unwrap_err().to_string();
     assert!(error.contains("part-0001.parquet: it is the result of a different query"), "{error}");

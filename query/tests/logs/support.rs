@@ -1,4 +1,4 @@
-//! What the tests share.
+//! Functions that the tests share.
 
 use std::path::{Path, PathBuf};
 
@@ -37,7 +37,7 @@ pub(crate) fn generation(path: &str, rows: u64) -> Generation {
     }
 }
 
-/// A folder with a log in it.
+/// A folder that contains a log.
 pub(crate) fn log(path: &str, how: &Generation) -> TempDir {
     let folder = TempDir::new().unwrap();
     let model = Robots::new().model(path).unwrap();
@@ -66,7 +66,7 @@ pub(crate) fn rows_of(
     })
 }
 
-/// The estimate of a robot over a log; `more` may be noise.
+/// The estimate of a robot over a log; `more` contains further arguments, such as the noise.
 pub(crate) fn identified(
     threads: usize,
     files: &[PathBuf],
@@ -83,7 +83,7 @@ pub(crate) fn files(folder: &Path) -> Vec<PathBuf> {
     Log::open(&[folder.to_owned()]).unwrap().files().to_vec()
 }
 
-/// The largest difference beside the largest of the wanted values.
+/// The largest difference, relative to the largest of the wanted values.
 pub(crate) fn difference(found: &[f64], wanted: &[f64]) -> f64 {
     assert_eq!(found.len(), wanted.len());
     let largest = wanted.iter().fold(0.0, |most: f64, value| most.max(value.abs()));

@@ -1,4 +1,4 @@
-//! Columns of other names and in other units, and torques that are likely in another.
+//! Tests columns with other names and units, and torques that are likely in another unit.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use tempfile::TempDir;
 
 use super::support::{difference, files, generation, log, robot, rows, session};
 
-/// The columns of positions that names find among others, or what is said of them.
+/// The columns of positions that are found for names, or the error.
 fn found(columns: &[&str], names: &[&str]) -> Result<Vec<String>, String> {
     let model = Robots::new().model(&robot("planar_2r")).unwrap();
     let fields = columns.iter().map(|name| Field::new(*name, DataType::Float64, true));
@@ -31,7 +31,7 @@ fn columns_of_any_names_are_found() {
     assert_eq!(found(&columns, &["a b", "B"]).unwrap(), ["a b", "B"]);
     // The joints are called 1 and 2.
     assert_eq!(found(&columns, &["pos/{}"]).unwrap(), ["pos/1", "pos/2"]);
-    // From 0 or from 1?
+    // The columns can be numbered from 0 or from 1.
     let error = found(&columns, &["n"]).unwrap_err();
     assert!(error.contains("n0 to n2, one more than planar_2r has joints"), "{error}");
     for (names, wanted) in [
@@ -80,7 +80,7 @@ fn factors_bring_columns_into_other_units() {
     }
 }
 
-/// What is found in a log of the UR5 whose columns are those of a query over another.
+/// The findings in a log of the UR5 whose columns are computed by a query over another log.
 fn checked(folder: &Path, columns: &str, names: &Names) -> Vec<Finding> {
     let model = Robots::new().model(&robot("ur5")).unwrap();
     let changed = TempDir::new().unwrap();

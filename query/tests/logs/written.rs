@@ -7,7 +7,7 @@ use robot_query::identify::Estimate;
 
 use super::support::{difference, files, generation, identified, log, robot};
 
-/// A robot file whose values are other than those that made the log.
+/// A robot file whose values differ from those that the log was made with.
 fn changed(name: &str, from: &str, to: &str, folder: &std::path::Path) -> String {
     let text = fs::read_to_string(robot(name)).unwrap();
     assert!(text.contains(from));
@@ -20,7 +20,7 @@ fn changed(name: &str, from: &str, to: &str, folder: &std::path::Path) -> String
 fn the_written_file_predicts_another_log() {
     let truth = robot("panda");
     let folder = log(&truth, &generation(&truth, 10_000));
-    // A forearm of twice the mass, and a hand of none.
+    // The forearm has twice the mass, and the hand has none.
     let path = changed("panda", "mass = 3.587895", "mass = 7.2", folder.path());
     let estimate = identified(2, &files(folder.path()), &path, "").unwrap();
     let model = Robots::new().model(&path).unwrap();
@@ -44,14 +44,14 @@ fn the_written_file_predicts_another_log() {
         (squares / values.values().len() as f64).sqrt()
     };
     let (before, after) = (rms(&path), rms(&written));
-    // The noise of 0.5 N m in 70000 torques leaves some hundredths.
+    // The noise of 0.5 N m in 70000 torques leaves an error of some hundredths of a N m.
     assert!(before > 2.0 && after < 0.05, "{before} {after}");
 }
 
 #[test]
 fn an_estimate_that_no_bodies_have_is_mended() {
     let path = robot("ur5");
-    // So few rows that the noise makes inertias of the wrist negative.
+    // There are so few rows that the noise makes inertias of the wrist negative.
     let mut how = generation(&path, 300);
     how.noise = vec![3.0; 6];
     let folder = log(&path, &how);
@@ -61,16 +61,17 @@ fn an_estimate_that_no_bodies_have_is_mended() {
     assert!(!consistent.is_estimate);
     assert!(consistent.growth > 1.0 && consistent.growth < 1.2, "{}", consistent.growth);
     let (text, _) = estimate.robot_file(&model, &consistent, "mended.toml").unwrap();
-    // The reader refuses inertias that no body has.
+    // The reader refuses physically impossible inertias.
     Robots::new().model(&text).unwrap();
-    // Nothing near explains the log better: the truth, which bodies have, explains it less well than what is found.
+    // The result is the best physically possible one: the true parameters, which are possible, explain the log less
+    // well.
     let growth_of_truth = grown(&estimate, &estimate.nominal);
     assert!(consistent.growth <= growth_of_truth, "{} {growth_of_truth}", consistent.growth);
     let found = grown(&estimate, &consistent.base);
     assert!((found - consistent.growth).abs() < 1e-9);
 }
 
-/// The factor by which residuals exceed those of the estimate, from its triangle.
+/// The factor by which residuals for other parameters exceed those of the estimate, from the estimate's triangle.
 fn grown(estimate: &Estimate, base: &[f64]) -> f64 {
     let size = base.len() + 1;
     let mut rows = vec![];
@@ -122,7 +123,7 @@ fn friction_and_armature_are_identified_and_written() {
     assert!(difference(&again.nominal, &consistent.base) < 1e-9);
 }
 
-/// The planar arm as URDF, with a tool that is fixed to its second link, and a link without inertial between.
+/// The planar arm as URDF, with a tool that is fixed to its second link, and between them a link without inertial.
 const URDF: &str = r#"<?xml version="1.0"?>
 <!-- Kept as it is. -->
 <robot name="arm">
@@ -170,7 +171,7 @@ fn a_urdf_file_gets_other_inertials_and_nothing_else() {
     assert!(!complaints.contains("error"), "{complaints}");
     assert!(text.contains("+-") && text.contains("<!-- Kept as it is. -->"), "{text}");
     assert!(text.contains("<visual><geometry><box size=\"1 1 1\"/></geometry></visual>"), "{text}");
-    // The tool is part of the link that carries it.
+    // The tool is merged into the link that carries it.
     assert_eq!((text.matches("<inertial>").count(), text.matches("<joint ").count()), (2, 3));
     let written = folder.path().join("identified.urdf").to_string_lossy().into_owned();
     fs::write(&written, &text).unwrap();
@@ -180,7 +181,7 @@ fn a_urdf_file_gets_other_inertials_and_nothing_else() {
     let (before, after) =
         (difference(&estimate.nominal, &wanted), difference(&again.nominal, &wanted));
     assert!(before > 0.2 && after < 0.02, "{before} {after}");
-    // As TOML, too; but a file in TOML is not written as URDF.
+    // A URDF file can also be written as TOML, but a TOML file not as URDF.
     let (toml, _) = estimate.robot_file(&model, &consistent, "identified.toml").unwrap();
     assert!(toml.contains("[[link]]"));
     let other = Robots::new().model(&toml).unwrap();

@@ -1,4 +1,4 @@
-//! All functions of UR5 and Panda as rustc compiles them, called by slices as machine code in memory is.
+//! All functions of the UR5 and the Panda compiled by rustc, with slices as arguments, like machine code in memory.
 
 use std::array::from_fn;
 
@@ -10,15 +10,15 @@ pub struct Function {
     pub robot: &'static str,
     /// The function's name.
     pub name: &'static str,
-    /// From the entries of all inputs to those of all outputs.
+    /// Computes the entries of all outputs from the entries of all inputs.
     pub single: fn(&[f64], &mut [f64]),
-    /// From the columns of all inputs to those of all outputs.
+    /// Computes the columns of all outputs from the columns of all inputs.
     pub columns: fn(&[&[f64]], &mut [&mut [f64]]),
 }
 
 include!(concat!(env!("OUT_DIR"), "/list.rs"));
 
-/// The next input of a state.
+/// Takes the next input of a state.
 #[inline(always)]
 fn row<'r, const N: usize>(rest: &mut &'r [f64]) -> &'r [f64; N] {
     let (first, others) = rest.split_first_chunk().unwrap();
@@ -26,7 +26,7 @@ fn row<'r, const N: usize>(rest: &mut &'r [f64]) -> &'r [f64; N] {
     first
 }
 
-/// The columns of the next input.
+/// Takes the columns of the next input.
 #[inline(always)]
 fn columns<'c, const N: usize>(rest: &mut &[&'c [f64]]) -> [&'c [f64]; N] {
     let (first, others) = rest.split_first_chunk().unwrap();
@@ -34,7 +34,7 @@ fn columns<'c, const N: usize>(rest: &mut &[&'c [f64]]) -> [&'c [f64]; N] {
     *first
 }
 
-/// A result, as its entries in their order.
+/// A result as its entries, in their order.
 trait Entries {
     const COUNT: usize;
 
@@ -61,7 +61,7 @@ impl<E: Entries, const N: usize> Entries for [E; N] {
     }
 }
 
-/// Writes a result, and leaves what is behind it.
+/// Writes a result; returns the rest of the slice.
 #[inline(always)]
 fn write<'o, E: Entries>(entries: &E, to: &'o mut [f64]) -> &'o mut [f64] {
     let (to, rest) = to.split_at_mut(E::COUNT);

@@ -1,4 +1,4 @@
-//! What the compiled code and the machine code are made with.
+//! The robots and options of both the compiled code and the machine code.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ pub const ROBOTS: [&str; 2] = ["ur5", "panda"];
 ///
 /// # Errors
 ///
-/// A file that is not there, or a stale plan.
+/// A file that does not exist, or a stale plan.
 pub fn robot(name: &str) -> Result<(RobotFile, Options), Errors> {
     let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../robots"));
     let file = RobotFile::read(&folder.join(format!("{name}.toml")))?;

@@ -1,5 +1,4 @@
-//! The worth of each option and each pass: the operations of functions if one of them is left
-//! out.
+//! The effect of each option and each pass: the operations of functions if it is left out.
 
 use robot_codegen::{FunctionCounts, Resubstitution};
 use robot_dynamics::economical::Plan;
@@ -13,8 +12,8 @@ use crate::driver::options::Options;
 use crate::driver::programs::{plan_of, programs_under, read_with};
 use crate::error::Errors;
 
-/// Functions of more expressions than this are not derived again and again: all functions of an arm of
-/// seven joints are some tens of thousands.
+/// The most expressions of functions that are derived repeatedly. All functions of an arm with
+/// seven joints have a few tens of thousands.
 const MAX_NODES: usize = 40_000;
 
 /// The functions with one option or pass left out.
@@ -26,12 +25,12 @@ pub struct Ablation {
     pub counts: Vec<(String, FunctionCounts)>,
 }
 
-/// Takes an option out of a plan.
+/// Removes an option from a plan.
 type Change = fn(&mut Plan);
-/// Takes a pass out.
+/// Removes a pass from the options.
 type PassChange = fn(&mut robot_codegen::Options);
 
-/// The options of a [`Plan`] by their names: each as in [`LinkPlan::BASIC`], or the file's frames.
+/// The options of a [`Plan`] by name, with the change to their value in [`LinkPlan::BASIC`] or to the file's frames.
 const PLAN_OPTIONS: [(&str, Change); 10] = [
     ("origin", |plan| each(plan, |link| link.origin = Origin::File)),
     ("turn", |plan| each(plan, |link| link.turn = Turn::File)),
@@ -59,12 +58,12 @@ fn each(plan: &mut Plan, change: fn(&mut LinkPlan)) {
     plan.links.iter_mut().for_each(change);
 }
 
-/// The operation counts of functions: with all options and passes, without each option of the recursion, and
-/// without each pass. Options interact, so the savings of single ones do not add up.
+/// Counts the operations of functions with all options and passes, without each option of the recursion, and
+/// without each pass. Options interact, so the savings of single options do not add up.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options.
+/// All errors in the file or the options.
 pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Errors> {
     let Described { robot, code, .. } = read_with(source, options)?;
     let options = options.or_of_file(&code);

@@ -1,4 +1,4 @@
-//! Angles that sines and cosines do not take.
+//! Angles outside the range of sines and cosines.
 
 use robot_codegen::Trigonometry;
 use robot_model::diagnostic::number;
@@ -7,9 +7,9 @@ use robot_model::variable::JointVariable;
 use robot_runtime::trig::double::LIMIT;
 use robot_symbolic::Formula;
 
-/// The reason why functions have no values at these positions (rad or m): the first joint whose angle is so large
-/// that the runtime's polynomials give NaN, or the sum of all angles, which a plan may form; `None` if neither is too
-/// large.
+/// Returns the reason why functions have no values at these positions (rad or m): the first joint whose angle is so
+/// large that the runtime's polynomials give NaN, or the sum of all angles, which a plan can use. `None` if neither is
+/// too large.
 #[must_use]
 pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> Option<String> {
     if trigonometry == Trigonometry::Standard {
@@ -30,7 +30,7 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
         if angle.abs() >= LIMIT {
             let symbol = JointVariable::Position.symbol(joint.coordinate);
             let (q, joint) = (number(*position), &joint.name);
-            // Of a joint that mimics another the angle is not the position.
+            // The angle of a joint that mimics another is not the position of the coordinate.
             let turned = match angle == *position {
                 true => {
                     format!(

@@ -1,9 +1,9 @@
-//! Limits of the cost of generated code: `[[budget]]` of a robot file, and the options of a build.
+//! Limits on the cost of generated code: `[[budget]]` in a robot file, and options of a build.
 //!
-//! Operations are exact: the multiplications, additions and divisions of one call, as
-//! `robot-symbolic stats` counts them. A build has no compiler to ask for the stack; it holds the
-//! estimate of [`robot_codegen::backend::rust::stack::estimate`] against the limit. `robot-symbolic prove` holds what
-//! release builds take against the same limit.
+//! Operation counts are exact: the multiplications, additions and divisions of one call, as
+//! `robot-symbolic stats` counts them. A build cannot measure the stack with a compiler; it compares the
+//! estimate of [`robot_codegen::backend::rust::stack::estimate`] with the limit. `robot-symbolic prove` compares the
+//! stack of release builds with the same limit.
 
 use std::fmt;
 
@@ -20,9 +20,9 @@ use crate::error::{Error, Errors};
 /// The resource that is limited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Resource {
-    /// Operations of a call.
+    /// The operations of a call.
     Operations,
-    /// Bytes of stack of a call.
+    /// The bytes of stack of a call.
     Stack,
 }
 
@@ -71,14 +71,14 @@ impl fmt::Display for Over {
     }
 }
 
-/// The maximum stack of a function, bytes; `None` if nothing limits it.
+/// The maximum stack of a function in bytes; `None` if there is no limit.
 #[must_use]
 pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Option<u64> {
     let of_file = limits(programs, function).filter_map(|(_, stack)| stack);
     of_file.map(|limit| limit.value).chain(options.max_stack).min()
 }
 
-/// Holds the functions against the file's budgets and those of the options.
+/// Checks the functions against the budgets of the file and of the options.
 pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
     let (mut found, mut errors) = (vec![], vec![]);
     for function in &programs.module.functions {
@@ -137,7 +137,7 @@ fn excess(cost: Cost<'_>, limit: &Limit) -> Option<Diagnostic> {
     )
 }
 
-/// The limits of operations and stack that the file sets a function.
+/// Returns the limits of operations and stack that the file sets for a function.
 fn limits<'p>(
     programs: &'p Programs,
     function: &str,
@@ -154,7 +154,7 @@ fn limits<'p>(
     budgets.map(|budget| (budget.max_operations.as_ref(), budget.max_stack.as_ref()))
 }
 
-/// The kind of the function of that name: functions of a frame end in the frame's name.
+/// Returns the kind of the function with this name. The names of functions of a frame end with the frame's name.
 fn kind(name: &str) -> Option<FunctionKind> {
     let is_of = |kind: &&FunctionKind| {
         let rest = name.strip_prefix(kind.name());

@@ -1,4 +1,4 @@
-//! Check values: what a function gives at a stated state, so that anybody can test their own copy.
+//! Check values: the results of a function at a stated state, so that users can test their copy.
 
 use robot_codegen::{Interpreter, OutputValues, Trigonometry};
 use robot_model::diagnostic::Source;
@@ -6,12 +6,12 @@ use robot_model::diagnostic::Source;
 use crate::driver::programs::Programs;
 use crate::error::Errors;
 
-/// Entries of inputs, taken in turn: plain decimals of either sign.
+/// Entries of inputs, used in turn: short decimals of either sign.
 const ENTRIES: [f64; 8] = [0.3, -0.5, 0.7, -0.2, 0.9, -0.4, 0.6, -0.8];
-/// Values for parameters without nominal values, taken in turn.
+/// Values for parameters without nominal values, used in turn.
 const PARAMETERS: [f64; 5] = [1.5, 0.8, 1.2, 0.6, 1.1];
 
-/// A function's values at a stated state.
+/// The values of a function at a stated state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckValue {
     /// The function.
@@ -24,11 +24,11 @@ pub struct CheckValue {
     pub outputs: Vec<OutputValues>,
 }
 
-/// The check value of a function of a robot.
+/// Computes the check value of a function of a robot.
 ///
 /// # Errors
 ///
-/// If the module does not have the function.
+/// The module does not have the function.
 pub fn check_value(
     name: &str,
     programs: &Programs,
@@ -48,8 +48,8 @@ pub fn check_value(
     Ok(CheckValue { function: function.to_owned(), parameters, inputs, outputs })
 }
 
-/// The check values of all functions, but for those that have none: at placeholder values of parameters a root or a
-/// quotient may have no value.
+/// Computes the check values of all functions that have finite ones: at placeholder values of parameters, a root or a
+/// quotient can be undefined.
 pub(crate) fn finite_check_values(
     source: &Source,
     programs: &Programs,

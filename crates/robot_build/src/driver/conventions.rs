@@ -1,6 +1,6 @@
-//! The conventions, as every generated module states them.
+//! The conventions that every generated module states.
 
-/// The conventions of robot files, equations and code, a line each.
+/// The conventions of robot files, equations and code; each entry is a line.
 pub const CONVENTIONS: [&str; 7] = [
     "SI units, angles in radians; right-handed frames. A link frame is the parent frame, \
      displaced as given in the robot file and then moved by the joint.",

@@ -1,4 +1,4 @@
-//! A generated file, before anybody writes it.
+//! A generated file, before it is written.
 
 use std::path::{Path, PathBuf};
 
@@ -7,20 +7,20 @@ use robot_codegen::backend::Contents;
 /// A generated file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct File {
-    /// The path, relative to the folder that the file belongs to, with `/` between its parts.
+    /// The path, relative to the folder to which the file belongs, with `/` between its parts.
     pub path: String,
-    /// What is in it.
+    /// The contents of the file.
     pub contents: Contents,
 }
 
 impl File {
-    /// A file of text.
+    /// Makes a text file.
     #[must_use]
     pub fn text(path: &str, text: String) -> File {
         File { path: path.to_owned(), contents: Contents::Text(text) }
     }
 
-    /// The file's path in a folder.
+    /// Returns the path of the file in a folder.
     #[must_use]
     pub fn path_in(&self, folder: &Path) -> PathBuf {
         let parts = self.path.split('/').filter(|part| !part.is_empty());

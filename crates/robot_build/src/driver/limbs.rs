@@ -1,4 +1,4 @@
-//! Functions of robots with limbs that are alike, computed side by side.
+//! Functions of robots with limbs of the same kind, which are computed in lanes.
 
 use robot_codegen::{LimbKind, Module};
 use robot_dynamics::economical::Plan;
@@ -13,8 +13,8 @@ use crate::driver::options::{Limbs, Options};
 use crate::driver::programs::MAX_NODES;
 use crate::driver::specification;
 
-/// Gives the module's functions programs of single limbs, if the robot has limbs that are alike and the options
-/// want them side by side.
+/// Adds programs of single limbs to the module's functions, if the robot has limbs of the same kind and the options
+/// choose to compute them side by side.
 pub(crate) fn set_limbs(
     module: &mut Module,
     robot: &Robot,
@@ -37,7 +37,8 @@ pub(crate) fn set_limbs(
     module.set_limbs(&kinds, &names, options.trigonometry);
 }
 
-/// Whether each result of a function is that of a limb: what has a number for each coordinate, or for each pair.
+/// Whether each result of a function is a result of one limb. This holds for functions with a result for each
+/// coordinate, or for each pair of coordinates.
 fn is_of_limbs(kind: FunctionKind) -> bool {
     match kind {
         FunctionKind::InverseDynamics(effects) | FunctionKind::ForwardDynamics(effects) => {
@@ -53,7 +54,7 @@ fn is_of_limbs(kind: FunctionKind) -> bool {
     }
 }
 
-/// The programs of one limb; `None` if its functions cannot be derived apart from the numbers.
+/// Derives the programs of one limb; `None` if its functions cannot be derived independently of its numbers.
 fn kind(
     like: LikeLimbs,
     options: &Options,
@@ -75,7 +76,7 @@ fn kind(
     Some(LimbKind { module, coordinates, values })
 }
 
-/// The plan of some links alone.
+/// Restricts a plan to some links.
 fn of_links(plan: &Plan, links: &[usize]) -> Plan {
     let among = |link: usize| links.iter().position(|other| *other == link);
     let of_link = |index: &usize| {

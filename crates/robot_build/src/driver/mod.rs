@@ -1,4 +1,4 @@
-//! The driver: from texts to texts, without files, environment or terminal.
+//! The driver, which takes and returns texts and does not access files, the environment or the terminal.
 
 pub mod ablation;
 pub(crate) mod angles;

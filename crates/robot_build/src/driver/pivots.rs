@@ -1,4 +1,4 @@
-//! The pivots of the mass matrix at states: how many digits forward dynamics has there.
+//! The pivots of the mass matrix at given states, which show how many correct digits forward dynamics has.
 
 use std::fmt;
 
@@ -13,14 +13,14 @@ use crate::driver::programs::MAX_NODES;
 use crate::driver::specification;
 use crate::error::{Error, Errors};
 
-/// Below this part of the joint's entry on the diagonal of M a pivot is worth a word.
+/// A pivot is reported if it is below this fraction of the joint's entry on the diagonal of M.
 const SMALL: f64 = 1e-8;
-/// The digits of `f64`.
+/// The number of decimal digits of `f64`.
 const DIGITS: f64 = 15.0;
 
-/// The pivots of a robot's mass matrix as a program, solved as its forward dynamics is.
+/// A program for the pivots of a robot's mass matrix, which is decomposed as in its forward dynamics.
 ///
-/// The pivot of a coordinate is the inertia that its joint shows if the joints farther out are free.
+/// The pivot of a coordinate is the inertia at its joint if the joints farther out are free.
 #[derive(Clone, Debug)]
 pub struct Pivots {
     interpreter: Interpreter<'static>,
@@ -32,21 +32,21 @@ pub struct Pivots {
 pub struct Pivot {
     /// The joint.
     pub joint: String,
-    /// The pivot as a fraction of the joint's entry on the diagonal of M; not above 0, or NaN, if the state has no
-    /// accelerations.
+    /// The pivot as a fraction of the joint's entry on the diagonal of M. If the accelerations do not exist at the
+    /// state, it is not above 0, or NaN.
     pub part: f64,
-    /// The decimal digits that rounding leaves of the pivot, and of the accelerations: 0 to 15. With 0 the
-    /// pivot is rounding alone, and the state has no accelerations.
+    /// The number of correct decimal digits of the pivot, and of the accelerations: 0 to 15. If it is 0, the
+    /// pivot is only rounding error, and the accelerations do not exist.
     pub digits: u32,
 }
 
 impl Pivots {
-    /// The pivots of a robot whose parameters have the values that `given` names, the others their nominal
-    /// ones.
+    /// Derives the pivots of a robot with the parameter values in `given`; all other parameters have their nominal
+    /// values.
     ///
     /// # Errors
     ///
-    /// A robot too large for code; parameters without a value.
+    /// A robot that is too large for code, or parameters without a value.
     pub fn new(robot: &Robot, options: &Options, given: &[(&str, f64)]) -> Result<Pivots, Errors> {
         let (name, limit) = (&robot.name, MAX_NODES);
         let graph = Graph::limited(limit);
@@ -65,19 +65,19 @@ impl Pivots {
         Ok(Pivots { interpreter, joints })
     }
 
-    /// The pivots with sines and cosines from this source instead of the standard library.
+    /// Uses sines and cosines from this source instead of the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
         let interpreter = self.interpreter.with_trigonometry(trigonometry);
         Pivots { interpreter, ..self }
     }
 
-    /// The smallest pivot at positions, if it is below 10⁻⁸ of the joint's entry on the diagonal of M or has fewer
-    /// than eight correct digits.
+    /// Returns the smallest pivot at these positions, if it is below 10⁻⁸ of the joint's entry on the diagonal of M or
+    /// has fewer than eight correct digits.
     ///
     /// # Errors
     ///
-    /// If the number of positions is wrong.
+    /// The number of positions is wrong.
     pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
         let values =
             self.interpreter.call_rounded("pivots", &[(JointVariable::Position.name(), q)])?;
@@ -86,7 +86,7 @@ impl Pivots {
             let part = pivot.value / whole.value.abs();
             Pivot { joint: joint.clone(), part, digits: digits(pivot) }
         });
-        // From the last row of M on, in the order of its decomposition: what follows a wrong pivot is wrong.
+        // Starts with the last row of M, in the order of its decomposition: all pivots after a wrong one are wrong.
         let mut smallest: Option<Pivot> = None;
         for pivot in found.collect::<Vec<_>>().into_iter().rev() {
             if pivot.is_wrong() {
@@ -101,14 +101,14 @@ impl Pivots {
 }
 
 impl Pivot {
-    /// Whether there are no accelerations, because the pivot is not above 0 and finite, or is rounding error alone.
+    /// Whether the accelerations do not exist, because the pivot is not positive and finite, or is only rounding error.
     #[must_use]
     pub fn is_wrong(&self) -> bool {
         !(self.part > 0.0 && self.part.is_finite()) || self.digits == 0
     }
 }
 
-/// The consequence for the accelerations.
+/// Prints the consequence for the accelerations.
 impl fmt::Display for Pivot {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Pivot { joint, part, digits } = self;
@@ -145,7 +145,7 @@ impl fmt::Display for Pivot {
     }
 }
 
-/// The decimal digits that rounding leaves.
+/// The number of correct decimal digits.
 fn digits(pivot: &Rounded) -> u32 {
     let left = -(pivot.error / pivot.value.abs()).log10();
     if left.is_nan() { 0 } else { left.clamp(0.0, DIGITS) as u32 }

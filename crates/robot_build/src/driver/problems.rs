@@ -1,10 +1,10 @@
-//! Errors one by one, for tools that show the first line of a message: Cargo, rustc, editors.
+//! Errors as separate problems, for tools that show the first line of a message: Cargo, rustc, editors.
 
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, render};
 
 use crate::error::{Error, Errors};
 
-/// More problems than this are counted, not shown.
+/// The most problems that are shown; further ones are only counted.
 const MAX_SHOWN: usize = 40;
 
 /// An error.
@@ -13,7 +13,7 @@ pub struct Problem {
     /// The place, if there is one, and the error, on one line: ``lift.toml:52:9: error R0303: `m5` is not a parameter
     /// of this robot``.
     pub headline: String,
-    /// Further lines: an excerpt of the file, the reason, the remedy. May be empty.
+    /// Further lines, possibly none: an excerpt of the file, the reason, the remedy.
     pub details: String,
 }
 
@@ -24,7 +24,7 @@ impl Problem {
 }
 
 impl Errors {
-    /// All errors, one by one; never empty. Warnings are left out.
+    /// Returns all errors, without warnings, as separate problems; never empty.
     #[must_use]
     pub fn problems(&self) -> Vec<Problem> {
         let mut problems: Vec<Problem> = self.as_slice().iter().flat_map(of_error).collect();
@@ -52,7 +52,7 @@ fn of_diagnostic(found: &Diagnostics, one: &Diagnostic) -> Problem {
     let place = position.map(|(line, column)| format!(":{line}:{column}")).unwrap_or_default();
     let Diagnostic { code, message, .. } = one;
     let text = render(source, one, Style::Plain);
-    // The headline says what the title of the excerpt does.
+    // The headline repeats the title of the excerpt.
     let title = format!("error[{code}]: {message}\n");
     let details = text.strip_prefix(&title).unwrap_or(&text).to_owned();
     Problem { headline: format!("{}{place}: error {code}: {message}", source.name), details }

@@ -1,4 +1,4 @@
-//! From the text of a robot file to straight-line programs.
+//! Derivation of straight-line programs from the text of a robot file.
 
 use robot_codegen::Module;
 use robot_dynamics::economical::Plan;
@@ -15,8 +15,8 @@ use crate::driver::options::Options;
 use crate::driver::{limbs, singular, specification};
 use crate::error::{Error, Errors};
 
-/// Functions of more expressions than this do not become code. The usual ones of 64 joints about
-/// skew axes are some tens of thousands.
+/// The most expressions of functions that become code. The usual functions of a robot with 64 joints about
+/// skew axes have a few tens of thousands.
 pub(crate) const MAX_NODES: usize = 500_000;
 
 /// A robot and the programs of its functions.
@@ -28,30 +28,30 @@ pub struct Programs {
     pub warnings: Diagnostics,
     /// The constant angles that were snapped to multiples of π/2.
     pub snapped: Vec<Snap>,
-    /// The requested functions, each by itself.
+    /// The requested functions that are not in bundles.
     pub functions: Vec<FunctionKind>,
     /// The requested bundles.
     pub bundles: Vec<Bundle>,
     /// The budgets of the file for the functions.
     pub budgets: Vec<Budget>,
-    /// The programs: what the interpreter runs and the backends print.
+    /// The programs, which the interpreter runs and the backends print.
     pub module: Module,
 }
 
-/// Reads a robot file in the format that its name says: TOML or URDF.
+/// Reads a robot file in the format given by the ending of its name: TOML or URDF.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file.
+/// All errors in the file.
 pub fn read(source: &Source) -> Result<Described, Errors> {
     Ok(description::read(&source.name, &source.text)?)
 }
 
-/// [`read`] with the options that turn errors into warnings.
+/// Does the same as [`read`], with options that turn some errors into warnings.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file.
+/// All errors in the file.
 pub fn read_with(source: &Source, options: &Options) -> Result<Described, Errors> {
     Ok(description::read_with(&source.name, &source.text, &options.reading())?)
 }
@@ -60,7 +60,7 @@ pub fn read_with(source: &Source, options: &Options) -> Result<Described, Errors
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options.
+/// All errors in the file or the options.
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
     let Described { robot, warnings, code, budgets, .. } = read_with(source, options)?;
     let mut programs = programs_of(robot, &source.name, &options.or_of_file(&code))?;
@@ -69,16 +69,16 @@ pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> 
     Ok(programs)
 }
 
-/// [`programs`] for a robot that has been read; `name` is the name of its source in errors.
+/// Does the same as [`programs`] for a robot that has been read; `name` is the name of its source in errors.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the options.
+/// All errors in the options.
 pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
     programs_under(robot, name, options, &options.codegen(), MAX_NODES)
 }
 
-/// The plan that the options give, or that is searched.
+/// Returns the plan of the options, or searches for one if they ask for it.
 pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     let measure = if options.fused { Measure::Instructions } else { Measure::Operations };
     let searched = || search(robot, &options.mechanism(robot), measure).map(|found| found.plan);
@@ -86,13 +86,13 @@ pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     if options.search { given.or_else(searched) } else { given }
 }
 
-/// The options with the plan that they ask for, so that several uses of them search only once.
+/// Returns the options with the plan that they give or ask to search for, so that several uses search only once.
 #[must_use]
 pub fn planned(robot: &Robot, options: &Options) -> Options {
     Options { plan: plan_of(robot, options), search: false, ..options.clone() }
 }
 
-/// [`programs_of`] with a choice of passes, and at most so many expressions.
+/// Does the same as [`programs_of`], with a choice of passes and a limit on the number of expressions.
 pub(crate) fn programs_under(
     robot: Robot,
     name: &str,

@@ -18,14 +18,14 @@ pub(crate) struct Sections<'a> {
     pub(crate) parameters: &'a [String],
     /// The names of the functions in the code.
     pub(crate) functions: &'a [String],
-    /// What computes everything that depends on the parameters alone.
+    /// The code that computes all values that depend only on the parameters.
     pub(crate) constructor: &'a str,
     pub(crate) trigonometry: Trigonometry,
     pub(crate) checks: &'a [CheckValue],
 }
 
 impl Sections<'_> {
-    /// The sections from the joints to the check values, behind what the README says of the language.
+    /// Adds the sections from the joints to the check values, which follow those about the language.
     pub(crate) fn add(&self, text: &mut String) {
         joints(text, self);
         parameters(text, self);
@@ -44,7 +44,7 @@ fn name_of<'s>(sections: &'s Sections<'_>, function: &'s str) -> &'s str {
     index.and_then(|index| sections.functions.get(index)).map_or(function, String::as_str)
 }
 
-/// Text of the robot file on one line, as Markdown that means nothing but the text.
+/// Escapes text of the robot file as plain Markdown on one line.
 pub(crate) fn plain(text: &str) -> String {
     common::markdown(text).join(" ")
 }
@@ -60,7 +60,7 @@ pub(crate) fn paragraph(text: &mut String, line: &str) {
     line_of(text, format_args!("\n{line}"));
 }
 
-/// Begins a section.
+/// Starts a section.
 pub(crate) fn section(text: &mut String, title: &str) {
     line_of(text, format_args!("\n## {title}\n"));
 }
@@ -101,7 +101,7 @@ fn parameters(text: &mut String, sections: &Sections<'_>) {
 
 fn functions(text: &mut String, sections: &Sections<'_>) {
     section(text, "Functions");
-    // Without parameters there is no constructor to describe.
+    // Without parameters, there is no constructor to describe.
     let has_parameters = !sections.module.parameters.is_empty();
     paragraph_of_counts(text, has_parameters.then_some(sections.constructor));
     for (name, counts) in counts(sections.module) {

@@ -1,4 +1,4 @@
-//! Robots whose mass matrix is singular in every configuration: the functions they lack, and the message.
+//! Robots whose mass matrix is singular in every configuration: the functions that they do not have, and the message.
 
 use std::fmt;
 
@@ -11,17 +11,17 @@ use crate::driver::options::Options;
 use crate::driver::programs::programs_of;
 use crate::error::{Error, Errors, quoted};
 
-/// The functions that a robot lacks because its mass matrix is singular in every configuration, whatever the values of
-/// its parameters.
+/// The functions that a robot does not have because its mass matrix is singular in every configuration, for all values
+/// of its parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unsolvable {
-    /// The functions: those that solve with the mass matrix.
+    /// The missing functions, which solve with the mass matrix.
     pub functions: Vec<FunctionKind>,
     /// The joints whose accelerations no joint torques determine.
     pub joints: Vec<String>,
 }
 
-/// The missing functions and the reason, on one line.
+/// Prints the missing functions and the reason on one line.
 impl fmt::Display for Unsolvable {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names: Vec<&str> = self.functions.iter().map(|kind| kind.name()).collect();
@@ -35,10 +35,11 @@ impl fmt::Display for Unsolvable {
     }
 }
 
-/// The functions that a robot lacks because its mass matrix is singular in every configuration; `None` if it is not.
+/// Finds the functions that a robot does not have because its mass matrix is singular in every configuration; `None` if
+/// it is not.
 #[must_use]
 pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
-    // At the nominal values alone it may be singular by chance: the derivation decides.
+    // At the nominal values it could be singular by chance, so the derivation decides.
     if undetermined(robot).is_empty() {
         return None;
     }
@@ -55,7 +56,7 @@ pub fn unsolvable(robot: &Robot, options: &Options) -> Option<Unsolvable> {
     Some(Unsolvable { functions, joints })
 }
 
-/// The errors of the code generator, with a division by zero explained by its cause.
+/// Converts errors of the code generator; a division by zero is explained by its cause.
 pub(crate) fn by_cause(
     name: &str,
     robot: &Robot,

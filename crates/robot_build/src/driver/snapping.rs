@@ -1,4 +1,4 @@
-//! The effects of snapping angles near multiples of π/2, and the operations it saves.
+//! The effects of snapping angles close to multiples of π/2, and the operations that it saves.
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
@@ -10,7 +10,7 @@ use crate::driver::options::Options;
 use crate::driver::programs::programs_of;
 use crate::error::Errors;
 
-/// Tolerances that are tried besides the one that is taken, rad.
+/// The tolerances, in rad, that are tried in addition to the one in use.
 const TRIED: [f64; 3] = [1e-6, 1e-4, 1e-3];
 
 /// The effect of snapping on a robot.
@@ -25,28 +25,28 @@ pub struct Snapping {
 /// The effect of a tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tried {
-    /// The tolerance, rad.
+    /// The tolerance, in rad.
     pub tolerance: f64,
     /// The angles that are changed.
     pub snapped: Vec<Snap>,
-    /// Multiplications, additions and divisions of inverse dynamics with this tolerance, without sines and cosines.
+    /// The multiplications, additions and divisions of inverse dynamics with this tolerance, without sines and cosines.
     pub operations: usize,
 }
 
 impl Tried {
-    /// The largest change.
+    /// The largest change of an angle.
     #[must_use]
     pub fn largest(&self) -> Option<&Snap> {
         self.snapped.iter().max_by(|a, b| a.change.abs().total_cmp(&b.change.abs()))
     }
 }
 
-/// Computes the effect of snapping on a robot, with the given tolerance or else the file's, and with larger ones, all
-/// under one plan, by default the default plan.
+/// Computes the effect of snapping on a robot with the given tolerance, or else that of the file, and with larger ones.
+/// All use the same plan, or the default plan if none is given.
 ///
 /// # Errors
 ///
-/// If the tolerance is not an angle, or the plan is not one for the robot.
+/// The tolerance is not an angle, or the plan does not match the robot.
 pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result<Snapping, Errors> {
     let tolerance = MechanismOptions::ROUNDED.with_snap(snap, robot).snap;
     let taken = tried(robot, tolerance, plan)?;

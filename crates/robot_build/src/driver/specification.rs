@@ -1,4 +1,4 @@
-//! A robot's functions as the code generator takes them.
+//! The specification of a robot's functions for the code generator.
 
 use robot_codegen::backend::common::markdown;
 use robot_codegen::spec::{ModuleSpec, ParameterSpec};
@@ -10,7 +10,7 @@ use crate::driver::conventions::CONVENTIONS;
 use crate::driver::options::Options;
 use crate::driver::singular::unsolvable;
 
-/// The module of a robot; `more` are the functions that it could have besides.
+/// Makes the specification of a robot's module; `more` are further functions that it could have.
 pub(crate) fn module<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[FunctionKind],
@@ -18,7 +18,7 @@ pub(crate) fn module<'g>(
     more: &[FunctionKind],
 ) -> ModuleSpec<'g> {
     let robot = derivation.robot;
-    // A graph that is full holds nothing of use: the caller says so.
+    // The contents of a full graph are useless; the caller reports this.
     let is_full = || derivation.mechanism.graph.is_full();
     ModuleSpec {
         name: robot.name.to_lowercase(),
@@ -33,13 +33,13 @@ pub(crate) fn module<'g>(
     }
 }
 
-/// The module of the pivots of the mass matrix alone.
+/// Makes the specification of a module with only the pivots of the mass matrix.
 pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
     let functions = vec![derivation.pivots()];
     ModuleSpec { functions, ..module(derivation, &[], &[], &[]) }
 }
 
-/// The robot, what the file says about it, the conventions, and what else there is.
+/// The documentation of a module: the robot, its description in the file, the conventions, and further functions.
 pub(crate) fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
     let blank = || "\n".to_owned();
     let mut lines = vec![format!("Dynamics of the robot {}.", robot.name), blank()];
@@ -63,7 +63,7 @@ pub(crate) fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
     lines
 }
 
-/// The functions that the robot has and the module does not, in a bundle either.
+/// The functions of the robot that the module does not have, not even in a bundle.
 pub(crate) fn not_generated(
     robot: &Robot,
     options: &Options,
@@ -75,7 +75,7 @@ pub(crate) fn not_generated(
     let mut more = FunctionKind::of_robot(robot);
     let chosen = |kind: &FunctionKind| functions.contains(kind) || bundled(kind);
     more.retain(|kind| !chosen(kind));
-    // A caller that chose one that solves with the mass matrix gets a message elsewhere that it is singular.
+    // If a function that solves with the mass matrix was chosen, another message says that the matrix is singular.
     let mut solving = FunctionKind::ALL.iter().filter(|kind| kind.divides_by_mass_matrix());
     if !solving.any(chosen) && unsolvable(robot, options).is_some() {
         more.retain(|kind| !kind.divides_by_mass_matrix());

@@ -22,19 +22,19 @@ pub(crate) fn out_dir() -> Result<PathBuf, Error> {
     variable("OUT_DIR", "call this from a build script, or set a folder with `out_dir`")
 }
 
-/// Variables are read when the build script runs, not when it is compiled.
+/// Reads a variable when the build script runs, not when it is compiled.
 fn variable(variable: &'static str, remedy: &'static str) -> Result<PathBuf, Error> {
     let value = std::env::var_os(variable).filter(|value| !value.is_empty());
     value.map(PathBuf::from).ok_or(Error::NotUnderCargo { variable, remedy })
 }
 
-/// Directives for Cargo, as lines of a build script's output.
+/// Directives for Cargo: lines of a build script's output.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Directives(String);
 
 impl Directives {
-    /// Refuses a path that is not UTF-8: what Cargo would watch in its place is not there, and it would run the
-    /// build script at every build.
+    /// Adds a path to watch. A path that is not UTF-8 is an error: Cargo would watch another path, which does not
+    /// exist, and run the build script in every build.
     pub(crate) fn rerun_if_changed(&mut self, path: &Path) -> Result<(), Error> {
         let name = path.to_str().ok_or_else(|| Error::File {
             action: "watch",
@@ -46,10 +46,10 @@ impl Directives {
         Ok(())
     }
 
-    /// An error each, on one line; with it the build fails.
+    /// Adds a line for each error, with which the build fails.
     ///
-    /// Nothing for a package that says it builds with a Cargo from before there was `cargo::error`: it would be
-    /// gets that instead.
+    /// Adds nothing if the package declares that it builds with a Cargo that does not support `cargo::error`, because
+    /// it would then get an error about this directive instead.
     pub(crate) fn errors(&mut self, errors: &Errors) {
         let declared = std::env::var("CARGO_PKG_RUST_VERSION").unwrap_or_default();
         for problem in errors.problems().iter().filter(|_| knows_errors(&declared)) {
@@ -61,7 +61,7 @@ impl Directives {
         self.line("cargo:warning", text);
     }
 
-    /// A warning each, on one line: `robots/arm.toml:12:5: message`.
+    /// Adds a line for each warning: `robots/arm.toml:12:5: message`.
     pub(crate) fn warnings(&mut self, warnings: &Diagnostics) {
         for warning in warnings.iter() {
             let source = warnings.source();
@@ -81,9 +81,9 @@ impl Directives {
         &self.0
     }
 
-    /// Tells Cargo, on standard output.
+    /// Prints the lines on standard output.
     pub(crate) fn print(&self) {
-        // Nobody is listening if this fails.
+        // If this fails, nobody reads the output.
         let _ = std::io::stdout().lock().write_all(self.0.as_bytes());
     }
 
@@ -93,7 +93,7 @@ impl Directives {
     }
 }
 
-/// Whether Cargo of a declared version, `1.84` or none, knows `cargo::error`.
+/// Whether Cargo of a declared version, such as `1.84`, supports `cargo::error`; true if none is declared.
 fn knows_errors(declared: &str) -> bool {
     let mut numbers = declared.split('.').map_while(|number| number.parse::<u32>().ok());
     match (numbers.next(), numbers.next()) {

@@ -1,5 +1,5 @@
-//! Everything that touches files or the environment: the builder for build scripts, and robot files, pins and output
-//! files as all entry points read and write them.
+//! All code that accesses files or the environment: the builder for build scripts, and the robot files, pins and output
+//! files that all entry points read and write.
 
 pub(crate) mod builder;
 mod cargo;

@@ -12,19 +12,19 @@ use crate::error::{Error, Errors, shown};
 /// A robot file that has been read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotFile {
-    /// Its path, with symbolic links followed.
+    /// The path of the file, after following symbolic links.
     pub path: PathBuf,
-    /// Its text, under the path as it was given.
+    /// The text of the file; its name is the path as given.
     pub source: Source,
 }
 
 impl RobotFile {
-    /// Reads a file that belongs to a package: `path` is relative to its folder.
+    /// Reads a file of a package; `path` is relative to the folder of the package.
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, is too large or no text; one outside of the package, be it by
-    /// `..` or a symbolic link, unless `allow_outside` says that this is meant.
+    /// A file that cannot be read, is too large or is not text; a file outside the package, by
+    /// `..` or by a symbolic link, unless `allow_outside` is set.
     pub fn in_package(
         path: &Path,
         package: &Path,
@@ -39,17 +39,17 @@ impl RobotFile {
         RobotFile::read_at(found, path)
     }
 
-    /// Reads a file wherever it lies.
+    /// Reads a file from anywhere.
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, is too large or no text.
+    /// A file that cannot be read, is too large or is not text.
     pub fn read(path: &Path) -> Result<RobotFile, Errors> {
         check_not_empty(path)?;
         RobotFile::read_at(canonical(path, path)?, path)
     }
 
-    /// `given` is the path for messages.
+    /// Reads the file at a path; `given` is the path for messages.
     fn read_at(path: PathBuf, given: &Path) -> Result<RobotFile, Errors> {
         let failed = |error: std::io::Error| cannot_read(given, &error.to_string());
         let found = std::fs::metadata(&path).map_err(failed)?;
@@ -67,14 +67,15 @@ impl RobotFile {
         }
         let mut bytes = vec![];
         let file = std::fs::File::open(&path).map_err(failed)?;
-        // One byte more than the reader accepts is enough for it to refuse the file.
+        // One byte more than the reader accepts is enough to make it reject the file.
         file.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(failed)?;
         let text = description::decode(&name, bytes)?;
         Ok(RobotFile { path, source: Source { name, text } })
     }
 }
 
-/// The robot files of a folder, relative to the package as the folder is, in the order of names.
+/// Finds the robot files of a folder, sorted by name. Their paths, like that of the folder, are relative to the
+/// package.
 pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let failed = |error: std::io::Error| cannot_read(folder, &error.to_string());
     let mut files = vec![];
@@ -105,13 +106,13 @@ fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
     })
 }
 
-/// That there is no file of that path, and the one in its folder whose name is nearest.
+/// The message that there is no file with this path, with the most similar name in its folder.
 #[must_use]
 pub fn missing(path: &Path) -> String {
     missing_at(path, path)
 }
 
-/// The same of a file that was looked for at a path made of the one given.
+/// The same message for a file whose actual path was derived from the given one.
 fn missing_at(path: &Path, given: &Path) -> String {
     let place =
         if path == given { String::new() } else { format!(" (looked for {})", shown(path)) };
@@ -124,13 +125,13 @@ fn missing_at(path: &Path, given: &Path) -> String {
     format!("there is no such file{place}{}", near.unwrap_or_default())
 }
 
-/// The name of the file in the same folder whose name is nearest, with the same extension first.
+/// The most similar name of a file in the same folder, or else a name that differs only in its extension.
 fn nearest(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
     let names = entries.filter_map(|entry| {
         let path = entry.ok()?.path();
-        // A plan is never asked for by its name.
+        // Users do not name plans, which belong to robot files.
         let is_wanted = path.is_file() && path.extension().is_none_or(|end| end != "plan");
         is_wanted.then(|| Some(path.file_name()?.to_str()?.to_owned()))?
     });
@@ -142,7 +143,7 @@ fn nearest(path: &Path) -> Option<String> {
     whole.or_else(|| names.iter().find(|known| stem(known) == stem(name)).cloned())
 }
 
-/// The most files of a folder that are looked at for a name.
+/// The most files of a folder that are examined for a similar name.
 const MOST_NAMES: usize = 10_000;
 
 fn cannot_read(path: &Path, reason: &str) -> Error {

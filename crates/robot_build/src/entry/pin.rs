@@ -1,4 +1,4 @@
-//! Pinned plans beside robot files: `panda.plan` beside `panda.toml`.
+//! Pinned plans next to robot files: `panda.plan` next to `panda.toml`.
 
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use crate::entry::files::MARKER;
 use crate::entry::paths::RobotFile;
 use crate::error::{Error, Errors};
 
-/// Pins are a few kilobytes; anything larger is rejected.
+/// The most bytes of a pin; real ones have a few kilobytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// The path of a robot file's pin: beside it, with the ending `plan` in place of `toml` and after any
+/// The path of a robot file's pin, which is next to it. The ending `plan` replaces `toml` and is appended to any
 /// other, so that `ur5.toml`, imported from `ur5.urdf`, has a pin of its own.
 #[must_use]
 pub fn pin_path(robot: &Path) -> PathBuf {
@@ -26,14 +26,14 @@ pub fn pin_path(robot: &Path) -> PathBuf {
     }
 }
 
-/// The files that are read for a robot: its file, and its pin, existing or not.
+/// The files that are read for a robot: its file, and its pin, which does not have to exist.
 #[must_use]
 pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
     let followed = robot.canonicalize();
     [robot.to_owned(), pin_path(followed.as_deref().unwrap_or(robot))]
 }
 
-/// The text of a pin of what a search found for a robot.
+/// The text of a pin with the plan that a search found for a robot.
 #[must_use]
 pub fn pin_text(robot: &Robot, found: &Found) -> String {
     let mut pin = Pin {
@@ -49,16 +49,16 @@ pub fn pin_text(robot: &Robot, found: &Found) -> String {
 }
 
 impl RobotFile {
-    /// The options with the plan that is pinned beside the file, if one is and the options give
+    /// Returns the options with the pinned plan of the file, if there is one and the options have
     /// none.
     ///
     /// # Errors
     ///
-    /// [`Error::Pin`]: a pin that is stale, made for other [mechanics](mechanics()) than the file's; one that
-    /// was edited; one that cannot be read. If there is a pin, also everything that is wrong with the robot file.
+    /// [`Error::Pin`] if a pin is stale, that is, made for [mechanics](mechanics()) other than those of the file, was
+    /// edited, or cannot be read. If there is a pin, also all errors in the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
-        // A link that leads nowhere is there.
+        // A symbolic link to a missing file counts as existing.
         if options.plan.is_some() || std::fs::symlink_metadata(&path).is_err() {
             return Ok(options.clone());
         }
@@ -89,7 +89,7 @@ impl RobotFile {
     }
 }
 
-/// The pin in a file, or why it cannot be read.
+/// Reads the pin in a file; the error is the reason why it cannot be read.
 fn read_pin(path: &Path) -> Result<Pin, String> {
     let found = std::fs::metadata(path).map_err(|error| error.to_string())?;
     if !found.is_file() {
@@ -153,17 +153,17 @@ mod tests {
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
 
-        // Edited by hand into a plan of no links: refused, not followed.
+        // A pin that was edited to a plan without links is an error.
         let empty = Plan { links: vec![], unit_length: None };
         let options_with_plan = Options { plan: Some(empty), ..options.clone() };
         assert!(crate::programs(&file.source, &options_with_plan).is_err());
 
-        // The mechanics of this robot, the links of another.
+        // A pin with the mechanics of this robot and the links of another.
         let longer = Found { plan: Plan { links: vec![], unit_length: None }, ..found.clone() };
         std::fs::write(pin_path(&path), pin_text(&robot, &longer)).unwrap();
         let error = file.with_pin(&options).unwrap_err().to_string();
         assert!(error.contains("does not match the links of this robot"), "{error}");
-        // A folder where the plan would lie is a plan that cannot be read.
+        // A folder at the path of the plan is a plan that cannot be read.
         std::fs::remove_file(pin_path(&path)).unwrap();
         std::fs::create_dir(pin_path(&path)).unwrap();
         let error = file.with_pin(&options).unwrap_err().to_string();
@@ -171,7 +171,7 @@ mod tests {
         std::fs::remove_dir(pin_path(&path)).unwrap();
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
 
-        // Remarks and other text beside the mechanics do not change it.
+        // Remarks and other text that does not concern the mechanics do not make the pin stale.
         let remarked =
             ROBOT.replace("[robot]\n", "# a remark\n[robot]\ndescription = \"swings\"\n");
         std::fs::write(&path, remarked).unwrap();

@@ -1,11 +1,11 @@
-//! Robot files with hostile names and texts, and what must hold of the code that is printed from them.
+//! Robot files with hostile names and texts, and checks of the code that is printed from them.
 
 use std::fmt::Write as _;
 
 use robot_build::languages::{Language, package_of};
 use robot_build::{Options, Scalar, Source, programs};
 
-/// What free texts of the robot files contain, and code outside of comments and strings must not.
+/// A mark in free texts of the robot files, which must not occur in code outside of comments and strings.
 pub(crate) const MARK: &str = "qZ7mark";
 
 /// Names that any robot can have.
@@ -15,14 +15,14 @@ pub(crate) const PLAIN: [&str; 8] =
 /// The parts of a robot file that its author chooses freely.
 #[derive(Debug, Default)]
 pub(crate) struct Chosen {
-    /// Names: of the robot, two parameters, two links, two joints and a bundle.
+    /// The names of the robot, two parameters, two links, two joints and a bundle.
     pub(crate) names: [String; 8],
-    /// Texts: the description and the meanings of the parameters. [`MARK`] is put into them.
+    /// The description and the meanings of the two parameters. [`MARK`] is added to them.
     pub(crate) texts: [String; 3],
 }
 
 impl Chosen {
-    /// The same with plain names, and empty texts, in the places of those that a robot file cannot have.
+    /// Replaces names that a robot file cannot have with plain names, and such texts with empty ones.
     pub(crate) fn accepted(self) -> Chosen {
         let mut accepted = Chosen { names: PLAIN.map(str::to_owned), ..Chosen::default() };
         for (place, text) in self.texts.into_iter().enumerate() {
@@ -45,7 +45,7 @@ impl Chosen {
         programs(&source, &Options::default()).is_ok()
     }
 
-    /// The robot file.
+    /// Prints the robot file.
     pub(crate) fn file(&self) -> String {
         let names = self.names.each_ref().map(|name| quoted(name));
         let [robot, mass, length, first, second, joint, other, bundle] = names;
@@ -82,7 +82,7 @@ functions = [\"gravity\"]
     }
 }
 
-/// A string of TOML.
+/// Prints a TOML string.
 fn quoted(text: &str) -> String {
     let mut quoted = String::from("\"");
     for character in text.chars() {
@@ -100,11 +100,11 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// Prints the package of a robot in every language. Whether the file is accepted as a robot.
+/// Prints the package of a robot in every language; returns whether the file is accepted as a robot.
 ///
 /// # Panics
 ///
-/// Where a text of the file is code, or a description is not JSON.
+/// A text of the file became code, or a description is not JSON.
 pub(crate) fn in_every_language(chosen: &Chosen) -> bool {
     let source = Source { name: "hostile.toml".to_owned(), text: chosen.file() };
     let Ok(found) = programs(&source, &Options::default()) else { return false };
@@ -137,12 +137,12 @@ pub(crate) fn in_every_language(chosen: &Chosen) -> bool {
     true
 }
 
-/// Whether a path has plain characters alone.
+/// Whether a path has only plain characters.
 fn is_portable(path: &str) -> bool {
     path.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"+_-./".contains(&byte))
 }
 
-/// How a language writes what is not code.
+/// The syntax of comments and strings in a language.
 struct Syntax {
     line_comment: &'static str,
     has_blocks: bool,
@@ -169,7 +169,7 @@ impl Syntax {
     }
 }
 
-/// What is neither in a comment nor in a string.
+/// The text that is neither in a comment nor in a string.
 fn code(text: &str, syntax: &Syntax) -> String {
     let mut code = String::new();
     let mut rest = text;
@@ -190,7 +190,7 @@ fn code(text: &str, syntax: &Syntax) -> String {
     code
 }
 
-/// The length of a string that begins and ends with a quote.
+/// The length of a string literal that starts and ends with a quote.
 fn string(text: &str, quote: &str) -> usize {
     let mut place = quote.len();
     while let Some(character) = text[place..].chars().next() {

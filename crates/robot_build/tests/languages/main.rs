@@ -1,6 +1,6 @@
-//! Packages in all languages: the doors to them agree, and no text of a robot file becomes code.
+//! Packages in all languages: all entry points write the same files, and no text of a robot file becomes code.
 
-// Helpers of tests fail as tests do.
+// Helpers of tests may panic, as tests do.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod harmless;
@@ -26,7 +26,7 @@ center_of_mass = ["l", 0, 0]
 inertia = { xx = 0, yy = 0, zz = 0 }
 "#;
 
-/// The command writes what `package` gives.
+/// The builder writes the files of `package`, which are also those of the command.
 #[test]
 fn the_builder_writes_the_packages_of_the_command() {
     let folder = std::env::temp_dir().join(format!("robot_build-{}-doors", std::process::id()));
@@ -58,7 +58,7 @@ fn the_builder_writes_the_packages_of_the_command() {
     let _ = std::fs::remove_dir_all(&folder);
 }
 
-/// The distance of columns is not read where an array has a single one, of which compilers warn.
+/// The distance between columns is not read if every array has a single column; compilers would warn of this.
 #[test]
 fn functions_over_columns_of_a_single_joint_use_all_parameters() {
     let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
@@ -79,7 +79,7 @@ fn plain_names_and_texts_are_those_of_a_robot() {
     }
 }
 
-/// What names are made of: words of languages, names that printers have for themselves, and signs.
+/// Parts of names: words of languages, names that printers use themselves, and special characters.
 const NAMES: &[&str] = &[
     "a",
     "m",
@@ -141,7 +141,7 @@ const NAMES: &[&str] = &[
     "}",
 ];
 
-/// What texts are made of: the ends of comments and strings, and what hides or continues them.
+/// Parts of texts: the ends of comments and strings, and sequences that hide or continue them.
 const TEXTS: &[&str] = &[
     "*/",
     "/*",
@@ -219,6 +219,6 @@ fn no_text_of_a_robot_file_becomes_code() {
             Err(_) => panic!("seed {seed}: {chosen:?}"),
         }
     }
-    // Of eight names and three texts of each robot.
+    // Counted over the eight names and three texts of each robot.
     assert!(hostile > 600 && texts > 150, "{hostile} names and {texts} texts were tried");
 }

@@ -1,4 +1,4 @@
-//! The terms of the joint torques of two robots.
+//! Differences between the terms of two robots' joint torques.
 
 use std::collections::BTreeMap;
 
@@ -13,39 +13,39 @@ use robot_symbolic::{
 
 use crate::difference::{Options, Refusal};
 
-/// The limits of the expansion of one joint torque: a fraction of a second.
+/// The limits of the expansion of one joint torque, which takes a fraction of a second.
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 100_000,
     max_products: 1_000_000,
 };
 
-/// Joint torques that are too long after which no further one is expanded: joints farther inward have
-/// longer ones.
+/// After this number of joint torques that are too long, no others are expanded, because those of joints farther inward
+/// are even longer.
 const MAX_REFUSED: usize = 3;
-/// Why it is not.
+/// The reason why a joint torque is not expanded after that.
 const FARTHER_OUT: &str =
     "not expanded, because three joint torques farther out are already too long";
 
 /// A joint torque whose terms differ.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Equation {
-    /// The joint torque, `Q1`.
+    /// The name of the joint torque, such as `Q1`.
     pub name: String,
-    /// The terms that appear, vanish or change, or why they cannot be compared.
+    /// The terms that are added, removed or changed, or the reason why they cannot be compared.
     pub terms: Result<Vec<Term>, Refusal>,
 }
 
-/// A term that differs: its powers, and its coefficient in either robot.
+/// A term that differs: its powers, and its coefficients in the two robots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Term {
-    /// The powers, `m2*l1*qdd1*cos(q2)`; `1` for a constant.
+    /// The powers, such as `m2*l1*qdd1*cos(q2)`; `1` for a constant.
     pub powers: String,
     /// The exact coefficients as text; `None` if the robot does not have the term.
     pub coefficients: [Option<String>; 2],
 }
 
-/// The joint torques that differ, without friction, with the wrenches of the tips.
+/// The joint torques that differ, without friction, including the effect of the tips' wrenches.
 pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation> {
     let graph = Graph::new();
     let [of_a, of_b] = &options.code;
@@ -54,7 +54,7 @@ pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation
     let (mut equations, mut refused) = (vec![], 0);
     for place in (0..count).rev() {
         let pair = [before.get(place), after.get(place)].map(Option::<&Expr<'_>>::copied);
-        // Equal expressions of one graph are one node: nothing is to be expanded.
+        // Equal expressions are the same node of the graph and need not be expanded.
         if pair[0] == pair[1] {
             continue;
         }
@@ -80,7 +80,7 @@ fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g
     solution.quantities(Kind::GeneralizedForce).into_iter().map(|quantity| quantity.value).collect()
 }
 
-/// Why an equation has no terms to compare.
+/// The reason why the terms of an equation cannot be compared.
 fn reason(error: &PolynomialError) -> Refusal {
     match error {
         PolynomialError::TooManyTerms { limit } => {
@@ -93,7 +93,7 @@ fn reason(error: &PolynomialError) -> Refusal {
     }
 }
 
-/// Powers of atoms.
+/// Powers of atoms: pairs of an atom and its exponent.
 type Powers = Vec<(Id, i32)>;
 
 fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
@@ -122,7 +122,7 @@ fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
         .collect())
 }
 
-/// `m2*qd1^2*sin(q2)`
+/// The text of powers, such as `m2*qd1^2*sin(q2)`.
 fn powers(factors: &[(Expr<'_>, i32)]) -> String {
     let power = |(atom, exponent): &(Expr<'_>, i32)| {
         let text = print::to_text(*atom).unwrap_or_else(|error| error.to_string());
@@ -137,7 +137,7 @@ fn powers(factors: &[(Expr<'_>, i32)]) -> String {
     }
 }
 
-/// `2`, `-1/3`
+/// The text of a coefficient, such as `2` or `-1/3`.
 fn coefficient(number: &Number) -> String {
     match number.as_rational() {
         Some(rational) => print::exact_text(rational),

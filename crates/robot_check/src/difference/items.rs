@@ -1,4 +1,4 @@
-//! The contents of the files of two robots: parameters, links, joints and frames.
+//! Differences between the contents of two robots' files: parameters, links, joints and frames.
 
 use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
@@ -21,7 +21,7 @@ pub enum ItemKind {
 }
 
 impl ItemKind {
-    /// The name in text: `parameter`, `link` …
+    /// The word for the kind, such as `parameter` or `link`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -34,45 +34,45 @@ impl ItemKind {
     }
 }
 
-/// A part of a robot, with what is said of it.
+/// A part of a robot with its properties.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Item {
-    /// Its kind.
+    /// The kind of the item.
     pub kind: ItemKind,
-    /// Its name.
+    /// The name of the item.
     pub name: String,
-    /// Its properties: names and values as text, exact if they are numbers.
+    /// The properties: names, and values as text, which are exact if they are numbers.
     pub properties: Vec<(String, String)>,
 }
 
-/// A property that differs; `None` if it is not said of the item.
+/// A property that differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
-    /// The name: `mass`, `value`.
+    /// The name of the property, such as `mass` or `value`.
     pub name: String,
-    /// The values in either robot.
+    /// The values in the two robots; `None` if the item does not have the property.
     pub values: [Option<String>; 2],
 }
 
-/// An item that came, went or changed.
+/// An item that was added, removed or changed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// The second robot alone has it.
+    /// Only the second robot has the item.
     Added(Item),
-    /// The first robot alone has it.
+    /// Only the first robot has the item.
     Removed(Item),
-    /// Both have it, with other properties.
+    /// Both robots have the item, with different properties.
     Changed {
-        /// Its kind.
+        /// The kind of the item.
         kind: ItemKind,
-        /// Its name.
+        /// The name of the item.
         name: String,
-        /// The differences.
+        /// The properties that differ.
         properties: Vec<Property>,
     },
 }
 
-/// The differences, those of the first robot's items in its order, then the new items.
+/// The changes: first those of the items of the first robot, in its order, then the added items.
 pub(crate) fn changes(a: &Robot, b: &Robot) -> Vec<Change> {
     let (before, after) = (items(a), items(b));
     let counterpart = |item: &Item, among: &[Item]| {
@@ -102,7 +102,7 @@ fn changed(a: &Item, b: &Item) -> Option<Change> {
 }
 
 fn items(robot: &Robot) -> Vec<Item> {
-    // The name of the robot is nothing that may differ.
+    // The name of the robot does not count as a difference.
     let whole = Item { kind: ItemKind::Robot, name: String::new(), properties: of_robot(robot) };
     let mut all = vec![whole];
     all.extend(rows::parameters(robot).map(parameter));
@@ -192,7 +192,7 @@ fn frame(FrameRow { frame, link, wrench }: FrameRow<'_>) -> Item {
     Item { kind: ItemKind::Frame, name: frame.name.clone(), properties }
 }
 
-/// A number exactly, else the text of the file.
+/// A number as exact text, or a formula as its text in the file.
 fn formula(formula: &Formula) -> String {
     let number = formula.as_number();
     let rational = number.as_ref().and_then(|number| number.as_rational());

@@ -1,8 +1,8 @@
-//! In what two robots differ: what their files say, the terms of their joint torques, the operations
-//! of their functions, and the torques over a box of states.
+//! Differences between two robots: in the contents of their files, the terms of their joint torques, the operations of
+//! their functions, and the joint torques over a range of states.
 //!
-//! Links, joints, frames and parameters are matched by their names, joint torques by the numbers of
-//! their coordinates, terms by their symbols. The names of the robots and remarks do not count.
+//! Links, joints, frames and parameters are matched by their names, joint torques by the numbers of their coordinates,
+//! and terms by their symbols. The names of the robots and remarks are ignored.
 
 mod equations;
 mod items;
@@ -19,36 +19,36 @@ pub use torques::{State, StateBox, Torque, Torques};
 /// The options of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The options of making code of either robot, for the operations: the plan, and the snapping of angles.
-    /// The functions are all that the robot has, whatever is set here.
+    /// The options of generating code for each robot, of which the operations are counted: the plan, and the snapping
+    /// of angles. All functions that the robot has are compared, whatever these options select.
     pub code: [robot_build::Options; 2],
     /// The seed of the states.
     pub seed: u64,
-    /// The number of states to draw.
+    /// The number of random states.
     pub states: usize,
 }
 
-/// A comparison that failed: why, and the remedy if there is one.
+/// The reason why a comparison failed, with the remedy if there is one.
 pub type Refusal = String;
 
-/// In what two robots differ.
+/// The differences between two robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// The names of the robots.
     pub names: [String; 2],
-    /// Parameters, links, joints and frames that came, went or changed, the first robot's in its order,
-    /// then those that came.
+    /// The parameters, links, joints and frames that were added, removed or changed: first those of the first robot, in
+    /// its order, then those that were added.
     pub changes: Vec<Change>,
-    /// The joint torques whose terms differ, or are too long to be expanded.
+    /// The joint torques whose terms differ or that are too long to be expanded.
     pub equations: Vec<Equation>,
-    /// The functions whose operations differ.
+    /// The functions whose numbers of operations differ.
     pub operations: Result<Vec<Operations>, Refusal>,
-    /// The largest change of the torque in each joint.
+    /// The largest change of the joint torque of each joint.
     pub torques: Result<Torques, Refusal>,
 }
 
 impl Difference {
-    /// Whether nothing differs. Torques differ only if something else does.
+    /// Whether there are no differences. Joint torques only differ if something else does.
     #[must_use]
     pub fn is_none(&self) -> bool {
         let operations = self.operations.as_ref().is_ok_and(|found| !found.is_empty());
@@ -59,7 +59,7 @@ impl Difference {
 
 /// Compares two robots.
 ///
-/// A part that cannot be compared says why; the others are there all the same.
+/// If a part cannot be compared, its result is the reason; the other parts are compared nevertheless.
 #[must_use]
 pub fn difference(a: &Robot, b: &Robot, options: &Options) -> Difference {
     Difference {

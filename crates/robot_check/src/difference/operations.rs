@@ -1,21 +1,21 @@
-//! The operations of the functions of two robots.
+//! Differences between the operations of two robots' functions.
 
 use robot_build::{Functions, Options as CodeOptions, programs_of};
 use robot_model::robot::Robot;
 
 use crate::difference::{Options, Refusal};
 
-/// A function whose operations differ.
+/// A function whose number of operations differs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Operations {
-    /// The function.
+    /// The name of the function.
     pub function: String,
-    /// Multiplications, additions and divisions of a call for either robot; `None` if the robot
-    /// lacks the function.
+    /// The multiplications, additions and divisions of a call for each robot; `None` if the robot does not have the
+    /// function.
     pub counts: [Option<usize>; 2],
 }
 
-/// The functions whose operations differ, in the order of the first robot.
+/// The functions whose numbers of operations differ, in the order of the first robot.
 pub(crate) fn differing(
     a: &Robot,
     b: &Robot,
@@ -35,7 +35,7 @@ pub(crate) fn differing(
     Ok(all.filter(|one| one.counts[0] != one.counts[1]).collect())
 }
 
-/// The operations of a call of each function.
+/// The number of operations of a call of each function.
 fn counted(robot: &Robot, options: &CodeOptions) -> Result<Vec<(String, usize)>, Refusal> {
     let options = CodeOptions { functions: Functions::All, bundles: vec![], ..options.clone() };
     let programs =

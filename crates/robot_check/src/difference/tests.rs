@@ -5,7 +5,7 @@ use robot_model::robot::{JointKind, Robot};
 
 use super::*;
 
-/// The plane arm with another mass of its second link.
+/// The planar arm with another mass of its second link.
 fn arm(mass: &str) -> Robot {
     let text = robot_testing::PLANAR_2R;
     let mut robot = description::read("robot.toml", text).unwrap().robot;
@@ -96,7 +96,7 @@ fn snapping_and_a_payload_are_what_the_file_says() {
     assert!(said(&carrying, "payload").starts_with("payload_mass, "));
 }
 
-/// Axes and arms of symbols: four links have more terms than are expanded.
+/// A robot whose axes and lengths are symbols: with four links, it has more terms than the limit for expansions.
 #[test]
 fn an_equation_that_is_too_long_says_so() {
     let links = |length: &str| {
@@ -121,7 +121,8 @@ fn an_equation_that_is_too_long_says_so() {
     assert!(!found.is_none());
 }
 
-/// Sixty-four joints end soon: what is longer than what is too long already is not tried.
+/// The comparison of chains with sixty-four joints ends soon, because no joint torques are expanded after several that
+/// are too long.
 #[test]
 fn long_chains_are_compared_soon() {
     let chain = |mass: &str| {

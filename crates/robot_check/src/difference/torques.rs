@@ -1,4 +1,4 @@
-//! The largest change of the torques over a box of states.
+//! The largest changes of the joint torques over a range of states.
 
 use std::f64::consts::PI;
 
@@ -8,56 +8,56 @@ use robot_numeric::{Loads, Mechanism};
 
 use crate::difference::{Options, Refusal};
 
-/// The range that states are drawn from.
+/// The range from which states are drawn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StateBox {
-    /// The seed.
+    /// The seed of the random states.
     pub seed: u64,
-    /// The number of states.
+    /// The number of random states.
     pub states: usize,
-    /// Lowest and highest position of each joint, rad or m: the limits that both robots keep; where
-    /// neither has any, ±π and ±0.5 m.
+    /// The lowest and highest position of each joint, rad or m: the range that is within the limits of both robots or,
+    /// if neither has limits, ±π or ±0.5 m.
     pub positions: Vec<[f64; 2]>,
-    /// The largest velocity of either sign, rad/s or m/s.
+    /// The largest magnitude of a velocity, rad/s or m/s.
     pub velocity: f64,
-    /// The largest acceleration of either sign, rad/s² or m/s².
+    /// The largest magnitude of an acceleration, rad/s² or m/s².
     pub acceleration: f64,
 }
 
-/// Positions, velocities and accelerations, in SI units and radians.
+/// A state: positions, velocities and accelerations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// Positions.
+    /// The joint positions, rad or m.
     pub q: Vec<f64>,
-    /// Velocities.
+    /// The joint velocities, rad/s or m/s.
     pub qd: Vec<f64>,
-    /// Accelerations.
+    /// The joint accelerations, rad/s² or m/s².
     pub qdd: Vec<f64>,
 }
 
-/// The largest change in a joint.
+/// The largest change of the joint torque of one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torque {
-    /// The joint of the first robot.
+    /// The name of the joint in the first robot.
     pub joint: String,
-    /// Rotation (N m) or translation (N).
+    /// The kind of the joint: the torque is in N m for revolute and in N for prismatic joints.
     pub kind: JointKind,
-    /// The joint torques of the two robots in that state, friction included, no wrench at the tips.
+    /// The joint torques of the two robots in this state, with friction and without wrenches at the tips.
     pub torques: [f64; 2],
-    /// The state.
+    /// The state in which the change is largest.
     pub state: State,
 }
 
-/// The largest changes, and where they were sought.
+/// The largest changes, and the range of states from which they were found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Torques {
-    /// The box.
+    /// The range of states.
     pub drawn: StateBox,
-    /// A change for each joint.
+    /// The largest change for each joint.
     pub joints: Vec<Torque>,
 }
 
-/// The largest change of the torque in each joint.
+/// The largest change of the joint torque of each joint.
 pub(crate) fn largest(a: &Robot, b: &Robot, options: &Options) -> Result<Torques, Refusal> {
     let drawn = StateBox {
         seed: options.seed,
@@ -106,7 +106,7 @@ impl StateBox {
     }
 }
 
-/// The positions of each joint that both robots have.
+/// The range of positions of each joint in both robots.
 fn positions(a: &Robot, b: &Robot) -> Result<Vec<[f64; 2]>, Refusal> {
     let kinds = |robot: &Robot| robot.coordinates.iter().map(|one| one.kind).collect::<Vec<_>>();
     if kinds(a) != kinds(b) {

@@ -1,4 +1,4 @@
-//! Angles that were rounded, and angles in degrees.
+//! Checks for angles that were rounded, and for angles in degrees.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -10,15 +10,15 @@ use robot_model::robot::JointKind;
 
 use super::facts::RobotFacts;
 
-/// Programs that write angles leave noise below this, rad.
+/// The maximum error of angles that programs write, rad.
 const NOISE: f64 = 1e-6;
-/// The part of a multiple of π/2 by which single precision misses it.
+/// The relative error of a multiple of π/2 in single precision.
 const SINGLE: f64 = 1.2e-7;
-/// With fewer decimals than this, or with those, 1.5 and 3 are angles like others.
+/// The minimum number of decimals for an angle to be taken as rounded; with fewer, 1.5 and 3 are ordinary angles.
 const DECIMALS: i32 = 2;
-/// Placements need no more than a turn, rad.
+/// The largest angle that a placement needs: one turn, rad.
 const TURN: f64 = TAU + 1e-3;
-/// Joints with cables turn no more than four times to a side, rad.
+/// The largest position of a joint with cables: four turns in either direction, rad.
 const FOUR_TURNS: f64 = 4.0 * TAU + 1e-3;
 
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
@@ -85,8 +85,8 @@ fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
     })
 }
 
-/// Whether the value is the multiple of π/2 with some digits left out, rather than an angle of its
-/// own, such as a calibration finds.
+/// Whether the value is the multiple of π/2 with some digits left out, rather than an independent angle, for example
+/// from a calibration.
 fn is_rounded(value: f64, quarters: f64, miss: f64) -> bool {
     let miss = miss.abs();
     if miss <= NOISE || miss <= SINGLE * value.abs() {
@@ -95,18 +95,18 @@ fn is_rounded(value: f64, quarters: f64, miss: f64) -> bool {
     let text = format!("{value}");
     let decimals = text.split_once('.').map_or(0, |(_, decimals)| decimals.len());
     let decimals = i32::try_from(decimals).unwrap_or(i32::MAX);
-    // Rounded or cut off, it misses by less than one of its last place.
+    // If it was rounded or truncated, the error is less than one unit of its last place.
     quarters != 0.0 && decimals >= DECIMALS && miss < 10.0_f64.powi(-decimals)
 }
 
-/// The power of ten above the miss.
+/// The smallest power of ten that is not below the error.
 fn tolerance(miss: f64) -> String {
     format!("1e{}", miss.abs().log10().ceil())
 }
 
-/// `π/2`, `-3π/2`.
+/// The text of a multiple of π/2, such as `π/2` or `-3π/2`.
 fn multiple(quarters: f64) -> String {
-    // Angles beyond a turn are shown as degrees: quarters are few.
+    // The number of quarter turns is small, because angles beyond one turn are reported as degrees.
     let quarters = quarters as i64;
     let sign = if quarters < 0 { "-" } else { "" };
     match quarters.abs() {

@@ -1,11 +1,11 @@
-//! Joint axes that are nearly an axis of their frame.
+//! Checks for joint axes that are nearly equal to a coordinate axis of their frame.
 
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
 
 use super::facts::RobotFacts;
 
-/// Programs that write axes leave noise below this, in parts of the length.
+/// The maximum error of axes that programs write, relative to their length.
 const NOISE: f64 = 1e-6;
 
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {

@@ -4,15 +4,16 @@ use robot_model::diagnostic::{Diagnostic, code};
 
 use super::facts::{BodyFacts, RobotFacts};
 
-/// Two modules of an arm may well be alike; three are rare.
+/// The number of equal tensors that is suspicious: two modules of an arm may well be equal, but three rarely are.
 const ALIKE: usize = 3;
-/// Tensors in proportion to the mass differ if masses differ by more than rounding.
+/// The tolerance for equal masses. Tensors that are proportional to the mass differ if the masses differ by more than
+/// rounding.
 const SAME_MASS: f64 = 0.01;
-/// More places than this are not shown.
+/// The maximum number of places that are shown.
 const MAX_SHOWN: usize = 8;
 
-/// Only tensors of numbers are compared: a parameter that occurs on several links says that they
-/// are meant to be alike.
+/// Only tensors that consist of numbers are compared: a parameter on several links states that they are meant to be
+/// equal.
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     let bodies = facts.links.iter().flat_map(|link| &link.bodies);
     let bodies: Vec<&BodyFacts<'_>> = bodies

@@ -1,4 +1,4 @@
-//! Bodies that do not fit the links that they are of.
+//! Checks for bodies that are too large for their links.
 
 use nalgebra::Vector3;
 use robot_model::diagnostic::significant;
@@ -6,9 +6,9 @@ use robot_model::diagnostic::{Diagnostic, code};
 
 use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
-/// A body's parts lie at its edge or nearer, and one of its ends is at the link's origin: the mass
-/// center is then no farther than the size of the link, nor is the radius of gyration larger. Motors
-/// and housings overhang, and links are often longer than the frames on them show.
+/// The factor by which a body may exceed the size of its link. If the body extended from the link's origin to its end,
+/// neither the distance of its center of mass nor its radius of gyration could exceed the size of the link. But motors
+/// and housings overhang, and links are often longer than the frames on them indicate.
 const TIMES: f64 = 3.0;
 
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
@@ -24,16 +24,16 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// The size of the link if the body's radius of gyration is more than [`TIMES`] that.
+/// The size of the link, if the body's radius of gyration is more than [`TIMES`] this size.
 fn too_wide(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<f64> {
     let size = link.size().max(body.center.norm());
     let is_wide = body.has_tensor() && size > 0.0 && body.gyration() > TIMES * size;
     is_wide.then_some(size)
 }
 
-/// Distance of the center of mass from the box about the origin and the points on the link, and the
-/// size that it is held against: the box's diagonal and the radius of gyration, the robot's reach
-/// where both are 0.
+/// The distance of the center of mass from the box around the origin and the points on the link, if it is too large,
+/// and the size with which it is compared: the box's diagonal plus travel and radius of gyration or, if these are 0,
+/// the robot's reach.
 fn too_far(link: &LinkFacts<'_>, body: &BodyFacts<'_>, reach: f64) -> Option<(f64, f64)> {
     let (mut low, mut high) = (Vector3::zeros(), Vector3::zeros());
     for point in &link.points {

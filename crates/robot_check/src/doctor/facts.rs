@@ -1,5 +1,5 @@
-//! The values of a robot at its nominal parameters, with their places; NaN if one has none, so that
-//! no comparison with it holds.
+//! The values of a robot at its nominal parameters, with their places in the file. Unknown values are NaN, so that all
+//! comparisons with them are false.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -12,7 +12,7 @@ use robot_numeric::Evaluation;
 pub(super) struct RobotFacts<'d> {
     pub(super) robot: &'d Robot,
     pub(super) locations: &'d Locations,
-    /// Base components, m/s².
+    /// The acceleration of gravity in base components, m/s².
     pub(super) gravity: Vector3<f64>,
     pub(super) links: Vec<LinkFacts<'d>>,
 }
@@ -22,11 +22,11 @@ pub(super) struct LinkFacts<'d> {
     pub(super) link: &'d Link,
     pub(super) place: &'d LinkLocation,
     pub(super) bodies: Vec<BodyFacts<'d>>,
-    /// Origins of children and of named frames, link components, m.
+    /// The origins of children and of named frames, in link components, m.
     pub(super) points: Vec<Vector3<f64>>,
-    /// From the parent's origin to this one's at joint position 0, m.
+    /// The distance from the parent's origin to this link's at joint position 0, m.
     pub(super) arm: f64,
-    /// How far a prismatic joint moves the link, m; 0 if that is not known.
+    /// The distance by which a prismatic joint can move the link, m; 0 if it is not known.
     pub(super) travel: f64,
 }
 
@@ -34,11 +34,11 @@ pub(super) struct LinkFacts<'d> {
 pub(super) struct BodyFacts<'d> {
     pub(super) body: &'d Body,
     pub(super) place: &'d BodyLocation,
-    /// kg.
+    /// The mass, kg.
     pub(super) mass: f64,
-    /// Link components, m.
+    /// The center of mass in link components, m.
     pub(super) center: Vector3<f64>,
-    /// About the center of mass, link axes, kg m².
+    /// The inertia tensor about the center of mass in link axes, kg m².
     pub(super) tensor: Matrix3<f64>,
 }
 
@@ -59,7 +59,7 @@ impl<'d> RobotFacts<'d> {
         RobotFacts { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
     }
 
-    /// The sum of the arms, m.
+    /// The sum of the distances between consecutive origins, m.
     pub(super) fn reach(&self) -> f64 {
         self.links.iter().map(|link| link.arm).sum()
     }
@@ -76,7 +76,7 @@ fn bodies<'d>(link: &'d Link, place: &'d LinkLocation, at: &Evaluation<'_>) -> V
             tensor: pose.rotation * at.tensor(&body.inertia) * pose.rotation.transpose(),
         }
     });
-    // Unknown values, such as those of a payload that is set at run time.
+    // Values may be unknown, such as those of a payload that is set at run time.
     bodies.filter(|body| body.mass != 0.0 || body.tensor.norm() != 0.0).collect()
 }
 
@@ -97,8 +97,8 @@ fn travel(robot: &Robot, link: &Link) -> f64 {
 }
 
 impl LinkFacts<'_> {
-    /// The farthest point that another part of the robot marks on the link, or on the way to it
-    /// from its parent, m.
+    /// The largest distance of a point on the link, as marked by other parts of the robot, or of the parent's origin,
+    /// plus the travel, m.
     pub(super) fn size(&self) -> f64 {
         let farthest = self.points.iter().map(Vector3::norm).fold(0.0, f64::max);
         farthest.max(self.arm) + self.travel
@@ -106,12 +106,12 @@ impl LinkFacts<'_> {
 }
 
 impl BodyFacts<'_> {
-    /// √(∫r² dm / m) about the center of mass, m: half the trace of the tensor is ∫r² dm.
+    /// The radius of gyration √(∫r² dm / m) about the center of mass, m; ∫r² dm is half the trace of the tensor.
     pub(super) fn gyration(&self) -> f64 {
         (self.tensor.trace() / (2.0 * self.mass)).sqrt()
     }
 
-    /// Whether there is a tensor to judge: the file does not waive it, and it is not all zeros.
+    /// Whether the body has a tensor that can be judged: the file does not waive the check, and the tensor is not zero.
     pub(super) fn has_tensor(&self) -> bool {
         !self.place.unchecked && self.mass > 0.0 && self.tensor.trace() > 0.0
     }
@@ -131,8 +131,8 @@ impl BodyFacts<'_> {
         self.place.center_of_mass.as_ref().unwrap_or(&self.place.name)
     }
 
-    /// Whether mass, center of mass and inertia are in likely units; if not, they are reported by
-    /// [`super::units`], and nothing else is said of it.
+    /// Whether mass, center of mass and inertia are likely to be in the right units. If not, [`super::units`] reports
+    /// them, and other checks skip the body.
     pub(super) fn is_in_units(&self) -> bool {
         !super::units::is_suspect(self)
     }

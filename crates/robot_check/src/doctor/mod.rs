@@ -1,10 +1,9 @@
 //! The doctor: finds likely mistakes in robot files.
 //!
-//! The readers reject impossible mechanisms. Possible but unlikely ones are reported
-//! here: inertias in kg mm², a tensor about the wrong point, a right angle of four digits. A file per
-//! family of checks; each threshold is there with its reason, and in the page of the code
-//! (docs/diagnostics). Nothing is ever changed. What depends on a parameter without a nominal value
-//! is passed over.
+//! The readers reject impossible mechanisms. This module reports possible but unlikely ones: inertias in kg mm², a
+//! tensor about the wrong point, a right angle with four digits. Each file contains one family of checks. The reasons
+//! for its thresholds are stated there and on the page of the diagnostic code (docs/diagnostics). Nothing is ever
+//! changed. Values that depend on a parameter without a nominal value are skipped.
 
 mod angles;
 mod axes;
@@ -23,9 +22,9 @@ use facts::RobotFacts;
 /// The findings about a file.
 #[derive(Clone, Debug)]
 pub struct Examination {
-    /// Errors and warnings; if there are errors, those of the reader alone.
+    /// Errors and warnings. If there are errors, they are only those of the reader.
     pub found: Diagnostics,
-    /// The reader's decisions where its format leaves a choice: notes.
+    /// Notes about the choices of the reader that the format leaves open.
     pub choices: Diagnostics,
 }
 
@@ -47,7 +46,7 @@ impl Examination {
     }
 }
 
-/// Examines a robot: the reader's warnings and choices, and those of the checks of this module.
+/// Examines a robot. The result contains the reader's warnings and choices and those of the checks in this module.
 #[must_use]
 pub fn examine(described: &Described) -> Examination {
     let Described { warnings, choices, .. } = described;
@@ -61,7 +60,7 @@ pub fn examine(described: &Described) -> Examination {
     Examination { found: joined(warnings, mistakes), choices: joined(choices, notes) }
 }
 
-/// The warnings and notes of this module alone.
+/// The warnings and notes of this module only.
 fn mistakes(described: &Described) -> Vec<Diagnostic> {
     let facts = RobotFacts::new(described);
     let mut found = Vec::new();

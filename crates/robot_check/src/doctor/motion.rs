@@ -1,4 +1,4 @@
-//! Gravity that points up, joints that move nothing, bodies without extent.
+//! Checks for gravity that points up, joints that move no mass, and bodies without extent.
 
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, Span, code};
@@ -8,10 +8,10 @@ use robot_numeric::random::Random;
 
 use super::facts::{LinkFacts, RobotFacts};
 
-/// A coordinate with less than this part of the largest inertia has none: rounding is a thousand
-/// times smaller, and the smallest joint of an arm has a millionth.
+/// The fraction of the largest inertia below which a coordinate counts as having no inertia. Rounding errors are a
+/// thousand times smaller, and the inertia of the smallest joint of an arm is about a millionth.
 const NOTHING: f64 = 1e-12;
-/// Configurations that are tried: a joint may move nothing in one of them by chance.
+/// The number of configurations that are tried, because a joint may move no mass in one of them by chance.
 const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 
@@ -42,7 +42,7 @@ fn gravity(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     );
 }
 
-/// Bodies that rotate, with mass and without moments of inertia.
+/// Reports bodies that rotate and have mass but no moments of inertia.
 fn points(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     for (index, link) in facts.links.iter().enumerate() {
         let is_point = |link: &LinkFacts<'_>| {
@@ -63,7 +63,7 @@ fn points(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether a joint turns the link.
+/// Whether the link or a link that carries it has a revolute joint.
 fn rotates(facts: &RobotFacts<'_>, index: usize) -> bool {
     let mut next = Some(index);
     while let Some(link) = next.and_then(|index| facts.robot.links.get(index)) {
@@ -76,7 +76,7 @@ fn rotates(facts: &RobotFacts<'_>, index: usize) -> bool {
     false
 }
 
-/// Coordinates whose inertia is 0 in every configuration.
+/// Reports coordinates whose inertia is 0 in every configuration.
 fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     let Ok(mechanism) = Mechanism::nominal(facts.robot) else {
         return;

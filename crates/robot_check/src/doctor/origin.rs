@@ -1,4 +1,4 @@
-//! Tensors about the origin of the link's frame that are given as about the center of mass.
+//! Checks for tensors about the origin of the link's frame that are stated to be about the center of mass.
 
 use nalgebra::{Matrix3, Vector3};
 use robot_model::diagnostic::significant;
@@ -7,8 +7,8 @@ use robot_model::physics::{Verdict, judge};
 
 use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
-/// A link reaches from its origin to a point that lies so much farther than its center of mass, or
-/// to nothing that the file knows; of others the two ends are not known.
+/// The two ends of a body are known only if the farthest point on the link exceeds the distance of the center of mass
+/// by this factor, or if there is no other point on the link.
 const BETWEEN: f64 = 1.2;
 
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
@@ -20,15 +20,14 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Standard deviation of the mass along the line from the origin to the center of mass, and the
-/// largest that it can have, m, if it has more and would not have it if the tensor were about
-/// the origin.
+/// The standard deviation of the mass along the line from the origin to the center of mass, and the largest value that
+/// it can have, m. `None` unless it exceeds this value and would not exceed it if the tensor were about the origin.
 ///
-/// Of a mass between the points a and b of a line, with its center at c, the variance is at most
-/// (c − a)(b − c) (Bhatia and Davis 2000). The body reaches from the link's origin to the farthest
-/// point on the link, and over both by the radius of the cylinder that has its moment about the
-/// line. About the origin the variance has c² more: a rod from the origin to 2c has c²/3, and seems
-/// to have 4c²/3 where c² is the most.
+/// For a mass between the points a and b of a line, with its center of mass at c, the variance is at most (c − a)(b −
+/// c) (Bhatia and Davis 2000). The body is assumed to extend from the link's origin to the farthest point on the link,
+/// and beyond both by the radius of the cylinder that has the body's moment about the line. With a tensor about the
+/// origin, the variance appears to be larger by c²: that of a rod from the origin to 2c is c²/3, but appears to be
+/// 4c²/3, while the maximum is c².
 fn about_origin(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<[f64; 2]> {
     let distance = body.center.norm();
     let far = body.center.amax() > 0.0 && body.has_tensor() && body.is_in_units();
@@ -51,7 +50,7 @@ fn about_origin(link: &LinkFacts<'_>, body: &BodyFacts<'_>) -> Option<[f64; 2]> 
     (variance > most && fits && is_possible(&shifted)).then(|| [variance.sqrt(), most.sqrt()])
 }
 
-/// ∫x² dm / m along a direction: half the trace less the moment about it.
+/// The variance ∫x² dm / m along a direction: half the trace minus the moment about the direction, divided by the mass.
 fn variance(tensor: &Matrix3<f64>, mass: f64, direction: &Vector3<f64>) -> f64 {
     (tensor.trace() / 2.0 - (tensor * direction).dot(direction)) / mass
 }

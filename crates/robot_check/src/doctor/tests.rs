@@ -7,7 +7,7 @@ fn codes(text: &str) -> Vec<&'static str> {
     check("arm.toml", text, &Options::default()).found.iter().map(|one| one.code).collect()
 }
 
-/// A link of 0.4 m with these keys, and a hand on it.
+/// A link of 0.4 m with the given keys, and a hand on it.
 fn arm(keys: &str) -> String {
     format!(
         "format = 1\n[robot]\nname = \"arm\"\n\
@@ -18,8 +18,8 @@ fn arm(keys: &str) -> String {
     )
 }
 
-/// A cylinder of that mass from the origin to (0.4, 0, 0), radius 3 cm, every moment times `scale`,
-/// its tensor about the center of mass or, wrongly, the origin.
+/// A cylinder with the given mass from the origin to (0.4, 0, 0), with a radius of 3 cm. All moments are multiplied by
+/// `scale`; the tensor is about the center of mass or, wrongly, about the origin.
 fn rod(mass: f64, scale: f64, about_origin: bool) -> String {
     let (length, radius): (f64, f64) = (0.4, 0.03);
     let axial = mass * radius * radius / 2.0;
@@ -44,7 +44,7 @@ fn units_are_told_by_the_ratio_of_inertia_to_mass() {
         assert_eq!(found.iter().map(|one| one.code).collect::<Vec<_>>(), [code::UNITS], "{found}");
         assert!(found.to_string().contains(&format!("in {unit}?")), "{found}");
     }
-    // Grams for kilograms, with the inertia of the kilograms: denser than anything.
+    // A mass in grams with an inertia for kilograms: the body would be denser than any material.
     let text = rod(2.0, 1.0, false).replace("mass = 2\n", "mass = 2000\n");
     assert_eq!(codes(&text), [code::UNITS]);
 }
@@ -74,7 +74,7 @@ fn gravity_up_to_thirty_is_in_meters() {
     assert_eq!(with("30.1"), [code::UNITS]);
 }
 
-/// What a prismatic joint travels counts as the size of its link; the angles of a revolute joint do not.
+/// The travel of a prismatic joint adds to the size of its link; the range of a revolute joint does not.
 #[test]
 fn limits_count_where_they_are_lengths() {
     let limited = |kind: &str| {
@@ -99,7 +99,7 @@ fn rounded_right_angles_are_told_from_angles() {
     {
         assert_eq!(codes(&turned(angle)), [code::ANGLE_NEAR], "{angle}");
     }
-    // Those within the tolerance of snapping are notes; calibrated and plain angles are nothing.
+    // Angles within the snapping tolerance cause a note; angles from calibrations and ordinary angles cause nothing.
     for angle in
         ["1.57079632679", "1.5707963267948966", "1.5712", "1.5", "3", "0.001", "0", "\"pi/2\""]
     {
@@ -155,13 +155,13 @@ fn joints_that_move_nothing_are_told() {
     assert_eq!(codes(&format!("{text}massless = true\n")), [code::MOVES_NOTHING]);
     let moved = "massless = true\ndrive = { armature = 0.1 }\n";
     assert_eq!(codes(&format!("{text}{moved}")), [""; 0]);
-    // A point on the axis.
+    // A point mass on the axis.
     let point = "mass = 1\ncenter_of_mass = [0, 0, 1]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
     assert_eq!(codes(&format!("{text}{point}")), [code::MOVES_NOTHING, code::POINT_MASS]);
 }
 
-/// A link of that length with a body that lies in `[from, to]` along it, of a rectangular section,
-/// uniform; its tensor about the center of mass or, wrongly, the origin.
+/// A link of the given length with a uniform body of rectangular section that extends over `[from, to]` along it. The
+/// tensor is about the center of mass or, wrongly, about the origin.
 fn beam(
     length: f64,
     [from, to]: [f64; 2],
@@ -182,8 +182,7 @@ fn beam(
     arm(&keys).replace("xyz = [0.4, 0, 0]", &format!("xyz = [{length:?}, 0, 0]"))
 }
 
-/// What is uniform, of matter, and lies between the ends of its link gives no warning, whatever its
-/// shape.
+/// A uniform body of a real material between the ends of its link causes no warning, whatever its shape.
 #[test]
 fn bodies_on_their_links_are_passed() {
     let mut random = Random::new(5);
@@ -198,7 +197,7 @@ fn bodies_on_their_links_are_passed() {
     }
 }
 
-/// Rods thinner than a seventh of their length.
+/// Tests rods that are thinner than a seventh of their length.
 #[test]
 fn slender_bodies_with_tensors_about_the_origin_are_told() {
     let mut random = Random::new(6);
@@ -210,8 +209,8 @@ fn slender_bodies_with_tensors_about_the_origin_are_told() {
     }
 }
 
-/// A body with a tensor is in doubt where some of it must be denser than osmium: 2 kg with this tensor are as dense as
-/// 137 kg/m³ at least, and the density rises with the mass to the power of 2.5.
+/// A warning is given if a part of the body must be denser than osmium. A body of 2 kg with this tensor has a density
+/// of at least 137 kg/m³, and the density increases with the mass to the power of 2.5.
 #[test]
 fn bodies_denser_than_osmium_are_told() {
     let heavy = |mass: &str| {
@@ -221,32 +220,33 @@ fn bodies_denser_than_osmium_are_told() {
     assert_eq!(heavy("21"), [code::UNITS]);
 }
 
-/// The unit that is named is the one in which the body is as large as its link, 0.4 m.
+/// The suggested unit is the one in which the size of the body is closest to that of its link, 0.4 m.
 #[test]
 fn the_size_of_the_link_decides_between_units() {
     let found = check("arm.toml", &rod(2.0, 146_900.0, false), &Options::default()).found;
     assert!(found.to_string().contains("in kg cm^2?"), "{found}");
 }
 
-/// Thrice the size of the link is the largest radius of gyration; this rod's is 0.117 m, times √scale.
+/// The largest radius of gyration is three times the size of the link; that of this rod is 0.117 m times √scale.
 #[test]
 fn bodies_wider_than_their_links_are_told() {
     assert_eq!(codes(&rod(2.0, 80.0, false)), [""; 0]);
     assert_eq!(codes(&rod(2.0, 130.0, false)), [code::TOO_WIDE]);
 }
 
-/// A center of mass lies outside of the link by less than thrice the link's size and the radius of gyration.
+/// The center of mass may be outside the link by at most three times the sum of the link's size and the radius of
+/// gyration.
 #[test]
 fn centers_outside_of_the_link_are_measured_from_its_ends() {
     let at = |x: &str| rod(2.0, 1.0, false).replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
     assert_eq!(codes(&at("1.9")), [""; 0]);
     assert_eq!(codes(&at("2")), [code::CENTER_FAR]);
-    // A link that reaches to both sides is as long as both together.
+    // The length of a link that extends to both sides is the sum of both.
     let other = "[[link]]\nname = \"other\"\nparent = \"rod\"\norigin = { xyz = [-0.4, 0, 0] }\n\
                  joint = { type = \"revolute\", axis = \"y\" }\nmass = 1\n\
                  center_of_mass = [0.05, 0, 0]\ninertia = { xx = 0.002, yy = 0.003, zz = 0.003 }\n";
     assert_eq!(codes(&format!("{}{other}", at("2.9"))), [""; 0]);
-    // A link without a size of its own is held against the reach of the arm, 0.4 m.
+    // A link without a size is compared with the reach of the arm, 0.4 m.
     let point = |x: &str| {
         let hand = "inertia = { xx = 0.001, yy = 0.002, zz = 0.002 }";
         let text = rod(2.0, 1.0, false).replace(hand, "inertia = { xx = 0, yy = 0, zz = 0 }");
@@ -256,20 +256,20 @@ fn centers_outside_of_the_link_are_measured_from_its_ends() {
     assert!(point("2").contains(&code::CENTER_FAR));
 }
 
-/// Only of a body whose two ends are known, and whose tensor is to be checked, is the point of its tensor judged.
+/// The reference point of a tensor is checked only if both ends of the body are known and the check is not waived.
 #[test]
 fn tensors_are_judged_where_the_ends_of_the_body_are_known() {
     let wrong = rod(2.0, 1.0, true);
     let last = wrong.split("[[link]]\nname = \"hand\"").next().unwrap();
     assert_eq!(codes(last), [code::ABOUT_ORIGIN]);
     assert_eq!(codes(&wrong.replacen("xx =", "unchecked = true, xx =", 1)), [""; 0]);
-    // The center of mass is next to the end of the link, so that the body reaches beyond it, nobody knows how far.
+    // The center of mass is near the end of the link, so the body extends beyond it by an unknown distance.
     let beyond = arm("mass = 2\ncenter_of_mass = [0.38, 0, 0]\n\
          inertia = { xx = 0.0009, yy = 0.3493, zz = 0.3493 }");
     assert_eq!(codes(&beyond), [""; 0]);
 }
 
-/// The same tensor with masses that differ by less than one in a hundred is not a copy, whatever the masses.
+/// The same tensor with masses that differ by less than one percent is not reported as a copy.
 #[test]
 fn masses_that_hardly_differ_are_the_same() {
     let pair = |masses: [&str; 2]| {
@@ -299,7 +299,7 @@ fn gravity_that_points_up_is_told() {
     }
 }
 
-/// Where nothing has mass, no joint moves any.
+/// In a robot without mass, no joint moves any mass.
 #[test]
 fn a_robot_without_mass_moves_nothing() {
     let text = "format = 1\n[robot]\nname = \"arm\"\n[[link]]\nname = \"a\"\n\
@@ -307,7 +307,7 @@ fn a_robot_without_mass_moves_nothing() {
     assert_eq!(codes(text), [code::MOVES_NOTHING]);
 }
 
-/// Each size at which a rule begins to doubt: a value on either side of it, and what is found then.
+/// Tests the threshold of each check: a value on either side of it, and the code that is reported beyond it.
 #[test]
 fn rules_begin_at_their_sizes() {
     let rod = rod(2.0, 1.0, false);
@@ -335,7 +335,8 @@ fn rules_begin_at_their_sizes() {
         (limited("revolute", "-25.133, 25.133"), limited("revolute", "-25.134, 1"), code::DEGREES),
         (limited("prismatic", "-26, 26"), limited("revolute", "-1, 25.134"), code::DEGREES),
         (far("20"), far("-20.01"), code::UNITS),
-        // A radius of gyration of 1.2 m, thrice the link; of 3 m; 22,590 kg/m³.
+        // Thresholds: a radius of gyration of 1.2 m, which is three times the link; one of 3 m; a density of 22,590
+        // kg/m³.
         (tensor("1.91"), tensor("1.93"), code::TOO_WIDE),
         (mass("15.3"), mass("15.6"), code::UNITS),
         (center("1.952"), center("1.953"), code::CENTER_FAR),
@@ -346,10 +347,10 @@ fn rules_begin_at_their_sizes() {
         assert_eq!(codes(&passed), [""; 0], "{passed}");
         assert_eq!(codes(&doubted), [code], "{doubted}");
     }
-    // Beyond 3 m the units are in doubt instead of the link.
+    // If the radius of gyration exceeds 3 m, the units are suspected instead of the size of the link.
     assert_eq!(codes(&tensor("12")), [code::TOO_WIDE]);
     assert_eq!(codes(&tensor("12.01")), [code::UNITS]);
-    // Bodies whose units are in doubt are not judged further.
+    // Bodies whose units are suspected are not checked further.
     assert_eq!(codes(&center("20.01")), [code::UNITS]);
     assert_eq!(codes(&center("-20")), [code::CENTER_FAR]);
 }
@@ -369,7 +370,8 @@ fn every_unit_of_moments_is_known() {
     }
 }
 
-/// A frame marks the size of its link as a child does, and what a prismatic joint travels is from one limit to the other.
+/// A frame marks the size of its link like a child link, and the travel of a prismatic joint is the distance between
+/// its limits.
 #[test]
 fn what_marks_the_size_of_a_link() {
     let alone = rod(2.0, 1.0, false);
@@ -378,7 +380,8 @@ fn what_marks_the_size_of_a_link() {
     let frame = "[[frame]]\nname = \"tool\"\nparent = \"rod\"\norigin = { xyz = [0, 3, 0] }\n";
     assert_eq!(codes(&centered("5")), [code::CENTER_FAR]);
     assert_eq!(codes(&format!("{}{frame}", centered("5"))), [""; 0]);
-    // Of [1, 4] 3 m: with 0.117 m of gyration, 9.35 m are near enough, 9.36 are not.
+    // The limits [1, 4] give a travel of 3 m: with a radius of gyration of 0.117 m, a distance of 9.35 m is accepted,
+    // and 9.36 m is not.
     let sliding = |x: &str| {
         centered(x).replacen("type = \"revolute\"", "type = \"prismatic\", limits = [1, 4]", 1)
     };
@@ -386,7 +389,7 @@ fn what_marks_the_size_of_a_link() {
     assert_eq!(codes(&sliding("9.36")), [code::CENTER_FAR]);
 }
 
-/// Nine copies: eight are shown, and the number of the others.
+/// Of nine copies, eight are shown, and the others are counted.
 #[test]
 fn copies_are_named_up_to_eight() {
     let robot = |count: usize| {
@@ -408,7 +411,7 @@ fn copies_are_named_up_to_eight() {
     assert_eq!(robot(9).matches("and here").count(), 7);
 }
 
-/// A joint that moves 10⁻¹² of what another moves has nothing to move.
+/// A joint counts as moving nothing if its inertia is less than 10⁻¹² of that of another joint.
 #[test]
 fn next_to_nothing_is_nothing() {
     let text = |armature: &str| {
@@ -427,7 +430,7 @@ fn next_to_nothing_is_nothing() {
     assert!(found.contains("arm.toml:12:"), "{found}");
 }
 
-/// The words of findings about angles: which multiple, by how much, and what to write instead.
+/// Messages about angles name the multiple of π/2, the difference, and the text to write instead.
 #[test]
 fn angles_are_named_with_their_multiples() {
     let turned = |angle: &str| {

@@ -1,4 +1,4 @@
-//! Values in other units than kg, m and s.
+//! Checks for values in units other than kg, m and s.
 
 use std::f64::consts::PI;
 
@@ -7,16 +7,16 @@ use robot_model::diagnostic::{Diagnostic, Span, code};
 
 use super::facts::{BodyFacts, RobotFacts};
 
-/// The radius of gyration of a rod of 10 m is 2.9 m; the largest industrial arms reach 5 m.
+/// The largest plausible radius of gyration, m. That of a rod of 10 m is 2.9 m; the largest industrial arms reach 5 m.
 const WIDEST: f64 = 3.0;
-/// kg/m³: osmium, the densest matter.
+/// The density of osmium, the densest material, kg/m³.
 const DENSEST: f64 = 22_590.0;
-/// No link of a robot on a fixed base is so long, m; 20 mm taken for m are.
+/// The largest plausible length of a link of a robot on a fixed base, m; 20 mm that are read as m reach it.
 const LONGEST: f64 = 20.0;
-/// Jupiter's is 24.8 m/s².
+/// The largest plausible acceleration of gravity, m/s²; that of Jupiter is 24.8 m/s².
 const HEAVIEST: f64 = 30.0;
 
-/// Units in which CAD programs give moments of inertia, in kg m².
+/// The units in which CAD programs give moments of inertia, with their values in kg m².
 const MOMENTS: &[(&str, f64)] =
     &[("g m^2", 1e-3), ("kg cm^2", 1e-4), ("kg mm^2", 1e-6), ("g cm^2", 1e-7), ("g mm^2", 1e-9)];
 
@@ -54,15 +54,14 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
-/// Whether one of the values of a body is reported here.
+/// Whether one of the values of a body is reported by this module.
 pub(super) fn is_suspect(body: &BodyFacts<'_>) -> bool {
     let of_tensor = body.gyration() > WIDEST || density(body) > DENSEST;
     body.center.norm() > LONGEST || (body.has_tensor() && of_tensor)
 }
 
-/// The least density, kg/m³, that some part of the body must have. Of all bodies of a mass and a
-/// bound on density the ball has the least ∫r² dm, 3/5 m R²; so R ≤ √(5/3) times the radius of
-/// gyration.
+/// The density, kg/m³, that some part of the body must have at least. Of all bodies with a given mass and maximum
+/// density, the ball has the smallest ∫r² dm, 3/5 m R², so R is at most √(5/3) times the radius of gyration.
 fn density(body: &BodyFacts<'_>) -> f64 {
     let radius = (5.0_f64 / 3.0).sqrt() * body.gyration();
     body.mass / (4.0 / 3.0 * PI * radius.powi(3))
@@ -79,7 +78,7 @@ fn long(what: &str, name: &str, distance: f64, place: &Span) -> Diagnostic {
 fn wide(body: &BodyFacts<'_>, size: f64) -> Diagnostic {
     let name = &body.body.name;
     let gyration = body.gyration();
-    // The unit that brings the radius of gyration next to half the link's size.
+    // The unit for which the radius of gyration is closest to half the size of the link.
     let expected = if size > 0.0 { size.min(1.0) / 2.0 } else { 0.1 };
     let miss = |factor: f64| (gyration * factor.sqrt() / expected).ln().abs();
     let unit = MOMENTS.iter().min_by(|a, b| miss(a.1).total_cmp(&miss(b.1)));

@@ -1,4 +1,4 @@
-//! Dimensions of symbols and terms.
+//! The dimensions of symbols and terms.
 
 use std::collections::BTreeMap;
 
@@ -42,8 +42,7 @@ impl Dimensions {
         Dimensions { symbols }
     }
 
-    /// The dimension of a term: of the product of its symbols' powers; `None` if one of them has
-    /// no unit.
+    /// The dimension of a term, which is that of the product of its symbols' powers; `None` if one of them has no unit.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The equations of a text as ranges of bytes, one entry each.
+//! Splits a text into equations, each with its range of bytes in the file.
 
 use std::ops::Range;
 
@@ -6,33 +6,33 @@ use robot_model::diagnostic::{Diagnostic, Span, code, quote};
 
 use super::printed::Notation;
 
-/// Environments that display equations, without the star.
+/// The environments that display equations, without the star.
 const DISPLAYS: [&str; 8] =
     ["equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath"];
-/// Environments inside of these that only arrange.
+/// The environments within these that only arrange equations.
 const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
-/// Environments of columns.
+/// The environments that contain columns.
 const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
 
-/// Editors of some systems put it before a text.
+/// The byte order mark that some editors put before a text.
 pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
-/// The placeholder of a left side that is printed in the display before.
+/// The command that takes the place of a left side which the preceding display printed.
 const PHANTOM: &str = r"\phantom{";
-/// Bytes of a left side that `\phantom` holds.
+/// The maximum number of bytes of a left side in `\phantom`.
 const LONGEST_LEFT_SIDE: usize = 1000;
 
-/// A printed equation as in the file: `text` is the file's, comments and marks replaced by spaces.
+/// A printed equation in the text of the file, in which comments and marks are replaced by spaces.
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     text: String,
     /// The first byte in the file.
     start: usize,
-    /// The number that `\tag` gives.
+    /// The equation number in `\tag`.
     pub(super) number: Option<String>,
 }
 
-/// A part of an entry, and its bytes in the file.
+/// A part of an entry, with its bytes in the file.
 #[derive(Clone, Debug)]
 pub(super) struct Part<'e> {
     pub(super) text: &'e str,
@@ -40,7 +40,7 @@ pub(super) struct Part<'e> {
 }
 
 impl Entry {
-    /// The two sides of the `=`.
+    /// The two sides of the equation.
     pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
         let whole = self.part(0..self.text.len());
         let Some(place) = self.text.find('=') else {
@@ -67,7 +67,7 @@ impl<'e> Part<'e> {
         Part { text, span: self.span.start + range.start..self.span.start + range.end }
     }
 
-    /// Without marks of alignment and spaces at its ends.
+    /// The part without alignment marks and spaces at its ends.
     fn trimmed(&self) -> Part<'e> {
         let mark = |c: char| c.is_whitespace() || c == '&';
         let start = self.text.len() - self.text.trim_start_matches(mark).len();
@@ -75,7 +75,7 @@ impl<'e> Part<'e> {
         self.sub(start..end)
     }
 
-    /// The rows of a column, if the part is one.
+    /// The rows of a column; `None` if the part is not a column.
     pub(super) fn rows(&self) -> Result<Option<Vec<Part<'e>>>, Box<Diagnostic>> {
         let Some((name, open, inside)) = environment(self.text, &COLUMNS) else {
             return Ok(None);
@@ -101,7 +101,7 @@ impl<'e> Part<'e> {
         let columns = self.sub(inside..inside + end);
         let mut rows: Vec<Part<'e>> =
             row_ranges(columns.text).into_iter().map(|range| columns.sub(range)).collect();
-        // A break behind the last row makes no row.
+        // A line break after the last row does not begin another row.
         if rows.last().is_some_and(|row| row.text.trim().is_empty()) {
             rows.pop();
         }
@@ -116,7 +116,7 @@ pub(super) fn unnamed(span: &Span) -> Diagnostic {
     Diagnostic::error(code::EXPRESSION, message).at(span, "").help(help)
 }
 
-/// The entries of a text, or what is wrong with its arrangement.
+/// The entries of a text, with errors in its arrangement.
 pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<Diagnostic>>> {
     match notation {
         Notation::Text => lines(&without_comments(text, notation)),
@@ -128,7 +128,7 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<D
     }
 }
 
-/// The text with comments, and a byte order mark, replaced by as many spaces.
+/// The text with comments and a byte order mark replaced by the same number of spaces.
 fn without_comments(text: &str, notation: Notation) -> String {
     let mut clean = String::with_capacity(text.len());
     let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
@@ -147,7 +147,7 @@ fn without_comments(text: &str, notation: Notation) -> String {
     clean
 }
 
-/// The first percent sign that begins a comment.
+/// The position of the first percent sign that begins a comment.
 fn percent(line: &str) -> Option<usize> {
     let bytes = line.as_bytes();
     let mut escaped = false;
@@ -158,7 +158,7 @@ fn percent(line: &str) -> Option<usize> {
     })
 }
 
-/// An entry for each line, together with the indented lines that follow it.
+/// One entry for each line and the indented lines that follow it.
 fn lines(text: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
     let mut ranges: Vec<Range<usize>> = vec![];
     let mut start = 0;
@@ -174,7 +174,7 @@ fn lines(text: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
     ranges.into_iter().map(|range| Ok(entry(text, range))).collect()
 }
 
-/// An entry of some bytes; `\tag` and `\label` are taken out.
+/// The entry of a range of bytes, without `\tag` and `\label`.
 fn entry(text: &str, range: Range<usize>) -> Entry {
     let own = text.get(range.clone()).unwrap_or_default();
     let (mut number, mut marks, mut place) = (None, vec![], 0);
@@ -196,7 +196,7 @@ fn entry(text: &str, range: Range<usize>) -> Entry {
     Entry { text: blanked(own, &marks), start: range.start, number }
 }
 
-/// The text with some ranges, in order, replaced by spaces.
+/// The text with the given ranges, in order, replaced by spaces.
 fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
     let mut clean = String::with_capacity(text.len());
     for range in ranges {
@@ -207,8 +207,8 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
     clean
 }
 
-/// The text with equations in one piece that go on in the next display, if `\phantom` with their
-/// left side opens it: only a line break and spaces are between.
+/// Joins equations that continue in the next display, which begins with `\phantom` of their left side. Between the two
+/// parts, only a line break and spaces remain.
 fn rejoined(text: &str) -> String {
     let seams: Vec<Range<usize>> =
         text.match_indices(PHANTOM).filter_map(|(place, _)| seam(text, place)).collect();
@@ -219,9 +219,9 @@ fn rejoined(text: &str) -> String {
     whole
 }
 
-/// From the end of a display to that of the `\phantom` at `place`, which opens the next.
+/// The range from the end of a display to the end of the `\phantom` at `place`, which begins the next display.
 fn seam(text: &str, place: usize) -> Option<Range<usize>> {
-    // The last of some text that may hold a word in braces.
+    // The last command in the text before `end`, if it is `start` with a word in braces.
     let word = |end: usize, start: &str| {
         let text = text.get(..end)?.trim_end();
         let open = text.len() - text.bytes().rev().take(24).position(|byte| byte == b'\\')? - 1;
@@ -244,13 +244,13 @@ fn seam(text: &str, place: usize) -> Option<Range<usize>> {
     Some(end..inside + close + 1)
 }
 
-/// The displayed text, or the place where something is not closed.
+/// The ranges of displayed equations, or errors at places at which something is not closed.
 fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
     let mut found = vec![];
     let mut place = 0;
     while let Some(rest) = text.get(place..).filter(|rest| !rest.is_empty()) {
         let Some((inside, close)) = display(rest) else {
-            // A line break may have its height in brackets behind it.
+            // A line break may be followed by its height in brackets.
             let skipped = if rest.starts_with(r"\\") { 2 } else { 1 };
             place += rest.chars().take(skipped).map(char::len_utf8).sum::<usize>();
             continue;
@@ -268,7 +268,7 @@ fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
     found
 }
 
-/// The start of the content of a display that opens a text, and its closing mark.
+/// The offset of the content of a display at the start of the text, and the mark that closes the display.
 fn display(text: &str) -> Option<(usize, String)> {
     if text.starts_with(r"\[") {
         return Some((2, r"\]".to_owned()));
@@ -280,7 +280,7 @@ fn display(text: &str) -> Option<(usize, String)> {
     Some((inside, format!(r"\end{{{name}}}")))
 }
 
-/// The first of some environments: its name, where it opens, where its content begins.
+/// The first of the given environments: its name, its position, and the position of its content.
 fn environment<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize, usize)> {
     let mut opens = text.match_indices(r"\begin{");
     opens.find_map(|(open, _)| {
@@ -289,7 +289,7 @@ fn environment<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize, usi
     })
 }
 
-/// The name of the environment that opens a text, and where its content begins.
+/// The name of the environment at the start of the text, and the offset of its content.
 fn begins<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize)> {
     let rest = text.strip_prefix(r"\begin{")?;
     let name = rest.get(..rest.bytes().take(16).position(|byte| byte == b'}')?)?;
@@ -301,7 +301,7 @@ fn begins<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize)> {
     Some((name, inside + argument.map_or(0, |end| end + 1)))
 }
 
-/// An entry for each row that contains `=`, together with the rows up to the next such row.
+/// One entry for each row that contains `=` and the following rows without it.
 fn rows(
     text: &str,
     displays: Vec<Result<Range<usize>, Box<Diagnostic>>>,
@@ -334,7 +334,7 @@ fn rows(
     entries
 }
 
-/// A display without what only arranges: environments within it, and heights of line breaks.
+/// The display without environments and heights of line breaks that only arrange it.
 fn flattened(display: &str) -> String {
     let (mut ranges, mut place) = (vec![], 0);
     while let Some(found) = display.get(place..).and_then(|rest| rest.find('\\')) {
@@ -361,7 +361,7 @@ fn flattened(display: &str) -> String {
     blanked(display, &ranges)
 }
 
-/// The ranges between line breaks outside of groups and environments; heights belong to the breaks.
+/// The ranges between line breaks that are outside groups and environments. The height of a line break belongs to it.
 fn row_ranges(text: &str) -> Vec<Range<usize>> {
     let mut ranges = vec![];
     let (mut start, mut place, mut depth) = (0, 0, 0_usize);
@@ -370,7 +370,7 @@ fn row_ranges(text: &str) -> Vec<Range<usize>> {
         if rest.starts_with(r"\begin{") || rest.starts_with('{') {
             depth += 1;
             length = rest.find('{').map_or(1, |brace| brace + 1);
-            // The braces of the name close at once.
+            // The braces of the environment's name are skipped.
             if rest.starts_with('\\') {
                 length = rest.find('}').map_or(rest.len(), |brace| brace + 1);
             }
@@ -397,7 +397,7 @@ fn row_ranges(text: &str) -> Vec<Range<usize>> {
     ranges
 }
 
-/// The length of `*` and `[2pt]` behind a line break.
+/// The length of `*` and `[2pt]` after a line break.
 fn height(rest: &str) -> usize {
     let star = usize::from(rest.starts_with('*'));
     let bracket = rest.get(star..).filter(|rest| rest.starts_with('['));

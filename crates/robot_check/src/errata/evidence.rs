@@ -1,4 +1,4 @@
-//! Evidence against a printed term or for a derived one, independent of the derivation.
+//! Evidence against a printed term or for a derived one. It does not depend on the derivation.
 
 use std::collections::BTreeMap;
 use std::collections::HashMap;
@@ -12,27 +12,27 @@ use super::term::{Key, Term};
 /// Independent evidence about a difference.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Evidence {
-    /// The printed term has a dimension other than its equation's.
+    /// The dimension of the printed term differs from that of its equation.
     Dimension {
-        /// The printed term's.
+        /// The dimension of the printed term.
         printed: Dimension,
-        /// The equation's.
+        /// The dimension of the equation.
         expected: Dimension,
     },
-    /// The derived term occurs in other printed equations unchanged.
+    /// The derived term occurs unchanged in other printed equations.
     SameTerm(Vec<String>),
-    /// The derived term occurs in other printed equations, but for one factor.
+    /// The derived term occurs in other printed equations, except for one factor.
     RelatedTerm {
         /// The factor by which it differs.
         factor: String,
         /// The equations.
         equations: Vec<String>,
     },
-    /// The printed term holds a symbol that the robot does not have.
+    /// The printed term contains a symbol that the robot does not have.
     UnknownSymbol(String),
 }
 
-/// `has units kg m s^-1, but a force has kg m s^-2: a time derivative is missing`
+/// The text of the evidence, such as `has units kg m s^-1, but a force has kg m s^-2: a time derivative is missing`.
 impl fmt::Display for Evidence {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -73,21 +73,21 @@ impl fmt::Display for Evidence {
     }
 }
 
-/// The place where a product of factors is printed: the equation, and the number before it.
+/// The place at which a product of factors is printed: the index of the equation, and the coefficient.
 type Place = (usize, Number);
 
-/// The terms of all printed equations, to be looked up.
+/// The terms of all printed equations, for lookup.
 #[derive(Default)]
 pub(super) struct PrintedTerms {
-    /// The equations' names, `(31) F_l5.x`.
+    /// The names of the equations, such as `(31) F_l5.x`.
     names: Vec<String>,
     whole: HashMap<Key, Vec<Place>>,
-    /// Products without one of their factors; the factor's text.
+    /// The products without one of their factors, with the text of this factor.
     without: HashMap<Key, Vec<(Place, String)>>,
 }
 
 impl PrintedTerms {
-    /// Adds an equation.
+    /// Adds the terms of an equation.
     pub(super) fn insert(&mut self, name: String, terms: &[Term<'_>]) {
         let equation = self.names.len();
         self.names.push(name);
@@ -100,7 +100,7 @@ impl PrintedTerms {
         }
     }
 
-    /// The other printed equations that hold a term, as it is or but for one factor.
+    /// The other printed equations that contain a term, either unchanged or except for one factor.
     pub(super) fn support(&self, term: &Term<'_>, own: &str) -> Option<Evidence> {
         let name = |equation: usize| self.names.get(equation).filter(|name| *name != own);
         let mut same: Vec<&String> = vec![];

@@ -1,4 +1,4 @@
-//! The kinds of mistake that turn a derived term into the printed one.
+//! The kinds of mistakes that turn a derived term into the printed one.
 
 use std::fmt;
 
@@ -10,32 +10,32 @@ use super::term::{Power, Term};
 /// The kinds of mistakes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum MistakeKind {
-    /// A derived term is not in print.
+    /// A derived term is not printed.
     MissingTerm,
     /// A printed term is not derived.
     ExtraTerm,
-    /// The sign.
+    /// The sign is wrong.
     Sign,
-    /// The number before the term, its sign included.
+    /// The coefficient of the term is wrong, not only its sign.
     Coefficient,
     /// A coordinate has too few or too many dots.
     Dot,
-    /// An index: a symbol of the same letter with another number or axis.
+    /// An index is wrong: the printed symbol has the same letter but another number or axis.
     Index,
-    /// A sine for a cosine, or other functions of one argument.
+    /// A function is wrong, such as a sine instead of a cosine of the same argument.
     Function,
-    /// A power of the right factor.
+    /// The power of a right factor is wrong.
     Power,
-    /// A factor is not in print.
+    /// A derived factor is not printed.
     MissingFactor,
     /// A printed factor is not derived.
     ExtraFactor,
-    /// One factor for another that resembles it in nothing.
+    /// A factor is replaced by another one that does not resemble it.
     Factor,
 }
 
 impl MistakeKind {
-    /// The kind in words: `dot`, `missing factor`.
+    /// The kind in words, such as `dot` or `missing factor`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -52,20 +52,30 @@ impl MistakeKind {
             MistakeKind::Factor => "factor",
         }
     }
+
+    /// A number of mistakes of the kind in words, such as `1 sign` or `9 indices`.
+    #[must_use]
+    pub fn counted(self, count: usize) -> String {
+        match (self, count) {
+            (_, 1) => format!("1 {}", self.name()),
+            (MistakeKind::Index, _) => format!("{count} indices"),
+            _ => format!("{count} {}s", self.name()),
+        }
+    }
 }
 
 /// One mistake in a term.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// Its kind.
+    /// The kind of the mistake.
     pub kind: MistakeKind,
-    /// The printed part, if the mistake is about a part of the term.
+    /// The printed part, if the mistake concerns a part of the term.
     pub printed: Option<String>,
-    /// The derived part in its place.
+    /// The derived part in place of the printed one.
     pub derived: Option<String>,
 }
 
-/// `dot: qd1 for qdd1`, `missing factor: cos(q2)`, `sign`
+/// The text of the mistake, such as `dot: qd1 for qdd1`, `missing factor: cos(q2)` or `sign`.
 impl fmt::Display for Mistake {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.kind.name())?;
@@ -77,10 +87,10 @@ impl fmt::Display for Mistake {
     }
 }
 
-/// A factor of one term that the other has not to that power: the power that is left.
+/// A factor of one term that the other term does not have to the same power: the remaining power.
 type Odd<'g> = Power<'g>;
 
-/// The mistakes between a printed and a derived term; if only one is given, that it is alone.
+/// The mistakes in a printed term compared with a derived one. If only one of them is given, it has no counterpart.
 pub(super) fn mistakes(printed: Option<&Term<'_>>, derived: Option<&Term<'_>>) -> Vec<Mistake> {
     let bare = |kind| Mistake { kind, printed: None, derived: None };
     let (printed, derived) = match (printed, derived) {
@@ -116,7 +126,7 @@ fn replaced(kind: MistakeKind, printed: &Power<'_>, derived: &Power<'_>) -> Mist
     Mistake { kind, printed: Some(printed.to_string()), derived: Some(derived.to_string()) }
 }
 
-/// The factors of a term beyond those that it has in common with another.
+/// The factors of a term that remain after the factors common with another term are removed.
 fn odd<'g>(term: &Term<'g>, other: &Term<'g>) -> Vec<Odd<'g>> {
     let beyond = term.factors.iter().filter_map(|power| {
         let common = other.exponent(power.atom);
@@ -130,8 +140,8 @@ fn odd<'g>(term: &Term<'g>, other: &Term<'g>) -> Vec<Odd<'g>> {
     beyond.collect()
 }
 
-/// Takes out the factors that both terms have, to different powers, unless another factor of the
-/// other term makes up for the difference.
+/// Removes the factors that both terms have to different powers and records them as mistakes, unless some of the
+/// remaining factors are easily confused.
 fn powers<'g>(
     printed: &Term<'g>,
     derived: &Term<'g>,
@@ -155,7 +165,7 @@ fn powers<'g>(
     }
 }
 
-/// The first two factors that are easily taken for each other.
+/// The first two factors that are easily confused.
 fn related(gone: &[Odd<'_>], come: &[Odd<'_>]) -> Option<(usize, usize, MistakeKind)> {
     let pairs = (0..gone.len()).flat_map(|i| (0..come.len()).map(move |j| (i, j)));
     pairs.into_iter().find_map(|(i, j)| {
@@ -165,7 +175,7 @@ fn related(gone: &[Odd<'_>], come: &[Odd<'_>]) -> Option<(usize, usize, MistakeK
     })
 }
 
-/// In what two atoms that resemble each other differ.
+/// The kind of mistake that turns one of two similar atoms into the other.
 fn likeness(one: Expr<'_>, other: Expr<'_>) -> Option<MistakeKind> {
     match (one.view(), other.view()) {
         (View::Symbol(a), View::Symbol(b)) => {
@@ -173,7 +183,7 @@ fn likeness(one: Expr<'_>, other: Expr<'_>) -> Option<MistakeKind> {
         }
         (View::Call(_, a), View::Call(_, b)) if a == b => Some(MistakeKind::Function),
         (View::Call(f, a), View::Call(g, b)) if f == g => {
-            // Angles are mostly single symbols; sums that differ count as another index.
+            // Angles are mostly single symbols; different sums count as a wrong index.
             likeness(a, b).or(Some(MistakeKind::Index))
         }
         _ => None,
@@ -193,7 +203,7 @@ fn names_differ(one: &str, other: &str) -> Option<MistakeKind> {
     }
     let stem = |name: &str| name.trim_end_matches(|c: char| c.is_ascii_digit()).to_owned();
     let (a, b) = (stem(one), stem(other));
-    // Another number, or one other letter behind the first.
+    // The symbols have different numbers, or differ in one letter after the first.
     let alike = one.len() == other.len()
         && one.bytes().zip(other.bytes()).skip(1).filter(|(x, y)| x != y).count() == 1
         && one.bytes().next() == other.bytes().next();

@@ -1,10 +1,9 @@
-//! Errata: published equations against derived ones, term by term.
+//! Errata: compares published equations with derived ones, term by term.
 //!
-//! Terms have no order and like terms may be printed apart, so equations are compared as sets of
-//! canonical terms. What differs is paired, a printed term with the derived term that it most
-//! resembles, and comes with the kind of mistake and with evidence that does not depend on the
-//! derivation: the dimension of the printed term, and the other printed equations in which the
-//! derived term.
+//! Terms have no order, and like terms may be printed separately, so equations are compared as sets of canonical terms.
+//! Of the terms that differ, each printed one is paired with the derived term that it resembles most. Each difference
+//! is reported with the kind of mistake and with evidence that does not depend on the derivation: the dimension of the
+//! printed term, and other printed equations in which the derived term occurs.
 
 mod dimension;
 mod entries;
@@ -13,12 +12,12 @@ mod latex;
 mod mistake;
 mod order;
 mod printed;
+#[cfg(test)]
+mod spoiled;
 mod symbols;
 mod term;
 #[cfg(test)]
 mod tests;
-#[cfg(test)]
-mod told;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -41,74 +40,73 @@ use robot_model::unit::Dimension;
 use symbols::Symbols;
 use term::Term;
 
-/// The limits of an expansion: a second or two.
+/// The limits of an expansion, which takes a second or two.
 const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 500_000,
     max_products: 4_000_000,
 };
 
-/// Of one equation's wrong terms and derived terms no more pairs than these are tried.
+/// The maximum number of pairs of a wrong printed term and a missing derived term that are compared for one equation.
 const MAX_PAIRS: usize = 2_000_000;
 
 /// The options of a comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// The notation; if not given, the one that [`Notation::detect`] finds.
+    /// The notation. If it is `None`, [`Notation::detect`] determines it.
     pub notation: Option<Notation>,
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
-    /// for what the robot file says, or 10⁻⁹.
+    /// The tolerance within which a constant angle becomes a multiple of π/2, rad. If it is `None`, that of the robot
+    /// file, or 10⁻⁹.
     pub snap: Option<f64>,
 }
 
-/// A difference between print and derivation.
+/// A difference between the printed and the derived equations.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// The equation's number in print.
+    /// The printed number of the equation.
     pub number: String,
-    /// The quantity: `M_l4.z`.
+    /// The quantity, such as `M_l4.z`.
     pub quantity: String,
     /// The line of the equation in the file.
     pub line: usize,
-    /// The printed term, canonical; `None` if a derived term is not in print.
+    /// The printed term in canonical form; `None` if a derived term is not printed.
     pub printed: Option<String>,
-    /// The derived term, canonical; `None` if a printed term has no counterpart.
+    /// The derived term in canonical form; `None` if a printed term has no counterpart.
     pub derived: Option<String>,
-    /// For a printed term without counterpart, the derived term that it resembles most.
+    /// The derived term that a printed term without a counterpart resembles most.
     pub nearest: Option<String>,
-    /// In what the printed term differs from the derived one; never empty.
+    /// The mistakes that turn the derived term into the printed one; never empty.
     pub mistakes: Vec<Mistake>,
-    /// Evidence against the printed term or for the derived one, independent of the derivation.
+    /// Evidence against the printed term or for the derived one, which does not depend on the derivation.
     pub evidence: Vec<Evidence>,
 }
 
 /// The result of a comparison.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Comparison {
-    /// The number of equations compared.
+    /// The number of equations that were compared.
     pub equations: usize,
-    /// The number of them that only name another quantity.
+    /// The number of these equations that only name another quantity.
     pub names: usize,
-    /// The number of printed terms in the others, brackets opened.
+    /// The number of printed terms in the other equations, after brackets are expanded.
     pub terms: usize,
-    /// Whether the derived equations have the wrenches of the tips: if any printed one has.
+    /// Whether the derived equations contain the wrenches of the tips: this is the case if any printed one does.
     pub wrench: bool,
-    /// The differences, in the order of print.
+    /// The differences, in the order of the printed equations.
     pub differences: Vec<Difference>,
 }
 
-/// Compares printed equations with the paper's iterations for a robot, without friction, and without
-/// the wrenches of tips if none of the equations has any of their symbols.
+/// Compares printed equations with the paper's iterations for a robot. Friction is not included, and the wrenches of
+/// tips are only included if one of the equations contains one of their symbols.
 ///
-/// An equation is `(number) quantity = terms`, the number left out if there is none. In infix text
-/// it is on one line, continued by indented lines; `#` begins a comment line. In LaTeX it is
-/// likewise on a line, or in a display (`equation`, `align` …), all else being prose; a vector may be
-/// a column of three rows.
+/// An equation is `(number) quantity = terms`; the number is optional. In infix text, it is on one line, which indented
+/// lines may continue; `#` begins a comment line. In LaTeX, it is also on one line, or in a display (`equation`,
+/// `align` …), in which case all other text is ignored; a vector may be a column of three rows.
 ///
 /// # Errors
 ///
-/// Everything that cannot be read, with its place; quantities that the robot does not have; equations
-/// that are too long to be compared term by term.
+/// Everything that cannot be read, with its place; quantities that the robot does not have; equations that are too long
+/// to be compared term by term.
 pub fn compare(
     robot: &Robot,
     source: &Source,
@@ -143,7 +141,7 @@ fn quantities<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Vec<Quantity<'g>> 
     Kind::ALL.iter().flat_map(|kind| solution.quantities(*kind)).collect()
 }
 
-/// The printed equations, all of quantities that the robot has.
+/// Reads the printed equations; all must be equations of quantities that the robot has.
 fn read(
     robot: &Robot,
     source: &Source,
@@ -163,7 +161,7 @@ fn read(
     if unknown.is_empty() { Ok(printed) } else { Err(unknown) }
 }
 
-/// Whether any equation has a symbol of a tip's wrench.
+/// Whether any equation contains a symbol of a tip's wrench.
 fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
     let names: BTreeSet<&str> = robot.tips().flat_map(|(_, wrench)| wrench.components()).collect();
     let terms = printed.iter().flat_map(|equation| &equation.terms);
@@ -180,13 +178,13 @@ fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
     ))
 }
 
-/// A printed equation beside the derived one.
+/// A printed equation with the derived one.
 struct Compared<'p, 'g> {
     equation: &'p PrintedEquation,
     dimension: Dimension,
     print: Vec<Term<'g>>,
     derived: Vec<Term<'g>>,
-    /// Whether the print only names another quantity: its terms are then none of the print.
+    /// Whether the printed equation only names another quantity; its terms are then not counted as printed terms.
     is_name: bool,
 }
 
@@ -215,7 +213,7 @@ fn expand<'p, 'g>(
     let mut compared = vec![];
     for equation in printed {
         let Some(quantity) = quantities.get(&equation.quantity) else { continue };
-        // A right side that is another quantity's name means that quantity.
+        // A right side that is the name of another quantity stands for that quantity.
         let named = match equation.terms.as_slice() {
             [alone] => quantities.get(alone.text().trim()),
             _ => None,
@@ -245,7 +243,7 @@ fn expand<'p, 'g>(
         .collect())
 }
 
-/// All differences, or the equations in which there are too many.
+/// All differences, or errors for the equations that have too many.
 fn find(
     compared: &[Compared<'_, '_>],
     dimensions: &Dimensions,
@@ -278,7 +276,7 @@ fn find(
 }
 
 impl<'g> Compared<'_, 'g> {
-    /// `(31) F_l5.x`
+    /// The name of the equation, such as `(31) F_l5.x`.
     fn name(&self) -> String {
         match self.equation.number.as_str() {
             "" => self.equation.quantity.clone(),
@@ -331,7 +329,7 @@ impl Lines {
         Lines(std::iter::once(0).chain(ends.map(|(place, _)| place + 1)).collect())
     }
 
-    /// The line of a byte, from 1.
+    /// The line of a byte, counted from 1.
     fn at(&self, byte: usize) -> usize {
         self.0.partition_point(|start| *start <= byte)
     }

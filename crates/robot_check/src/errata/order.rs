@@ -8,13 +8,13 @@ use robot_symbolic::Graph;
 
 use super::{Options, read};
 
-/// The order in which printed equations, as [`compare`](super::compare) reads them, have the terms and factors of a robot's
-/// quantities, and the numbers that they give them; of a quantity printed twice those of the later equation, and no order if it only
-/// names a quantity.
+/// The order of the terms and factors of a robot's quantities in printed equations, which are read as by
+/// [`compare`](super::compare), and the printed numbers. If a quantity is printed twice, the later equation counts. An
+/// equation that only names another quantity has no order.
 ///
 /// # Errors
 ///
-/// Everything that cannot be read, with its place; quantities that the robot does not have.
+/// Everything that cannot be read, with its place, and quantities that the robot does not have.
 pub fn term_order(
     robot: &Robot,
     source: &Source,
@@ -28,7 +28,7 @@ pub fn term_order(
     let mut order = TermOrder::default();
     for equation in printed {
         order.set_number(&equation.quantity, &equation.number);
-        // With one term there is nothing to order but its factors, and that term may be another quantity's name.
+        // With a single term, only its factors could be ordered, and the term may be the name of another quantity.
         match equation.terms.len() {
             0 | 1 => order.insert_name(&equation.quantity),
             _ => order.insert(&equation.quantity, equation.terms),

@@ -1,4 +1,4 @@
-//! Reading printed equations: `(number) quantity = terms`, in infix text or in LaTeX.
+//! Reads printed equations, `(number) quantity = terms`, in infix text or in LaTeX.
 
 use std::ops::Range;
 
@@ -13,14 +13,14 @@ use super::symbols::Symbols;
 /// The notation of equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Notation {
-    /// Infix text: `M5*l5*qdd1*cos(q2)`, an equation on each line.
+    /// Infix text such as `M5*l5*qdd1*cos(q2)`, with one equation on each line.
     Text,
-    /// LaTeX: displayed equations, or an equation on each line.
+    /// LaTeX: displayed equations, or one equation on each line.
     Latex,
 }
 
 impl Notation {
-    /// Guesses the notation of a text: infix text has no backslash but in comments.
+    /// Guesses the notation of a text: infix text contains backslashes only in comments.
     #[must_use]
     pub fn detect(text: &str) -> Notation {
         let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
@@ -29,23 +29,23 @@ impl Notation {
     }
 }
 
-/// A printed equation: one scalar quantity and what the print says it is.
+/// A printed equation: one scalar quantity and its printed terms.
 #[derive(Clone, Debug)]
 pub(super) struct PrintedEquation {
-    /// The equation's number in print, without parentheses; empty if it has none.
+    /// The printed number of the equation, without parentheses; empty if it has none.
     pub(super) number: String,
-    /// The quantity on the left: `M_l4.z`, `Q1`.
+    /// The quantity on the left side, such as `M_l4.z` or `Q1`.
     pub(super) quantity: String,
     /// The bytes of the left side.
     pub(super) span: Span,
-    /// The terms of the right side in printed order, brackets unopened.
+    /// The terms of the right side in printed order, before brackets are expanded.
     pub(super) terms: Vec<Formula>,
 }
 
-/// The equations of a text.
+/// Reads the equations of a text.
 ///
-/// In text, comment lines start with `#`, and a line that starts with a space continues the one
-/// before. In LaTeX comments start with `%`; if there are displayed equations, all else is prose.
+/// In infix text, comment lines start with `#`, and a line that starts with a space continues the preceding one. In
+/// LaTeX, comments start with `%`; if there are displayed equations, all other text is ignored.
 ///
 /// # Errors
 ///
@@ -126,7 +126,7 @@ fn shifted(span: &Span, by: usize) -> Span {
     span.start + by..span.end + by
 }
 
-/// The number of an equation in parentheses, and the rest of its left side.
+/// The number of an equation in parentheses, and the rest of the left side.
 fn numbered(left: &str) -> (Option<String>, &str) {
     let left = left.trim();
     match left.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
@@ -135,7 +135,7 @@ fn numbered(left: &str) -> (Option<String>, &str) {
     }
 }
 
-/// The terms of a right side; `place` gives the bytes of the file for bytes of the right side.
+/// The terms of a right side; `place` converts a range of bytes of the right side to that in the file.
 fn terms(right: &str, place: impl Fn(Span) -> Span) -> Result<Vec<Formula>, Box<Diagnostic>> {
     let mut terms = vec![];
     for range in split_terms(right) {
@@ -177,7 +177,8 @@ fn complete(equations: Vec<PrintedEquation>) -> Result<Vec<PrintedEquation>, Box
     }
 }
 
-/// The summands of a sum: it is cut before each sign outside of brackets that follows an operand.
+/// The ranges of the terms of a sum, which is split before each plus or minus sign that is outside brackets and follows
+/// an operand.
 fn split_terms(text: &str) -> Vec<Range<usize>> {
     let bytes = text.as_bytes();
     let mut ranges = vec![];
@@ -204,7 +205,7 @@ fn split_terms(text: &str) -> Vec<Range<usize>> {
     ranges
 }
 
-/// The length of the name or number that begins at a byte, the exponent of a number included.
+/// The length of the name or number that begins at a byte, including the exponent of a number.
 fn operand_length(bytes: &[u8], start: usize) -> usize {
     let run = |from: usize, member: fn(&u8) -> bool| {
         bytes.get(from..).unwrap_or_default().iter().take_while(|byte| member(byte)).count()
@@ -301,7 +302,7 @@ mod tests {
             .map(|equation| texts(equation).into_iter().map(str::to_owned).collect())
             .collect();
         assert_eq!(shown, [["a", "b"], ["c", "-d"]]);
-        // Another environment is another equation.
+        // An environment with another name does not continue the equation.
         assert_eq!(
             read(&text.replace("{align*} \\phantom", "{gather} \\phantom")).unwrap_err().len(),
             1

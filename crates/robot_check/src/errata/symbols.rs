@@ -1,4 +1,4 @@
-//! The symbols and quantities of a robot by their LaTeX.
+//! The symbols and quantities of a robot, found by their LaTeX.
 
 use std::collections::{BTreeSet, HashMap};
 
@@ -10,21 +10,21 @@ use robot_model::variable::JointVariable;
 
 use super::latex::symbol_key;
 
-/// Signs over a letter that only say that it is a vector.
+/// Accents on a letter that only indicate that it is a vector.
 const VECTOR_SIGNS: [&str; 5] = [r"\bar", r"\overline", r"\vec", r"\overrightarrow", r"\widetilde"];
 
-/// The names of a robot by the keys of their LaTeX.
+/// The names of a robot's symbols and quantities by the keys of their LaTeX.
 #[derive(Default)]
 pub(super) struct Symbols {
     names: HashMap<String, String>,
     quantities: HashMap<String, String>,
     vectors: HashMap<String, String>,
-    /// The names that the derived equations have.
+    /// The names that occur in the derived equations.
     used: BTreeSet<String>,
 }
 
 impl Symbols {
-    /// The symbols of a robot: the LaTeX that its file gives, and the spelling of print.
+    /// Collects the symbols of a robot, with the LaTeX of its file and the spelling of printed equations.
     pub(super) fn of(robot: &Robot, quantities: &[Symbol], used: BTreeSet<String>) -> Symbols {
         let mut symbols = Symbols { used, ..Symbols::default() };
         for parameter in &robot.parameters {
@@ -77,7 +77,7 @@ impl Symbols {
     /// The name of a symbol on a right side.
     pub(super) fn name(&self, key: &str) -> Option<String> {
         let known = self.names.get(key);
-        // `c_2` is a cosine if no equation has a parameter of that name.
+        // `c_2` is a cosine unless an equation contains a parameter with this name.
         if let Some(index) = key.strip_prefix("s_").or(key.strip_prefix("c_"))
             && index.bytes().all(|byte| byte.is_ascii_digit())
         {
@@ -88,8 +88,8 @@ impl Symbols {
         known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
     }
 
-    /// The quantity, or the vector of quantities, that LaTeX on a left side means; text that is no
-    /// quantity's as it is.
+    /// The name of the quantity, or of the vector of quantities, that LaTeX on a left side denotes. Other text is
+    /// returned unchanged.
     pub(super) fn quantity(&self, latex: &str, vector: bool) -> String {
         let plain = |key: String| VECTOR_SIGNS.iter().fold(key, |key, sign| key.replace(sign, ""));
         let known = if vector { &self.vectors } else { &self.quantities };

@@ -1,4 +1,4 @@
-//! Terms of expanded equations, and how two sets of them differ.
+//! The terms of expanded equations, and the differences between two sets of terms.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -11,7 +11,7 @@ use robot_symbolic::{
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Term<'g> {
     pub(super) coefficient: Number,
-    /// Each atom once, in the polynomial's order.
+    /// The factors, in the order of the polynomial; each atom occurs once.
     pub(super) factors: Vec<Power<'g>>,
 }
 
@@ -22,10 +22,10 @@ pub(super) struct Power<'g> {
     pub(super) exponent: i32,
 }
 
-/// The key of like terms: their atoms and powers.
+/// The key of like terms: their atoms and exponents.
 pub(super) type Key = Vec<(Id, i32)>;
 
-/// The canonical terms of expressions, expanded together under one limit.
+/// The canonical terms of expressions, which are expanded together with a common limit.
 pub(super) fn terms_of<'g>(
     exprs: &[Expr<'g>],
     limits: &PolynomialOptions,
@@ -49,9 +49,9 @@ pub(super) fn terms_of<'g>(
     Ok(terms.collect())
 }
 
-/// The printed terms without counterpart, and the derived terms without.
+/// The printed terms without a counterpart, and the derived terms without one.
 ///
-/// Like terms may be printed apart: if their sum is the derived term, all of them are right.
+/// Like terms may be printed separately: if their sum is the derived term, all of them are right.
 pub(super) fn leftover<'g>(
     printed: &[Term<'g>],
     derived: &[Term<'g>],
@@ -76,7 +76,7 @@ pub(super) fn leftover<'g>(
     }
     let mut missing: Vec<Term<'g>> = vec![];
     for term in derived.iter().filter(|term| !is_right(&term.key())) {
-        // Of like terms that do not add up, one may still be right.
+        // One of several like terms may still be right if they do not add up to the derived term.
         let like = places.get(&term.key()).into_iter().flatten();
         let right = like.copied().find(|place| wrong.get(*place) == Some(&Some(term.clone())));
         match right.and_then(|place| wrong.get_mut(place)) {
@@ -89,8 +89,8 @@ pub(super) fn leftover<'g>(
 
 type Pair<'g> = (Option<Term<'g>>, Option<Term<'g>>);
 
-/// Pairs each wrong printed term with the missing derived term that resembles it most; what is left
-/// of either is alone.
+/// Pairs each wrong printed term with the missing derived term that it resembles most; the remaining terms have no
+/// counterpart.
 pub(super) fn pair<'g>(wrong: Vec<Term<'g>>, missing: Vec<Term<'g>>) -> Vec<Pair<'g>> {
     let mut near: Vec<(u32, usize, usize)> = vec![];
     for (i, printed) in wrong.iter().enumerate() {
@@ -119,7 +119,7 @@ impl<'g> Term<'g> {
         power.map_or(0, |power| power.exponent)
     }
 
-    /// The number of factors that would have to change, a different coefficient counted once.
+    /// The number of factors that differ, plus one if the coefficients differ.
     pub(super) fn distance(&self, other: &Term<'g>) -> u32 {
         let gone: u32 = self
             .factors
@@ -135,12 +135,12 @@ impl<'g> Term<'g> {
         gone + come + u32::from(self.coefficient != other.coefficient)
     }
 
-    /// The atoms and powers.
+    /// The atoms and exponents of the term.
     pub(super) fn key(&self) -> Key {
         self.factors.iter().map(|power| (power.atom.id(), power.exponent)).collect()
     }
 
-    /// The keys of the term without one of its atoms, if that has no power, and the atom's text.
+    /// The keys of the term without one of its atoms, for each atom with the exponent 1, and the text of this atom.
     pub(super) fn without_factor(&self) -> impl Iterator<Item = (Key, String)> {
         let single = self.factors.iter().filter(|power| power.exponent == 1);
         single.map(|power| {
@@ -150,7 +150,7 @@ impl<'g> Term<'g> {
         })
     }
 
-    /// `2`, `-1/3`
+    /// The text of the coefficient, such as `2` or `-1/3`.
     pub(super) fn coefficient_text(&self) -> String {
         match self.coefficient.as_rational() {
             Some(rational) => print::exact_text(rational),
@@ -158,7 +158,7 @@ impl<'g> Term<'g> {
         }
     }
 
-    /// The term of a list that resembles this one most.
+    /// The term in a list that resembles this one most.
     pub(super) fn nearest<'t>(&self, terms: &'t [Term<'g>]) -> Option<&'t Term<'g>> {
         terms.iter().min_by_key(|term| self.distance(term))
     }
@@ -168,7 +168,7 @@ fn atom_text(atom: Expr<'_>) -> String {
     print::to_text(atom).unwrap_or_else(|error| error.to_string())
 }
 
-/// `qd2^2`
+/// The text of a power, such as `qd2^2`.
 impl fmt::Display for Power<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = atom_text(self.atom);
@@ -179,7 +179,7 @@ impl fmt::Display for Power<'_> {
     }
 }
 
-/// `-2*cos(q2)*q3*M5*qd4*qd2`
+/// The text of a term, such as `-2*cos(q2)*q3*M5*qd4*qd2`.
 impl fmt::Display for Term<'_> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut factors: Vec<String> = self.factors.iter().map(Power::to_string).collect();

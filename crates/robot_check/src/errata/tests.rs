@@ -12,7 +12,7 @@ pub(super) fn compared(robot: &Robot, text: &str) -> Result<Comparison, Diagnost
     compare(robot, &source, &Options::default())
 }
 
-/// The second equation of the planar arm, one term a line.
+/// The second equation of the planar arm, as a list of terms.
 const TERMS: [&str; 7] = [
     "- m2*g*r2*sin(q1)*sin(q2)",
     "+ m2*g*r2*cos(q1)*cos(q2)",
@@ -23,8 +23,8 @@ const TERMS: [&str; 7] = [
     "+ I2*(qdd1 + qdd2)",
 ];
 
-/// The differences of the equation with its first term that is `from` replaced.
-fn spoilt(from: &str, to: &str) -> Vec<Difference> {
+/// The differences of the equation in which the term `from` is replaced by `to`.
+fn spoiled(from: &str, to: &str) -> Vec<Difference> {
     let text = TERMS.map(|term| if term == from { to } else { term }).join("\n  ");
     assert!(TERMS.contains(&from));
     compared(&robot("planar_2r"), &format!("(2) Q2 = {text}\n")).unwrap().differences
@@ -32,8 +32,8 @@ fn spoilt(from: &str, to: &str) -> Vec<Difference> {
 
 #[test]
 fn right_equations_have_no_differences() {
-    assert_eq!(spoilt(TERMS[0], TERMS[0]), []);
-    // Like terms apart, in any order, an angle sum in place of its expansion.
+    assert_eq!(spoiled(TERMS[0], TERMS[0]), []);
+    // Like terms are separate and in any order, and the cosine of a sum replaces its expansion.
     let text = "Q2 = m2*r2^2*(qdd1 + qdd2)/2 + I2*qdd2 + m2*g*r2*cos(q1 + q2) + m2*l1*r2*cos(q2)*qdd1\n  \
         + m2*r2^2*qdd2/2 + m2*r2^2*qdd1/2 + I2*qdd1 + m2*l1*r2*sin(q2)*qd1^2";
     let found = compared(&robot("planar_2r"), text).unwrap();
@@ -75,31 +75,31 @@ fn every_kind_of_mistake_is_reported() {
         (3, "+ m2*q1*r2*cos(q2)*qdd1", "factor: q1 for l1"),
     ];
     for (place, wrong, mistake) in cases {
-        let found = spoilt(TERMS[place], wrong);
+        let found = spoiled(TERMS[place], wrong);
         assert_eq!(found.len(), 1, "{wrong}: {found:?}");
         let mistakes: Vec<String> = found[0].mistakes.iter().map(Mistake::to_string).collect();
         assert_eq!(mistakes, [mistake], "{wrong}");
         assert_eq!((found[0].number.as_str(), found[0].line), ("2", 1));
     }
-    let extra = spoilt(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
+    let extra = spoiled(TERMS[6], "+ I2*(qdd1 + qdd2) + m2*l1*r2*cos(q2)*qdd2");
     assert_eq!((extra.len(), extra[0].mistakes[0].kind), (1, MistakeKind::ExtraTerm));
     assert_eq!(extra[0].nearest.as_deref(), Some("qdd1*l1*r2*m2*cos(q2)"));
 }
 
 #[test]
 fn like_terms_may_be_printed_apart() {
-    // One of two like terms is right: the other alone is told.
-    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
+    // If one of two like terms is right, only the other one is reported.
+    let found = spoiled(TERMS[4], "+ m2*r2^2*qdd1 + 2*m2*r2^2*qdd1");
     let [extra] = &found[..] else { panic!("{found:?}") };
     assert_eq!(extra.mistakes[0].kind, MistakeKind::ExtraTerm);
     assert_eq!((extra.printed.as_deref(), &extra.derived), (Some("2*qdd1*r2^2*m2"), &None));
-    // Nothing of this kind is derived, and the sum is nothing.
-    assert_eq!(spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
-    let found = spoilt(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - 2*m1*r1^2*qdd2");
+    // No terms of this kind are derived, and the printed ones add up to zero.
+    assert_eq!(spoiled(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - m1*r1^2*qdd2"), []);
+    let found = spoiled(TERMS[4], "+ m2*r2^2*qdd1 + m1*r1^2*qdd2 - 2*m1*r1^2*qdd2");
     assert_eq!(found.len(), 2, "{found:?}");
 }
 
-/// Every term of an equation spoilt in every way: what differs is told, with a slip.
+/// For every term of an equation and every kind of change, the difference is reported with a mistake.
 #[test]
 fn no_difference_is_without_a_mistake() {
     let ways =
@@ -107,7 +107,8 @@ fn no_difference_is_without_a_mistake() {
     for term in TERMS {
         for way in ways {
             let bare = term.trim_start_matches("+ ");
-            let found = spoilt(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
+            let found =
+                spoiled(term, &format!("+ {}", way.replace("{}", bare)).replace("+ -", "-"));
             assert!(!found.is_empty(), "{term}, {way}");
             for one in found {
                 assert!(!one.mistakes.is_empty(), "{term}, {way}: {one:?}");
@@ -117,8 +118,8 @@ fn no_difference_is_without_a_mistake() {
     }
 }
 
-/// Of two derived terms that are equally far in their factors the one with the same coefficient is
-/// the printed term's.
+/// Of two derived terms whose factors differ equally from those of a printed term, the one with the same coefficient is
+/// its counterpart.
 #[test]
 fn a_coefficient_counts_in_what_a_term_resembles() {
     let others = "m1*g*r1*cos(q1) + m1*r1^2*qdd1 + I1*qdd1 + m2*g*l1*cos(q1) + m2*g*r2*cos(q1 + q2) \
@@ -160,7 +161,7 @@ fn the_distance_of_terms_counts_factors_and_one_for_the_coefficient() {
 #[test]
 fn terms_that_are_no_torque_are_told() {
     let evidence = |wrong: &str| -> Vec<String> {
-        spoilt(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
+        spoiled(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
     };
     let dot = "has units kg m^2 s^-1, but a torque has kg m^2 s^-2: a time derivative is missing";
     assert_eq!(evidence("+ m2*l1*r2*cos(q2)*qd1"), [dot]);
@@ -177,7 +178,7 @@ fn terms_that_are_no_torque_are_told() {
         let expected = format!("has units {unit}, but a torque has kg m^2 s^-2: {dots}");
         assert_eq!(evidence(&format!("+ m2*l1*r2*cos(q2){wrong}")), [expected]);
     }
-    // Where more than the time is wrong it is not a matter of dots.
+    // If dimensions other than time differ, dots cannot be the reason.
     for (wrong, dimension) in [("qd1", "kg^2 m^2 s^-1"), ("qd1*qdd1", "kg^2 m^2 s^-3")] {
         let expected = format!("has units {dimension}, but a torque has kg m^2 s^-2");
         assert_eq!(evidence(&format!("+ m1*m2*l1*r2*cos(q2)*{wrong}")), [expected]);
@@ -210,7 +211,7 @@ fn latex_is_compared_as_text_is() {
     assert_eq!((found.differences[0].number.as_str(), found.differences[0].line), ("31", 2));
 }
 
-/// Some editors put a byte order mark before a text.
+/// A byte order mark, which some editors put before a text, is ignored.
 #[test]
 fn a_byte_order_mark_is_no_part_of_the_equations() {
     let robot = robot("planar_2r");
@@ -230,7 +231,7 @@ fn a_byte_order_mark_is_no_part_of_the_equations() {
     assert!(shown.contains("printed:1:"), "{shown}");
 }
 
-/// `Q_2`, `Q_m^2` and `\tau_2` are the second joint's generalized force.
+/// `Q_2`, `Q_m^2` and `\tau_2` denote the joint torque of the second joint.
 #[test]
 fn a_generalized_force_is_known_by_its_usual_letters() {
     let right = r"(m_2 r_2^2 + I_2) (\ddot q_1 + \ddot q_2) + m_2 l_1 r_2 \cos q_2 \ddot q_1
@@ -328,11 +329,11 @@ fn equations_without_end_are_refused() {
     }
 }
 
-/// The sign of an exponent begins no term.
+/// The sign of an exponent does not begin a new term.
 #[test]
 fn numbers_have_signed_exponents() {
     for one in ["1e-3*1e+3", "2.5e-1*4", "1E-2*1e2"] {
-        assert_eq!(spoilt(TERMS[4], &format!("+ {one}*m2*r2^2*qdd1")), [], "{one}");
+        assert_eq!(spoiled(TERMS[4], &format!("+ {one}*m2*r2^2*qdd1")), [], "{one}");
     }
 }
 
@@ -347,6 +348,6 @@ fn the_order_of_a_sum_is_taken_and_a_single_term_has_none() {
         ["I2*qdd2 + I2*qdd1", "I2*qdd1 + I2*qdd2"].map(|sum| order(&format!("Q2 = {sum}\n")));
     assert!(!forth.is_empty());
     assert_ne!(forth, back);
-    // Of a quantity printed twice the later equation counts.
+    // If a quantity is printed twice, the later equation counts.
     assert_eq!(order("Q2 = I2*qdd1 + I2*qdd2\nQ2 = I2*qdd2 + I2*qdd1\n"), forth);
 }

@@ -85,7 +85,7 @@ impl Arguments {
     }
 }
 
-/// `ZZR_2 = …`, its value below, long sums on several lines.
+/// Prints each base parameter as `ZZR_2 = …`, with its value below; long sums take several lines.
 fn plain(robot: &Robot, set: &BaseSet) -> String {
     let (count, all) = (set.list.len(), set.standard.len());
     let mut shown = format!("{}: {count} base parameters of {all}", robot.name);
@@ -104,8 +104,8 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
     shown
 }
 
-/// `{"robot": …, "frames": …, "rounded": …, "standard": […], "base": [{"name": …, "column": …, "formula": …, "figures": {…},
-/// "value": …}, …]}`
+/// Prints the base parameters as `{"robot": …, "frames": …, "rounded": …, "standard": […], "base": [{"name": …,
+/// "column": …, "formula": …, "figures": {…}, "value": …}, …]}`.
 fn json(robot: &Robot, set: &BaseSet) -> String {
     let entry = |entry: &BaseEntry| {
         let coefficients: Map<String, Value> = entry

@@ -1,4 +1,4 @@
-//! `completions`: what a shell needs to complete the command line.
+//! `completions`: scripts with which shells complete the command line.
 
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
@@ -33,8 +33,8 @@ impl Arguments {
     }
 }
 
-/// The script with this program's mark, a comment in all of these shells. The first line of zsh's is for
-/// zsh.
+/// Adds this program's mark to the script, as a comment, which has the same syntax in all of these shells. The first
+/// line of the script for zsh must stay first.
 fn marked(script: &str) -> String {
     match script.split_once('\n') {
         Some((first, rest)) if first.starts_with("#compdef") => {

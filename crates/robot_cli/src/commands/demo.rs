@@ -11,13 +11,13 @@ use super::equations::plain;
 use crate::Terminal;
 use crate::failure::Failure;
 
-// Generated once and kept, so that building the command needs no second build of the generator; a test
-// generates it again.
+// Generated once and committed, so that building the command does not need a second build of the generator; a test
+// compares it with newly generated code.
 include!("../../demo/trttr1.rs");
 
-/// The robot file that the code above was generated from.
+/// The robot file from which the code above was generated.
 const ROBOT: &str = include_str!("../../demo/trttr1.toml");
-/// The plan that it was generated with.
+/// The plan with which it was generated.
 const PLAN: &str = include_str!("../../demo/trttr1.plan");
 
 #[derive(Args)]

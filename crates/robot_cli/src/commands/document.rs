@@ -55,7 +55,7 @@ pub(crate) struct Arguments {
     force: ForceArgument,
 }
 
-/// A path of something that is typeset.
+/// Parses the path of a document source.
 fn source_path(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     let is_typeset = path.extension().is_some_and(|extension| extension == "pdf");
@@ -72,7 +72,7 @@ enum Format {
 }
 
 impl Arguments {
-    /// The notation: the one asked for, else that of the file's name.
+    /// The notation that is chosen, or else the one given by the ending of the file's name.
     fn format(&self) -> Result<Format, Failure> {
         if let Some(format) = self.format {
             return Ok(format);
@@ -94,7 +94,7 @@ impl Arguments {
         let inputs = self.robot.inputs().into_iter().chain(self.equations.inputs());
         let writer = self.force.writer(inputs, file_of(self.output.as_deref()).is_some())?;
         let output = Delivery::open(self.output.as_deref(), writer)?;
-        // An input is refused as such, whatever its name.
+        // The error about an output that is an input has priority over one about its name.
         let format = self.format()?;
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
@@ -134,7 +134,7 @@ impl Arguments {
         output.deliver(&shown.map_err(failed)?, terminal)
     }
 
-    /// Refuses columns in Markdown, and says how the figure is had.
+    /// Returns an error for columns in Markdown, and prints how to make the figure.
     fn without_figure(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         if self.columns > 1 {
             let message = "--columns has no effect on Markdown; leave it out";
@@ -147,10 +147,10 @@ impl Arguments {
     }
 }
 
-/// Documents of more equations are for nobody to read from the first page to the last.
+/// The most equations of a document that can be read from the first page to the last.
 const LONG: usize = 300;
 
-/// Says that other forms are shorter, if the document is long.
+/// Prints a note that other forms are shorter, if the document is long.
 fn tell_length(
     document: &Document,
     forms: &[Form],
@@ -168,7 +168,7 @@ fn tell_length(
     Ok(())
 }
 
-/// The document behind a comment that says who wrote it.
+/// Adds a comment before the document that states which program wrote it.
 fn commented(
     start: &str,
     end: &str,

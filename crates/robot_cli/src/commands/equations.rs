@@ -104,7 +104,7 @@ impl Arguments {
     }
 }
 
-/// `Q1 = …`, long sums on several lines.
+/// Prints equations as `Q1 = …`; long sums take several lines.
 pub(super) fn plain(equations: &Equations) -> String {
     let mut shown = String::new();
     for group in &equations.groups {
@@ -123,19 +123,19 @@ pub(super) fn plain(equations: &Equations) -> String {
     shown
 }
 
-/// The rows of a matrix below each other, behind its name.
+/// Prints the rows of a matrix below each other, after its name.
 fn rows(head: &str, rows: &str) -> String {
     let indent = format!("\n{}", " ".repeat(head.len()));
     format!("{head}{}\n", rows.lines().collect::<Vec<_>>().join(&indent))
 }
 
-/// The rows of each matrix and column: entries by name, or in terms of definitions.
+/// The rows of each matrix and column, with entries by name or in terms of definitions.
 fn arrays(equations: &Equations) -> Map<String, Value> {
     equations.arrays().map(|array| (array.name.clone(), json!(array.names()))).collect()
 }
 
-/// `{"robot": …, "definitions": {…}, "quantities": {"Q1": …, …}}`; the definitions, each before it is
-/// used by another, are left out where there are none. A joint torque that a definition uses is in both.
+/// Prints `{"robot": …, "definitions": {…}, "quantities": {"Q1": …, …}}`. Each definition comes before those that
+/// use it; `definitions` is omitted if there are none. A joint torque that a definition uses is in both.
 fn json(robot: &str, equations: &Equations, arrays: Option<Map<String, Value>>) -> String {
     let all = |list: &mut dyn Iterator<Item = &Equation>| -> Map<String, Value> {
         list.map(|equation| (equation.name.clone(), Value::String(equation.text.clone()))).collect()

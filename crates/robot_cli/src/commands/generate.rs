@@ -1,4 +1,4 @@
-//! `generate`: the module of a robot, in a file.
+//! `generate`: the module of a robot as a file.
 
 use clap::Args;
 use robot_build::languages::{self, Contents, Language, SourceFile};
@@ -33,7 +33,7 @@ pub(crate) struct Arguments {
     output: OutputArguments,
 }
 
-/// A path of the runtime.
+/// Parses a path of the runtime.
 fn runtime(text: &str) -> Result<String, String> {
     check_runtime_path(text).map(|()| text.to_owned()).map_err(|error| error.to_string())
 }
@@ -51,7 +51,7 @@ impl Arguments {
     }
 }
 
-/// The text of the module, if the language has it in one file.
+/// Prints the module, if it is a single file in the language.
 fn text(source: &Source, options: &Options, language: Language) -> Result<String, Failure> {
     if language == Language::Rust {
         return Ok(generate(source, options)?.code);

@@ -1,4 +1,4 @@
-//! `import`: a URDF file as a robot file.
+//! `import`: conversion of a URDF file to a robot file.
 
 use std::path::PathBuf;
 

@@ -10,7 +10,7 @@ use crate::Terminal;
 use crate::delivery::{ForceArgument, write};
 use crate::failure::Failure;
 
-/// The file, for an arm of two links.
+/// The text of the file, which describes an arm with two links.
 const ROBOT: &str = include_str!("../../demo/first.toml");
 
 /// The name of the robot in it.
@@ -32,8 +32,8 @@ pub(crate) struct Arguments {
     force: ForceArgument,
 }
 
-/// A name that can be a robot's and a file's: the file is read with it, so that no file is written that no command
-/// reads.
+/// Parses a name that is valid for a robot and for a file. The file is read with it as a check, so that commands can
+/// read the file that is written.
 fn name(text: &str) -> Result<String, String> {
     let name = text.strip_suffix(".toml").unwrap_or(text);
     let is_fine = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -54,7 +54,7 @@ fn name(text: &str) -> Result<String, String> {
     }
 }
 
-/// The file of a robot of that name.
+/// The text of the file for a robot with this name.
 fn named(name: &str) -> String {
     ROBOT.replace(NAME, name)
 }

@@ -31,7 +31,7 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        // Without the command `help`, which has no options to describe.
+        // The command `help` is left out, because it has no options to describe.
         let mut command = Cli::command().disable_help_subcommand(true);
         command.build();
         let own = page(&command)?;

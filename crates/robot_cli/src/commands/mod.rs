@@ -1,4 +1,4 @@
-//! The commands, a file each.
+//! The commands, each in a file of its own.
 
 mod base;
 mod check;
@@ -83,7 +83,7 @@ pub(crate) enum Command {
     Demo(demo::Arguments),
 }
 
-/// The demonstration, for those who have no robot file yet.
+/// The default command is the demonstration, for users who do not have a robot file yet.
 impl Default for Command {
     fn default() -> Command {
         Command::Demo(demo::Arguments {})
@@ -91,7 +91,7 @@ impl Default for Command {
 }
 
 impl Command {
-    /// Does what was asked for.
+    /// Runs the command.
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         match self {
             Command::Init(arguments) => arguments.run(terminal),

@@ -1,4 +1,4 @@
-//! `prove`: what the compiler makes of a robot's code.
+//! `prove`: properties of a robot's compiled code.
 
 use std::path::PathBuf;
 
@@ -102,7 +102,7 @@ impl From<ProfileName> for Profile {
     }
 }
 
-/// A named figure.
+/// A named value of the measurements.
 type Column = (&'static str, fn(&Measurements) -> u64);
 
 const COLUMNS: [Column; 8] = [
@@ -116,7 +116,7 @@ const COLUMNS: [Column; 8] = [
     ("bytes", |measurements| measurements.bytes as u64),
 ];
 
-/// A table of a profile.
+/// Prints the table of a profile.
 fn text_of(module: &Module) -> String {
     let mut title = vec![format!("{}: function", module.profile.name())];
     title.extend(COLUMNS.iter().map(|(name, _)| (*name).to_owned()));

@@ -48,7 +48,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output(terminal)?;
         let options = self.robot.options(terminal)?;
-        // Read first, so that warnings are shown and no compiler starts for a robot that is refused.
+        // The robot is read first, so that warnings are shown and the compiler is not started for an invalid robot.
         let robot = self.robot.read(terminal)?.robot;
         text::lacking(&robot, &options, terminal)?;
         self.robot.snapped(&robot, terminal)?;
@@ -61,7 +61,7 @@ impl Arguments {
         }
     }
 
-    /// Where the page goes. A terminal does not show pages.
+    /// The destination of the page, which must not be a terminal.
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
@@ -99,7 +99,7 @@ impl Arguments {
     }
 }
 
-/// Shows a file with the program that the system opens such files with.
+/// Opens a file with the system's program for such files.
 fn show(path: &Path) -> Result<(), Failure> {
     open::that_detached(path).map_err(|_| {
         let file = shown(path);
@@ -108,14 +108,14 @@ fn show(path: &Path) -> Result<(), Failure> {
     })
 }
 
-/// How far the programs are off the numeric solver.
+/// Compares the programs with the numeric solver; returns the largest deviations.
 pub(crate) fn judge(programs: &Programs) -> Result<Accuracy, String> {
     let worst = robot_check::accuracy::worst(programs)?;
     let worst = worst.into_iter().map(|(function, error)| (function.to_owned(), error)).collect();
     Ok(Accuracy { states: robot_check::accuracy::states(), worst })
 }
 
-/// What the compiler makes of the usual functions.
+/// Compiles the usual functions and measures their code.
 fn compiled(source: &Source, options: &Options) -> Result<Compiled, Failure> {
     let compiler = Compiler::default();
     let read = || -> Result<Compiled, robot_evidence::Error> {

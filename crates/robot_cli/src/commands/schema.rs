@@ -30,7 +30,7 @@ impl Arguments {
     }
 }
 
-/// Draft 7, which the editors' TOML language servers know.
+/// Makes the schema in draft 7, which TOML language servers of editors support.
 fn document() -> Value {
     let mut schema = Map::new();
     schema.insert("$schema".to_owned(), json!("http://json-schema.org/draft-07/schema#"));
@@ -65,15 +65,15 @@ fn property(key: &Key) -> Value {
     Value::Object(schema)
 }
 
-/// A function of one frame or moving link, with the name of either behind.
+/// The pattern of a function of one frame or moving link, whose name ends with that of the frame or link.
 const OF_FRAME: &str = "^jacobian_[A-Za-z0-9_.-]+$";
 
-/// The names of functions, and a word for all of them.
+/// The names of functions, and optionally a word for all of them.
 fn functions(all: Option<&'static str>) -> Vec<&'static str> {
     FunctionKind::ALL.iter().map(|kind| kind.name()).chain(all).collect()
 }
 
-/// A list of some of those functions, each once, and of functions of frames.
+/// The schema of a list of functions, each at most once, including functions of frames.
 fn list(words: &[&str]) -> Value {
     let items = json!({ "anyOf": [{ "enum": words }, { "type": "string", "pattern": OF_FRAME }] });
     json!({ "type": "array", "items": items, "minItems": 1, "uniqueItems": true })

@@ -1,4 +1,4 @@
-//! `show`: what a robot file says.
+//! `show`: the contents of a robot file.
 
 use clap::Args;
 use robot_build::{FrameRef, FunctionKind, Options, functions, snapping, unsolvable};
@@ -81,8 +81,8 @@ fn joints(robot: &Robot) -> Vec<Vec<String>> {
     without_empty(rows)
 }
 
-/// Mass, center of mass and inertia tensor of each link at the nominal parameters; what has no value is
-/// `?`. Columns of zeros are left out.
+/// The mass, center of mass and inertia tensor of each link at the nominal parameters. Entries without a value are
+/// `?`; columns of zeros are left out.
 fn masses(robot: &Robot, snap: Option<f64>) -> Vec<Vec<String>> {
     let graph = Graph::new();
     let options = MechanismOptions::EXACT.with_snap(snap, robot);
@@ -102,12 +102,12 @@ fn masses(robot: &Robot, snap: Option<f64>) -> Vec<Vec<String>> {
     without_zeros(rows)
 }
 
-/// The rows without the columns that are empty below the title.
+/// Removes columns that are empty below the title.
 fn without_empty(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     without(rows, |column, cell| column > 0 && cell.is_empty())
 }
 
-/// The rows without the columns behind the mass that are 0 below the title.
+/// Removes columns after the mass that are 0 below the title.
 fn without_zeros(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
     without(rows, |column, cell| column > 1 && cell.parse() == Ok(0.0))
 }
@@ -137,10 +137,10 @@ fn parameters(robot: &Robot) -> Vec<Vec<String>> {
     without_empty(rows)
 }
 
-/// Why there is no forward dynamics.
+/// The reason why forward dynamics does not exist.
 const SINGULAR: &str = "the mass matrix is singular in every configuration";
 
-/// The functions that the robot has, then those that it lacks, each with the reason.
+/// Prints the functions that the robot has, then those that it does not have, each with the reason.
 fn functions(robot: &Robot) -> String {
     let lacking = unsolvable(robot, &Options::default()).map_or(vec![], |found| found.functions);
     let why = |kind: &FunctionKind| {

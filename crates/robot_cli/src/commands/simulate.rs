@@ -24,7 +24,7 @@ use crate::robot::RobotArgument;
 use crate::settings::Settings;
 use crate::values::of_joints;
 
-/// The lines of the output that are in memory as text.
+/// The number of lines of the output that are in memory as text.
 const PART: usize = 1024;
 
 #[derive(Args)]
@@ -157,7 +157,7 @@ impl Arguments {
     }
 }
 
-/// Says once where accelerations have few digits.
+/// Warns once, at the first state at which accelerations have few correct digits.
 fn warn(motion: &Motion, pivots: &Pivots, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     for (t, state) in motion.t.iter().zip(&motion.states) {
         if let Ok(Some(pivot)) = pivots.smallest(&state.q) {
@@ -168,7 +168,7 @@ fn warn(motion: &Motion, pivots: &Pivots, terminal: &mut Terminal<'_>) -> Result
     Ok(())
 }
 
-/// What a motion came to, in a line.
+/// Summarizes a motion in one line.
 fn summary(motion: &Motion, energies: &Energies) -> String {
     let ends = |values: &[f64]| {
         let (first, last) = (values.first().copied(), values.last().copied());
@@ -176,7 +176,7 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
     };
     let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
     let drift = drift(&energies.total);
-    // The change tells what further digits would.
+    // Further digits are not needed, because the change is also printed.
     let rounded = |energy: f64| format!("{energy:.5e}").parse().unwrap_or(energy);
     let [end, before, after] = [end, rounded(before), rounded(after)].map(number);
     let drift = match drift {

@@ -118,7 +118,7 @@ impl Arguments {
         self.format.unwrap_or(usual)
     }
 
-    /// Counts of functions under titles: a table of all, or an object of lists.
+    /// Prints the counts of functions as one table, or as an object of lists.
     fn show(&self, steps: &[Step], terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         match self.format(terminal) {
             Format::Json => {
@@ -164,7 +164,7 @@ impl Step {
     }
 }
 
-/// What is left of each function after each pass.
+/// The operations of each function after each pass.
 fn passes(module: &Module) -> Vec<Step> {
     let steps = module.functions.iter().flat_map(|function| {
         function.passes.iter().map(|pass| Step {
@@ -176,7 +176,7 @@ fn passes(module: &Module) -> Vec<Step> {
     steps.collect()
 }
 
-/// What each function costs without each option, function after function.
+/// The operations of each function without each option, function by function.
 fn ablated(found: &[Ablation]) -> Vec<Step> {
     let functions = found.first().map_or(&[][..], |all| all.counts.as_slice());
     let of = |index: usize| {
@@ -192,7 +192,7 @@ fn ablated(found: &[Ablation]) -> Vec<Step> {
     (0..functions.len()).flat_map(of).collect()
 }
 
-/// A row for each function, and one for what the constructor does of it, if anything.
+/// A row for each function, and one for its part of the constructor, if there is one.
 fn rows(counts: &[(&str, FunctionCounts, CodeSize)]) -> Vec<Vec<String>> {
     let mut title = vec!["function".to_owned()];
     title.extend(counts::COLUMNS.iter().map(|(name, _)| (*name).to_owned()));

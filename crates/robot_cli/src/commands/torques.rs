@@ -124,10 +124,10 @@ impl Arguments {
     }
 }
 
-/// The samples of the trajectory that are in memory with their torques, but for a plot.
+/// The number of samples of the trajectory that are in memory with their torques, unless there is a plot.
 const PART: usize = 1024;
 
-/// A trajectory part by part: known, with the samples that were taken, or read.
+/// A trajectory in parts: completely known, with the number of samples already used, or read from a file.
 enum Parts<'r, 't> {
     Known(Trajectory, usize),
     Read(Box<Samples<'r, files::Reader<'t>>>),

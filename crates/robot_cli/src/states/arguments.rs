@@ -34,13 +34,13 @@ pub(crate) struct StateArguments {
 }
 
 impl StateArguments {
-    /// Whether any variable is.
+    /// Whether any variable is given.
     pub(crate) fn is_given(&self) -> bool {
         let given = [&self.q, &self.qd, &self.qdd, &self.tau];
         given.iter().any(|one| one.is_some()) || !self.wrench.is_empty()
     }
 
-    /// The state, and all that is wrong with it.
+    /// Returns the state and all its errors.
     pub(crate) fn state<'l>(&self, robot: &Robot, layout: &'l Layout) -> (State<'l>, Vec<String>) {
         let (mut state, mut wrong) = (State::new(layout), vec![]);
         let given = [&self.q, &self.qd, &self.qdd, &self.tau];
@@ -49,7 +49,7 @@ impl StateArguments {
                 continue;
             };
             let option = format!("--{}", variable.name());
-            // Given, even if wrong: it does not lack.
+            // A wrong array counts as given, so that it is not also reported as missing.
             let array = state.give(index);
             match of_joints(&option, text, variable, robot) {
                 Ok(values) => {
@@ -73,7 +73,7 @@ impl StateArguments {
     }
 }
 
-/// `0,0,-10,0,0,0`, `left=0,0,-10,0,0,0`
+/// Parses a wrench such as `0,0,-10,0,0,0` or `left=0,0,-10,0,0,0`.
 fn wrench(text: &str, layout: &Layout) -> Result<(usize, Vec<f64>), Vec<String>> {
     let (tip, entries) = text.split_once('=').map_or(("", text), |(tip, rest)| (tip.trim(), rest));
     let name = if tip.is_empty() { WRENCH.to_owned() } else { format!("{WRENCH}_{tip}") };

@@ -1,4 +1,4 @@
-//! States from CSV: a header such as `q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz`, then a line each.
+//! States from CSV: a header such as `q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz`, then a line for each state.
 
 use std::io::BufRead;
 
@@ -70,10 +70,10 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
     errors
 }
 
-/// What the columns of a file mean.
+/// The meaning of the columns of a file.
 struct Columns {
     names: Vec<String>,
-    /// The arrays that are given, by their number in the layout, with the columns of their entries.
+    /// The given arrays, by their indices in the layout, with the columns of their entries.
     arrays: Vec<(usize, Vec<usize>)>,
 }
 
@@ -87,15 +87,15 @@ impl Columns {
         Columns { names: header.iter().map(|name| (*name).to_owned()).collect(), arrays }
     }
 
-    /// Gives the state its arrays.
+    /// Sets the arrays of a state.
     fn give(&self, numbers: &[f64], state: &mut State<'_>) {
         for (index, columns) in &self.arrays {
             state.give(*index).extend(columns.iter().map(|column| numbers[*column]));
         }
     }
 
-    /// Gives the state what cells are numbers, and says of the others that they are not; whether there are as many
-    /// as columns.
+    /// Adds the cells that are numbers to the state, and reports the others as errors; returns whether the number of
+    /// cells is that of the columns.
     fn give_cells<'l>(
         &self,
         cells: &[&str],

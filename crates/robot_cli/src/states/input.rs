@@ -1,4 +1,4 @@
-//! Where states are read from: a file, or a stream that is read once.
+//! The source of states: a file, or a stream that can be read only once.
 
 use std::cell::Cell;
 use std::io::{BufRead, BufReader, Error, Read, Result, Seek, SeekFrom};
@@ -10,30 +10,30 @@ use super::{Layout, Sink, State, csv, json};
 use crate::failure::Failure;
 use crate::files;
 
-/// The bytes that are read at a time.
+/// The number of bytes that are read at a time.
 const CHUNK: usize = 1 << 16;
-/// More of a file of states is not looked at to see what it is, and no state is longer.
+/// The most bytes of a file that are examined to find its format, and the most bytes of a state.
 const MAX_BYTES: u64 = 1 << 20;
-/// A stream that is read twice is kept in memory up to so many bytes, then on the disk.
+/// The number of bytes up to which a stream that is read twice is kept in memory; longer ones are kept on the disk.
 const KEPT: usize = 1 << 20;
 const MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// States that can be read, and once more if need be.
+/// States that can be read, and read again if necessary.
 pub(crate) struct Input<'t> {
     name: String,
     format: Format,
-    /// The bytes up to the first line that is not blank, or many of it.
+    /// The bytes up to the first line that is not blank, with at least a long part of this line.
     beginning: Vec<u8>,
     rest: Rest<'t>,
 }
 
 enum Rest<'t> {
     Stream(BufReader<Box<dyn Read + 't>>),
-    /// With the place of the rest.
+    /// A source that can be read again, with the position of the rest.
     Again(BufReader<Box<dyn Again>>, u64),
 }
 
-/// What can be read again.
+/// A source that can be read again.
 trait Again: Read + Seek {}
 
 impl<T: Read + Seek> Again for T {}
@@ -42,7 +42,7 @@ impl<T: Read + Seek> Again for T {}
 enum Format {
     Csv,
     JsonArray,
-    /// JSON, but not states.
+    /// A JSON object, which is not an array of states.
     JsonObject,
 }
 
@@ -69,7 +69,7 @@ impl<'t> Input<'t> {
         &self.name
     }
 
-    /// Whether a state has a wrench that is not 0; where this takes reading the states, they can be read again.
+    /// Whether a state has a wrench that is not 0. If the states have to be read for this, they can be read again.
     pub(crate) fn is_loaded(&mut self, layout: &Layout) -> std::result::Result<bool, Failure> {
         if !self.may_be_loaded(layout).map_err(|error| files::cannot_read(&self.name, &error))? {
             return Ok(false);
@@ -79,7 +79,7 @@ impl<'t> Input<'t> {
         Ok(search.0)
     }
 
-    /// Whether the columns or the keys may be those of a wrench.
+    /// Whether the columns or the keys could be those of a wrench.
     fn may_be_loaded(&mut self, layout: &Layout) -> Result<bool> {
         if self.format == Format::Csv {
             let header = String::from_utf8_lossy(&self.beginning);
@@ -90,7 +90,7 @@ impl<'t> Input<'t> {
             return Ok(true);
         }
         self.rest.keep()?;
-        // No other key has a `w`, unless it is written as an escape.
+        // No other key contains a `w`, and in an escaped key there is a backslash.
         let hints = |bytes: &[u8]| bytes.contains(&b'w') || bytes.contains(&b'\\');
         let mut found = hints(&self.beginning);
         self.rest.rewind()?;
@@ -107,12 +107,12 @@ impl<'t> Input<'t> {
         Ok(found)
     }
 
-    /// Reads the states, a JSON array of objects or CSV with a header, and says everything that is wrong, a message
-    /// each. One state is in memory at a time.
+    /// Reads the states, a JSON array of objects or CSV with a header, and passes them and a message for each error to
+    /// `sink`. One state is in memory at a time.
     ///
     /// # Errors
     ///
-    /// What cannot be read, or is not text.
+    /// An input that cannot be read or is not text.
     pub(crate) fn read<'l>(
         &mut self,
         layout: &'l Layout,
@@ -158,7 +158,7 @@ impl<'t> Rest<'t> {
         }
     }
 
-    /// Takes the bytes up to the first line that is not blank.
+    /// Reads the bytes up to the first line that is not blank.
     fn beginning(&mut self, beginning: &mut Vec<u8>) -> Result<()> {
         let mut left = MAX_BYTES;
         loop {
@@ -175,7 +175,7 @@ impl<'t> Rest<'t> {
         Ok(())
     }
 
-    /// Makes a stream something that can be read again.
+    /// Stores a stream, so that it can be read again.
     fn keep(&mut self) -> Result<()> {
         if let Rest::Stream(reader) = self {
             let mut kept = tempfile::SpooledTempFile::new(KEPT);
@@ -185,7 +185,7 @@ impl<'t> Rest<'t> {
         Ok(())
     }
 
-    /// Goes to the start of what can be read again.
+    /// Returns to the start of a source that can be read again.
     fn rewind(&mut self) -> Result<()> {
         match self {
             Rest::Stream(_) => Ok(()),
@@ -194,7 +194,7 @@ impl<'t> Rest<'t> {
     }
 }
 
-/// Whether any state has a wrench.
+/// A sink that finds out whether any state has a wrench.
 struct Search(bool);
 
 impl<'l> Sink<'l> for Search {
@@ -208,7 +208,7 @@ impl<'l> Sink<'l> for Search {
     fn none(&mut self, _: String) {}
 }
 
-/// The bytes that were read for one element of an array: more than a mebibyte have no end.
+/// The number of bytes that were read for one element of an array, which must not exceed a mebibyte.
 #[derive(Default)]
 pub(super) struct Budget {
     element: Cell<usize>,
@@ -216,20 +216,20 @@ pub(super) struct Budget {
 }
 
 impl Budget {
-    /// Begins an element of that number.
+    /// Starts the element with this number.
     pub(super) fn renew(&self, element: usize) {
         self.element.set(element);
         self.read.set(0);
     }
 }
 
-/// Bytes that are UTF-8.
+/// A reader that checks that bytes are UTF-8.
 struct Text<'i, R> {
     name: &'i str,
     reader: R,
-    /// The place of the unchecked bytes in the file.
+    /// The offset of the unchecked bytes in the file.
     offset: u64,
-    /// The beginning of a character that has not been read to its end.
+    /// The start of a character whose end has not been read yet.
     unchecked: Vec<u8>,
     budget: &'i Budget,
 }

@@ -1,4 +1,4 @@
-//! States from JSON: `[{"q": […], "qd": […], "qdd": […], "wrench": […]}, …]`, an element at a time.
+//! States from JSON, read one element at a time: `[{"q": […], "qd": […], "qdd": […], "wrench": […]}, …]`.
 
 use std::fmt;
 use std::io::Read;
@@ -14,7 +14,7 @@ use super::{Layout, Place, Sink, State};
 use crate::failure::Failure;
 use crate::text;
 
-/// Reads the states; `is_array` says whether the text begins as an array does.
+/// Reads the states; `is_array` says whether the text starts as an array.
 pub(super) fn read<'l>(
     text: impl Read,
     is_array: bool,
@@ -41,7 +41,7 @@ pub(super) fn read<'l>(
     Ok(())
 }
 
-/// The elements of an array, which go to the sink as they are read.
+/// Reads the elements of an array and passes them to the sink one by one.
 struct Elements<'l, 's> {
     layout: &'l Layout,
     sink: &'s mut dyn Sink<'l>,
@@ -86,7 +86,7 @@ impl<'de> Visitor<'de> for &mut Elements<'_, '_> {
     }
 }
 
-/// Gives the state the arrays of an object.
+/// Sets the arrays of a state from an object.
 fn state<'l>(
     object: &[(String, Node)],
     layout: &'l Layout,
@@ -108,7 +108,7 @@ fn state<'l>(
     }
 }
 
-/// Puts the numbers into `entries`; gives what is wrong with them.
+/// Stores the numbers in `entries`; returns their errors.
 fn entries(value: &Node, expected: usize, entries: &mut Vec<f64>) -> Vec<String> {
     let Node::Array(elements) = value else {
         return vec![format!("is {}, not an array of {expected} numbers", value.kind())];

@@ -24,36 +24,36 @@ pub(crate) struct Layout {
 /// An array of a state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Array {
-    /// The key in JSON, the name of the functions' input.
+    /// The key in JSON, which is the name of the input of functions.
     name: String,
-    /// The columns in CSV.
+    /// The names of the columns in CSV.
     columns: Vec<String>,
 }
 
-/// A state: the arrays that are given, right or wrong.
+/// A state: the given arrays, valid or not.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct State<'l> {
     layout: &'l Layout,
-    /// Its place, for messages.
+    /// The place of the state, for messages.
     pub(crate) place: Place,
-    /// For each array of the layout its entries, if it is given.
+    /// For each array of the layout, its entries if it is given.
     arrays: Vec<Entries>,
 }
 
-/// The entries of an array; what is not given keeps its memory for the next state.
+/// The entries of an array. An array that is not given keeps its memory for the next state.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Entries {
     are_given: bool,
     entries: Vec<f64>,
 }
 
-/// The place of a state.
+/// The place of a state in the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     CommandLine,
-    /// The line of a file, from 1 on.
+    /// The line of a file, from 1.
     Line(usize),
-    /// The element of an array, from 1 on.
+    /// The element of an array, from 1.
     Element(usize),
 }
 
@@ -67,32 +67,33 @@ impl fmt::Display for Place {
     }
 }
 
-/// Who takes states as they are read, and hears what is wrong with them.
+/// A receiver of states while they are read, and of messages about their errors.
 pub(crate) trait Sink<'l> {
-    /// Takes a state, right or wrong, and may leave another one, whose memory is used again; says whether to go on.
+    /// Receives a state, valid or not, and can exchange it for another one, whose memory is then reused. Returns
+    /// whether to continue.
     fn state(&mut self, state: &mut State<'l>) -> ControlFlow<()>;
 
-    /// Hears what is wrong with a state, before it has it, or with the whole.
+    /// Receives a message about an error in the whole input, or in a state before that state is received.
     fn wrong(&mut self, message: String);
 
-    /// Hears why there are no states at all; what it has heard and taken before does not count.
+    /// Receives the reason why there are no states at all; all earlier states and messages become invalid.
     fn none(&mut self, message: String);
 }
 
 impl<'l> State<'l> {
-    /// A state of which nothing is given.
+    /// A state without any given array.
     pub(crate) fn new(layout: &'l Layout) -> State<'l> {
         let arrays = vec![Entries::default(); layout.arrays.len()];
         State { layout, place: Place::CommandLine, arrays }
     }
 
-    /// Makes it another state, of which nothing is given.
+    /// Turns it into a state at another place, without any given array.
     fn clear(&mut self, place: Place) {
         self.place = place;
         self.arrays.iter_mut().for_each(|array| array.are_given = false);
     }
 
-    /// Gives an array, by its number in the layout; it is empty.
+    /// Marks an array as given, by its index in the layout, and returns it empty.
     fn give(&mut self, index: usize) -> &mut Vec<f64> {
         let array = &mut self.arrays[index];
         array.are_given = true;
@@ -100,18 +101,18 @@ impl<'l> State<'l> {
         &mut array.entries
     }
 
-    /// The array of that name if it is given.
+    /// The array with this name, if it is given.
     pub(crate) fn array(&self, name: &str) -> Option<&[f64]> {
         self.layout.position(name).and_then(|index| self.at(index))
     }
 
-    /// The array of that number in the layout if it is given.
+    /// The array with this index in the layout, if it is given.
     pub(crate) fn at(&self, index: usize) -> Option<&[f64]> {
         let array = self.arrays.get(index).filter(|array| array.are_given);
         array.map(|array| array.entries.as_slice())
     }
 
-    /// Whether a wrench is given that is not 0 in every component.
+    /// Whether a wrench with a component other than 0 is given.
     pub(crate) fn is_loaded(&self) -> bool {
         let mut arrays = self.layout.arrays.iter().zip(&self.arrays);
         arrays.any(|(array, Entries { are_given, entries })| {
@@ -137,13 +138,13 @@ impl Layout {
             .into();
         arrays.extend(robot.tips().map(|(tip, _)| wrench(&robot.wrench_suffix(tip))));
         if robot.tips().next().is_none() {
-            // A robot without a tip takes a wrench of 0, so that one file of states suits all.
+            // A robot without a tip accepts a wrench of 0, so that one file of states works for all robots.
             arrays.push(wrench(""));
         }
         Layout { arrays }
     }
 
-    /// The number of the array of that name.
+    /// The index of the array with this name.
     pub(crate) fn position(&self, name: &str) -> Option<usize> {
         self.arrays.iter().position(|array| array.name == name)
     }

@@ -1,10 +1,10 @@
-//! JSON as it is written: objects keep a key that is given twice, which a map would lose.
+//! JSON values as written: objects keep keys that occur twice, which a map would lose.
 
 use std::fmt;
 
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 
-/// A value of JSON.
+/// A JSON value.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Node {
     Null,
@@ -17,7 +17,7 @@ pub(super) enum Node {
 }
 
 impl Node {
-    /// The value in words.
+    /// The kind of the value in words.
     pub(super) fn kind(&self) -> &'static str {
         match self {
             Node::Null => "null",

@@ -30,7 +30,7 @@ impl Sink<'static> for Collected {
     }
 }
 
-/// What standard input gives, and whether a wrench was found in it before.
+/// Reads states from standard input; also returns whether a wrench was found in it before, if it was searched.
 fn read(mut text: &[u8], searched: bool) -> (Collected, bool) {
     let (layout, mut collected) = (layout(), Collected::default());
     let mut input = Input::open(Path::new("-"), &mut text).unwrap();

@@ -1,8 +1,8 @@
-//! What is equal to something printed before has no equation of its own.
+//! A quantity that equals one printed before has no equation of its own.
 
 use crate::{complaint, output, robot};
 
-/// The equations that a form prints, by lines of text that are joined.
+/// The equations that a form prints, as pairs of the left and the right side.
 fn equations(name: &str, form: &str) -> Vec<(String, String)> {
     let shown = output(&["equations", &robot(name), "--form", form, "--format", "json"], "");
     let lines = shown.lines().filter_map(|line| line.trim().split_once(": "));
@@ -10,7 +10,7 @@ fn equations(name: &str, form: &str) -> Vec<(String, String)> {
     lines.map(|(left, right)| (bare(left), bare(right))).collect()
 }
 
-/// The equations of defined symbols that are another defined symbol.
+/// The equations whose right side is only another defined symbol.
 fn renamed(equations: &[(String, String)]) -> Vec<&(String, String)> {
     let is_defined = |name: &str| equations.iter().any(|(left, _)| left == name);
     let all = equations.iter().filter(|(left, _)| !left.starts_with('Q'));
@@ -39,7 +39,7 @@ fn equal_coefficients_have_one_equation() {
     assert!(apart.contains("\"b_2_3_4\""), "{apart}");
 }
 
-/// Tensors of links are given by numbers, not by names of numbers.
+/// Inertia tensors of links are given by numbers, not by names of numbers.
 #[test]
 fn parameters_of_links_are_not_renamed() {
     let found = equations("ur5", "recursive");

@@ -1,4 +1,4 @@
-//! `base`: the formulas of the base parameters read back and have the values that they print.
+//! `base`: the formulas of base parameters can be read back and have the printed values.
 
 use robot_symbolic::Formula;
 use serde_json::Value;
@@ -11,11 +11,11 @@ fn base(name: &str, frames: &str) -> Value {
     serde_json::from_str(&output(&arguments, "")).unwrap()
 }
 
-/// The formula of a base parameter says what its coefficients say, and both read back.
+/// Checks that the formula of a base parameter agrees with its coefficients, and that both can be read back.
 fn hold(entry: &Value) {
     let parse = |text: &Value| Formula::parse(text.as_str().unwrap()).unwrap();
     parse(&entry["value"]);
-    // A number of its own for each name: the coefficients are the formula's.
+    // Each name has a different value, so that the coefficients must be those of the formula.
     let value = |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
     let formula = parse(&entry["formula"]).evaluate(value);
     let coefficients = entry["figures"].as_object().unwrap().iter();
@@ -88,7 +88,8 @@ fn latex_is_an_environment_of_amsmath() {
     assert!(narrow.contains(r"    &\quad "), "{narrow}");
 }
 
-/// A mass M_3 of the file that is a base parameter is not printed as the equation M_3 = M_3, and text tells both apart.
+/// A mass M_3 of the file that is a base parameter is not printed as the equation M_3 = M_3, and text distinguishes the
+/// two.
 #[test]
 fn a_parameter_of_the_file_is_a_name_alone_where_it_looks_like_its_own() {
     let shown = |format: &str| output(&["base", &robot("trttr1"), "--format", format], "");

@@ -1,9 +1,9 @@
-//! The book: its commands do what it shows, its links lead somewhere, its list of pages is complete.
+//! The book: its commands print the shown output, the targets of its links exist, its list of pages is complete.
 //!
-//! A block ```` ```sh run ```` is run, in the folder that the blocks of a page share; one that is marked
-//! `output` or `errors` after it holds what the last run printed there, in which a line `…` stands for any
-//! lines. `code=1` is another exit code than 0, `file=NAME` writes the block into a file,
-//! `needs=TRIPLE` runs it where that target is installed. With `UPDATE_SNAPSHOTS` set, blocks without
+//! A block ```` ```sh run ```` is run in the folder that the blocks of a page share. A block after it that is marked
+//! `output` or `errors` contains the output of the last run on this stream, in which a line `…` stands for any
+//! lines. `code=1` states an exit code other than 0, `file=NAME` writes the block into a file, and with
+//! `needs=TRIPLE` it is run only if this target is installed. If `UPDATE_SNAPSHOTS` is set, blocks without
 //! `…` are rewritten.
 
 use std::path::{Path, PathBuf};
@@ -16,10 +16,10 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// The folders with the pages of the book: those of diagnostics lie in the package that prints them.
+/// The folders with the pages of the book. The pages of diagnostics are in the package that prints them.
 const FOLDERS: [&str; 2] = ["docs", "crates/robot_model/diagnostics"];
 
-/// All pages, and what leads to them.
+/// All pages with their paths.
 fn pages() -> Vec<(String, String)> {
     let root = root();
     let mut paths =
@@ -32,7 +32,7 @@ fn pages() -> Vec<(String, String)> {
     named.collect()
 }
 
-/// Whether the text is as shown, `…` standing for any lines.
+/// Whether a text is as shown, where `…` stands for any lines.
 fn matches(shown: &str, text: &str) -> bool {
     let Some((head, rest)) = shown.split_once("…\n") else { return shown == text };
     let Some(mut left) = text.strip_prefix(head) else { return false };
@@ -60,7 +60,7 @@ fn is_installed(target: &str) -> bool {
     Path::new(String::from_utf8(output.stdout).unwrap().trim()).is_dir()
 }
 
-/// Runs the blocks of a page; what it shows and what was printed, where these differ.
+/// Runs the blocks of a page; returns the blocks that differ from the output, with the output.
 fn run(name: &str, page: &str) -> Vec<(Block, String)> {
     let shell = Shell::new();
     let (mut last, mut stale): (Option<Done>, _) = (None, vec![]);
@@ -123,7 +123,7 @@ fn the_commands_of_the_book_do_what_it_shows() {
     assert!(count >= 5, "{count}");
 }
 
-/// Commands stand in blocks that are run.
+/// All commands are in blocks that are run.
 #[test]
 fn no_command_stands_in_an_indented_block() {
     for (name, page) in pages() {
@@ -133,7 +133,7 @@ fn no_command_stands_in_an_indented_block() {
     }
 }
 
-/// What a heading is called in a link.
+/// The name of a heading in a link.
 fn anchor(heading: &str) -> String {
     let text: String = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = text.chars().filter(|c| c.is_alphanumeric() || [' ', '-', '_'].contains(c));
@@ -194,7 +194,7 @@ fn every_page_is_in_the_summary() {
     }
 }
 
-/// A path without `..`; one that leads nowhere as it is.
+/// A path without `..`; a path that does not exist is unchanged.
 fn found_at(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_owned())
 }

@@ -12,7 +12,7 @@ const LINK: &str = "[[link]]\nname = \"1\"\njoint = { type = \"revolute\", axis 
 const TENSOR: &str = "inertia = { xx = 0.01, yy = 0.02, zz = 0.02 }\n";
 const GRAMS: &str = "inertia = { xx = 10000, yy = 20000, zz = 20000 }\n";
 
-/// A clean file, one with a warning, one with an error, and one that is not there.
+/// A clean file, one with a warning, one with an error, and one that does not exist.
 fn files(test: &str) -> [String; 4] {
     let folder = folder(test);
     let file = |name: &str, text: Option<String>| {
@@ -40,7 +40,7 @@ fn exit_codes_tell_errors_and_denied_warnings() {
     output(&["check", &slip, "--deny", "warnings", "--allow", "R0605"], "");
     let found = complaint(1, &["check", &wrong], "");
     assert!(found.contains("error[R0101]") && found.contains("wrong.toml:10:1\n"), "{found}");
-    // What is wrong cannot be allowed.
+    // Errors cannot be allowed.
     assert_eq!(complaint(1, &["check", &wrong, "--allow", "R0101"], ""), found);
     assert!(complaint(1, &["check", &none], "").contains("there is no such file"));
     assert!(complaint(2, &["check", &clean, "--allow", "R9999"], "").contains("no code `R9999`"));

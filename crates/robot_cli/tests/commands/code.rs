@@ -17,7 +17,7 @@ fn the_module_is_that_of_the_builder() {
     assert_eq!((outcome.code, outcome.output.as_str()), (0, ""));
     assert!(outcome.errors.starts_with("wrote "), "{}", outcome.errors);
     assert_eq!(fs::read_to_string(&path).unwrap(), generated.code);
-    // Nothing changes: nothing is written.
+    // If nothing changes, nothing is written.
     assert_eq!(output(&["generate", &file, "-o", path.to_str().unwrap()], ""), "");
 }
 
@@ -94,7 +94,7 @@ fn files_of_a_crate_out_of_date_are_all_named() {
     assert!(shown.contains("README.md is missing"), "{shown}");
     assert!(shown.contains("root.rs:1 is out of date"), "{shown}");
     assert_eq!(shown.lines().count(), 3);
-    // Parameters without values, other options: another crate.
+    // With other options it would be another crate.
     let other = [&check[..], &["--function", "link_wrenches"]].concat();
     assert!(complaint(1, &other, "").contains("model.rs"));
 }

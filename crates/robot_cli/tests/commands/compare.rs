@@ -1,5 +1,5 @@
-//! `compare`: what `docs/trttr1.md` and `docs/comparing.md` show is what the command prints, and what
-//! `equations` prints is right in every notation.
+//! `compare`: `docs/trttr1.md` and `docs/comparing.md` show the output of the command, and the equations that
+//! `equations` prints are right in every notation.
 
 use serde_json::Value;
 
@@ -14,7 +14,7 @@ fn text(file: &str) -> String {
     std::fs::read_to_string(project(file)).unwrap()
 }
 
-/// What the command prints of the paper's equations, with one part of them replaced.
+/// The output of the command for the equations of the paper, with one part of them replaced.
 fn paper(from: &str, to: &str, format: &str) -> String {
     let printed = text("docs/trttr1.printed");
     assert!(printed.contains(from));
@@ -35,7 +35,7 @@ fn the_paper_differs_in_the_terms_that_the_document_lists() {
     assert!(document.contains(claim), "docs/trttr1.md does not say: {claim}");
     assert!(shown.ends_with(
         "85 equations (5 only name a quantity), 839 terms: 34 terms differ (1 missing term, 1 sign, \
-         20 dot, 9 index, 1 power, 2 factor)\n"
+         20 dots, 9 indices, 1 power, 2 factors)\n"
     ));
     let found: Value = serde_json::from_str(&paper("", "", "json")).unwrap();
     let differences = found["differences"].as_array().unwrap();

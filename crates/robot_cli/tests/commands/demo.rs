@@ -1,16 +1,16 @@
-//! What the demonstration is made of: the robot file of the project, and code that is generated from it.
+//! The ingredients of the demonstration: the robot file of the project, and code that is generated from it.
 
 use std::fs;
 use std::path::PathBuf;
 
 use crate::output;
 
-/// The folder that the command has its robot and its code from.
+/// The path of a file in the folder with the robot and the code of the demonstration.
 fn demo(file: &str) -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "demo", file].iter().collect()
 }
 
-/// Compares a file with what it should be, or writes it anew with `UPDATE_GOLDENS`.
+/// Compares a file with its expected contents, or writes it again if `UPDATE_GOLDENS` is set.
 #[track_caller]
 fn assert_unchanged(file: &str, now: &str) {
     if std::env::var_os("UPDATE_GOLDENS").is_some() {

@@ -1,4 +1,4 @@
-//! `equations`: what is printed reads back and has the values of the numeric solver.
+//! `equations`: printed equations can be read back and have the values of the numeric solver.
 
 use std::collections::BTreeMap;
 
@@ -45,7 +45,7 @@ fn shown(arguments: &[&str]) -> Value {
     shown
 }
 
-/// What the equations say, by name, and the numeric mechanism.
+/// The values of the printed equations, by name, and the numeric mechanism.
 fn evaluated(arguments: &[&str]) -> (Vec<(String, f64)>, Mechanism) {
     let text = std::fs::read_to_string(robot("trttr1")).unwrap();
     let robot = read_toml("trttr1.toml", &text).unwrap().robot;
@@ -160,7 +160,7 @@ fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
         for part in [sine, r"\ddot{q}_1", "F_{l_x}^{6}", "J_x^{*5}", r"\dot{q}_2^{2}"] {
             assert!(latex.contains(part), "{part} is not in {latex}");
         }
-        // Every line but the last of an environment ends in a break and has one alignment mark.
+        // Every line of an environment has one alignment mark, and all except the last end with a line break.
         for environment in latex.split_inclusive("\\end{align*}\n") {
             let lines: Vec<&str> = environment.lines().collect();
             assert_eq!(lines[0], r"\begin{align*}");
@@ -328,7 +328,7 @@ fn matrices_are_printed_in_every_notation_where_they_fit() {
         assert!(vectors.contains(matrix), "{matrix}: {vectors}");
         let scalars = shown(format, &["--layout", "scalars"]);
         assert!(!scalars.contains(matrix) && scalars != vectors, "{format}: {scalars}");
-        // Vectors are the default where formulas are set.
+        // Vectors are the default if formulas are typeset.
         assert_eq!(shown(format, &[]), if format == "text" { scalars } else { vectors });
     }
     let json: Value = serde_json::from_str(&shown("json", &["--layout", "vectors"])).unwrap();
@@ -355,7 +355,7 @@ fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
     let list = output(&command, "");
     assert!(list.contains("\n  H_{12} &= ") && list.contains("\n  H_{55} &= "), "{list}");
     assert!(!list.contains(r"H\left(q\right) &= "), "{list}");
-    // The column of gravity fits still.
+    // The column of gravity still fits.
     assert!(list.contains(r"g\left(q\right) &= \begin{bmatrix} 0"), "{list}");
 }
 
@@ -368,16 +368,16 @@ fn a_layout_without_effect_is_refused() {
     assert!(told.contains("--style"), "{told}");
 }
 
-/// The vectors of the paper in its order, (9) to (24) outward and (31) to (39) inward, one column each; the moments (45)
-/// to (51), which fill pages, by components; then the joint torques (53) to (61). Of the recursion, what is 0 or another
-/// name of something is left out.
+/// The vectors of the paper are printed in its order, (9) to (24) outward and (31) to (39) inward, each as a column;
+/// the moments (45) to (51), which fill pages, by components; then the joint torques (53) to (61). Quantities of the
+/// recursion that are 0 or equal another one are left out.
 #[test]
 fn the_vectors_of_trttr1_are_in_the_shape_and_the_order_of_the_paper() {
     let file = robot("trttr1");
     let paper = output(&["equations", &file, "--style", "paper", "--format", "latex"], "");
     let lefts: Vec<&str> =
         paper.lines().filter_map(|line| Some(line.trim().split_once(" &= ")?.0)).collect();
-    // Before each vector is its relation.
+    // The relation of each vector is printed before it.
     let both = |letter: &str, link: usize| [relation(letter, link), column(letter, link)];
     let outward = |letter: &'static str| (1..=5).flat_map(move |link| both(letter, link));
     let mut expected: Vec<String> = ["a_c", "F", "M_c"].into_iter().flat_map(outward).collect();

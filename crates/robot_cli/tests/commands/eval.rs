@@ -1,4 +1,4 @@
-//! `eval` against the numeric recursive solver, and what it says of wrong input.
+//! `eval` compared with the numeric recursive solver, and its messages about wrong input.
 
 use robot_model::description::read_toml;
 use robot_numeric::{Loads, Mechanism, Wrench};
@@ -67,7 +67,7 @@ fn torques_are_those_of_the_numeric_solver() {
     for (function, friction) in [("inverse_dynamics", false), ("inverse_dynamics_friction", true)] {
         let found = eval(function, &json!([still]), &[]);
         assert_close(&found[0], &expected(&[], &[0.0; 6], friction));
-        // A wrench chooses the function that takes it, for all states.
+        // A wrench determines that the function with a wrench is used, for all states.
         let found = eval(function, &json!([still, loaded]), &[]);
         assert_close(&found[0], &expected(&[], &[0.0; 6], friction));
         assert_close(&found[1], &expected(&[], &WRENCH, friction));
@@ -142,8 +142,8 @@ fn matrices_are_rows_and_csv_has_a_header() {
     }
 }
 
-/// What `forward_dynamics_friction` gives takes the joint torques that it was given, with a wrench and
-/// without one; a robot without friction has no such function.
+/// The accelerations of `forward_dynamics_friction` need the given joint torques, with a wrench and
+/// without one; a robot without friction does not have this function.
 #[test]
 fn forward_dynamics_takes_friction_in() {
     let file = robot("trttr1");
@@ -293,7 +293,7 @@ fn a_nearly_singular_mass_matrix_is_reported() {
     }
 }
 
-/// A state whose angle has no sine is not told to have a singular mass matrix.
+/// A state whose angle is too large for the sine is not reported to have a singular mass matrix.
 #[test]
 fn an_angle_that_has_no_sine_is_the_reason() {
     let file = robot("planar_2r");

@@ -1,4 +1,4 @@
-//! Streams of the real command.
+//! The streams of the real command.
 
 use std::io::{Read, Write};
 use std::process::{Command, Stdio};

@@ -1,5 +1,6 @@
-//! Names of functions: what can be asked for, everywhere by the same names.
+//! Names of functions, which are the same in all commands.
 
+use robot_build::FunctionKind;
 use serde_json::Value;
 
 use crate::{complaint, folder, output, robot, run, run_with};
@@ -14,7 +15,7 @@ fn arm(test: &str) -> String {
     path.to_str().unwrap().to_owned()
 }
 
-/// The same without any frame.
+/// An arm without any frame.
 fn bare(test: &str) -> String {
     let text = std::fs::read_to_string(robot("planar_3r")).unwrap();
     let path = folder(test).join("bare.toml");
@@ -40,7 +41,7 @@ fn frames_are_named_as_in_the_file_or_as_in_the_function() {
         assert_eq!(of("Cam"), of("cam"));
         assert_eq!(of("cam-1"), of("cam_1_4"));
         assert_eq!(of("cam.1"), of("cam_1_5"));
-        // Two frames have this name as an identifier.
+        // Two frames have the same name as an identifier.
         let name = format!("{kind}_cam_1");
         let arguments = ["eval", &file, "--function", &name, "--states", "-"];
         let shown = complaint(2, &arguments, STATE);
@@ -80,7 +81,7 @@ fn one_frame_or_link_is_asked_for_alone_everywhere() {
     };
     let generated = functions(&["generate", &file, "--function", "jacobian_Cam,jacobian_2"]);
     assert_eq!(generated, ["jacobian_cam", "jacobian_2"]);
-    // All frames are asked for, and one of them: once.
+    // If all frames and one of them are chosen, each function occurs once.
     let generated = functions(&["generate", &file, "--function", "jacobian_Cam,jacobian"]);
     assert_eq!(generated.len(), 5);
     let bundle = "both=jacobian_cam-1,jacobian_dot_qd_1";
@@ -127,15 +128,37 @@ fn help_and_completions_list_the_functions() {
     }
 }
 
+const HEAD: &str = "| function | arguments | result |\n|---|---|---|\n";
+
+/// The table of functions, from their declarations.
+fn table() -> String {
+    let row = |kind: &FunctionKind| {
+        let mut inputs: Vec<&str> = kind.inputs().iter().map(|input| input.name()).collect();
+        if kind.effects().wrench {
+            inputs.push("wrenches of the tips");
+        }
+        let inputs = if inputs.is_empty() { "none".to_owned() } else { inputs.join(", ") };
+        format!("| `{}` | {inputs} | {} |\n", kind.name(), kind.result())
+    };
+    HEAD.to_owned() + &FunctionKind::ALL.iter().map(row).collect::<String>()
+}
+
+/// `UPDATE_SNAPSHOTS=1` writes the tables anew.
 #[test]
-fn the_page_lists_every_function() {
+fn the_tables_of_functions_are_the_declared_ones() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let [page, readme] = ["docs/generated-code.md", "README.md"]
-        .map(|name| std::fs::read_to_string(root.join(name)).unwrap());
-    for kind in robot_build::FunctionKind::ALL {
-        assert!(page.contains(&format!("`{}`", kind.name())), "{}", kind.name());
+    for name in ["docs/generated-code.md", "README.md"] {
+        let page = std::fs::read_to_string(root.join(name)).unwrap();
+        let start = page.find(HEAD).unwrap();
+        let length = page[start..].find("\n\n").unwrap() + 1;
+        let now = format!("{}{}{}", &page[..start], table(), &page[start + length..]);
+        if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+            std::fs::write(root.join(name), &now).unwrap();
+        } else {
+            assert!(
+                page == now,
+                "{name} shows another table of functions: UPDATE_SNAPSHOTS=1 writes it"
+            );
+        }
     }
-    let (_, table) = page.split_once("| function | arguments | result |").unwrap();
-    let (table, _) = table.split_once("\n\n").unwrap();
-    assert!(readme.contains(table), "README.md shows another table of functions");
 }

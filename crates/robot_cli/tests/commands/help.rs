@@ -5,11 +5,11 @@ use std::collections::BTreeSet;
 use crate::shell::Shell;
 use crate::{URDF, complaint, folder, output};
 
-/// The names of all commands, as the overview lists them.
+/// The names of all commands in the overview.
 pub(crate) fn commands() -> Vec<String> {
     let overview = output(&["--help"], "");
     let list = overview.split("Commands:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    // Further lines of what a command does are indented more.
+    // Further lines of a command's description are indented more.
     let lines = list.lines().filter(|line| !line.starts_with("   "));
     let names = lines.map(|line| line.split_whitespace().next().unwrap().to_owned());
     let names: Vec<String> = names.filter(|name| name != "help").collect();
@@ -17,7 +17,7 @@ pub(crate) fn commands() -> Vec<String> {
     names
 }
 
-/// The lines of the example in the help of a command, `robot-symbolic` and what follows it.
+/// The lines of the example in the help of a command, from `robot-symbolic` on.
 fn example(command: &str) -> String {
     let help = output(&[command, "--help"], "");
     let after = help.split("Example:\n").nth(1).unwrap_or_else(|| panic!("no example:\n{help}"));
@@ -26,7 +26,8 @@ fn example(command: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Examples that are shown with others' programs, targets that need not be installed, a browser.
+/// Marks of examples that are not run, because they need other programs, targets that may not be installed, or a
+/// browser.
 const ELSEWHERE: [&str; 3] = ["cargo ", "--target", "--open"];
 
 #[test]
@@ -34,7 +35,7 @@ fn the_examples_of_every_command_run() {
     for command in commands() {
         let example = example(&command);
         assert!(example.starts_with(&format!("robot-symbolic {command}")), "{example}");
-        // A command each, with the lines that continue it and what it reads.
+        // Each script is a command with its continuation lines and its input.
         let whole = example.replace("\\\n", " ");
         let mut scripts: Vec<String> = vec![];
         for line in whole.lines() {
@@ -46,26 +47,26 @@ fn the_examples_of_every_command_run() {
         }
         let shell = Shell::new();
         for name in ["arm.urdf", "robots/arm.urdf"] {
-            // What the examples need beside the robots of the project.
+            // A file that the examples need in addition to the robots of the project.
             shell.write(name, URDF);
         }
         shell.write("src/lib.rs", "");
         shell.write("docs/trttr1.printed", include_str!("../../../../docs/trttr1.printed"));
         let here = |script: &&String| ELSEWHERE.iter().all(|mark| !script.contains(mark));
         for script in scripts.iter().filter(here) {
-            // Others' programs, which tests must not need: `docs/latex/check` runs LaTeX.
+            // Tests must not need other programs; `docs/latex/check` runs LaTeX.
             let own = script.split(" && pdflatex").next().unwrap();
-            // A watch would go on until Ctrl-C.
+            // A watch would run until Ctrl-C.
             let end = if command == "watch" { " --saves 0\n" } else { "\n" };
             let done = shell.run(&(own.trim_end().to_owned() + end));
             let shown = format!("{script}\n{}{}", done.output, done.errors);
-            // The answer to a check may be no.
+            // The answer to a check can be no.
             assert!(done.code == Some(0) || done.code == Some(1) && answers(&command), "{shown}");
         }
     }
 }
 
-/// Commands whose answer may be no, with the exit code 1.
+/// Whether a command's answer can be no, with the exit code 1.
 fn answers(command: &str) -> bool {
     ["check", "compare", "diff"].contains(&command)
 }

@@ -1,4 +1,4 @@
-//! What is left of output files where the command is killed, the disk is full, or the output is not a file.
+//! The state of output files if the command is killed, the disk is full, or the output is not a file.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use crate::{folder, robot};
 
 const BINARY: &str = env!("CARGO_BIN_EXE_robot-symbolic");
 
-/// Waits for a process, a minute at most.
+/// Waits for a process, for at most a minute.
 fn ended(mut child: Child) -> Output {
     let start = Instant::now();
     while child.try_wait().unwrap().is_none() {
@@ -33,7 +33,7 @@ fn bash(folder: &Path, script: &str) -> Output {
     ended(child.unwrap())
 }
 
-/// The files below a folder, and what is in them.
+/// The files below a folder, with their contents.
 fn files(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = vec![];
     for entry in fs::read_dir(folder).unwrap() {
@@ -64,7 +64,7 @@ fn pipes_and_devices_are_written_and_not_read() {
     let script = "mkfifo pipe; cat pipe & \"$0\" generate arm.toml -o pipe; wait; test -p pipe";
     assert!(shown(script).contains("pub mod"));
     shown("for f in null zero; do \"$0\" generate arm.toml -o /dev/$f && test -c /dev/$f; done");
-    // What lies behind a stream is added to, not replaced.
+    // A file to which a stream is redirected is appended to, not replaced.
     shown("echo mine > log; \"$0\" generate arm.toml -o /dev/stdout >> log");
     assert!(fs::read_to_string(folder.join("log")).unwrap().starts_with("mine\n//"));
     shown("\"$0\" generate arm.toml -o /dev/stdout > new");
@@ -107,7 +107,7 @@ fn a_full_disk_leaves_what_was_there() {
     }
 }
 
-/// Numbers that look like chance: splitmix64.
+/// Pseudo-random numbers (splitmix64).
 struct Random(u64);
 
 impl Random {
@@ -119,21 +119,21 @@ impl Random {
     }
 }
 
-/// A command that writes an output in either of two versions.
+/// A command that writes one of two versions of an output.
 struct Killed {
     robot: PathBuf,
     command: &'static str,
     output: PathBuf,
-    /// What the output is when it is whole: its files, relative to it.
+    /// The complete output in both versions: its files, with relative paths.
     whole: [Vec<(PathBuf, Vec<u8>)>; 2],
-    /// How long the command takes.
+    /// The time that the command takes.
     time: Duration,
 }
 
 impl Killed {
     fn new(folder: &Path, command: &'static str, output: &str) -> Killed {
         let file = folder.join("planar_2r.toml");
-        // With its plan, so that nothing is searched.
+        // The plan is present, so that no plan is searched.
         for extension in ["toml", "plan"] {
             let from = PathBuf::from(robot("planar_2r")).with_extension(extension);
             fs::copy(from, file.with_extension(extension)).unwrap();
@@ -174,7 +174,7 @@ impl Killed {
         found.filter(|(path, _)| !is_temporary(path)).collect()
     }
 
-    /// Kills the command at a moment of its run; whether it had not ended.
+    /// Kills the command at a random time; returns whether it was still running.
     fn kill(&self, version: usize, random: &mut Random) -> bool {
         let limit = u64::try_from(self.time.as_micros()).unwrap() * 5 / 4;
         let mut child = self.spawn(version);
@@ -189,12 +189,12 @@ fn is_temporary(path: &Path) -> bool {
     name.starts_with('.') && name.contains(".robot-symbolic-tmp-")
 }
 
-/// How many rounds there are: more with the variable `ROBOT_KILL_ROUNDS`.
+/// The number of rounds; the variable `ROBOT_KILL_ROUNDS` sets another.
 fn rounds() -> u64 {
     std::env::var("ROBOT_KILL_ROUNDS").map_or(50, |rounds| rounds.parse().unwrap())
 }
 
-/// What was found after the kills.
+/// The states that were found after the kills.
 #[derive(Default)]
 struct Tally {
     killed: u64,
@@ -204,13 +204,13 @@ struct Tally {
     leftovers: u64,
 }
 
-/// Kills a command again and again; no file may be anything but the one or the other version.
+/// Kills a command repeatedly; every file must be one of the two versions.
 fn kill_again_and_again(test: &str, command: &'static str, output: &str, is_there: bool) {
     let (folder, seed) = (folder(test), u64::from(std::process::id()));
     let killed = Killed::new(&folder, command, output);
     let (mut random, mut tally) = (Random(seed), Tally::default());
     for round in 0..rounds() {
-        // Old is version 0, or nothing.
+        // The old state is version 0, or nothing.
         killed.remove();
         if is_there {
             assert!(ended(killed.spawn(0)).status.success());
@@ -224,7 +224,7 @@ fn kill_again_and_again(test: &str, command: &'static str, output: &str, is_ther
         match () {
             () if present == old => tally.old += 1,
             () if present == killed.whole[1] => tally.new += 1,
-            // A folder that was there changes file by file.
+            // An existing folder changes file by file.
             () => {
                 tally.mixed += 1;
                 let place = format!("{command}, seed {seed}, round {round}");
@@ -236,7 +236,7 @@ fn kill_again_and_again(test: &str, command: &'static str, output: &str, is_ther
             }
         }
     }
-    // What the killed ones left is in nobody's way, and goes with the next run that changes the files.
+    // Leftovers of killed processes do no harm, and the next run that changes the files removes them.
     for version in [0, 1] {
         assert!(ended(killed.spawn(version)).status.success());
         assert_eq!(killed.present(), killed.whole[version]);

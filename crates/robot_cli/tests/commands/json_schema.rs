@@ -1,11 +1,11 @@
-//! Validation by the keywords of JSON Schema (draft 7) that the schema of robot files has; the crates
-//! for all of it bring fifty others.
+//! Validation by those keywords of JSON Schema (draft 7) that the schema of robot files uses. Crates that
+//! support all keywords have fifty dependencies.
 
 use regex_lite::Regex;
 use serde_json::Value;
 
-/// Whether `value`, which stands at `place`, is valid by `schema`; where it is not, and why. A keyword
-/// that is not known here fails the test.
+/// Checks that `value`, which is at `place`, is valid by `schema`; the error names the place and the reason. A keyword
+/// that is not supported here fails the test.
 pub(crate) fn validate(schema: &Value, value: &Value, place: &str) -> Result<(), String> {
     for (keyword, rule) in schema.as_object().unwrap() {
         let properties = schema.get("properties");
@@ -16,7 +16,7 @@ pub(crate) fn validate(schema: &Value, value: &Value, place: &str) -> Result<(),
     Ok(())
 }
 
-/// Rules for the entries of a table and for the elements of a list.
+/// Checks rules for the entries of a table and for the elements of a list.
 fn parts_hold(
     keyword: &str,
     rule: &Value,
@@ -61,7 +61,7 @@ fn parts_hold(
     Ok(())
 }
 
-/// Rules that concern another type than the value's hold, as the standard says.
+/// Checks rules for the value itself. According to the standard, rules for other types than the value's hold.
 fn holds(
     keyword: &str,
     rule: &Value,

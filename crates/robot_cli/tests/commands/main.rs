@@ -1,4 +1,4 @@
-//! The command, called as a user calls it, but for the process.
+//! The command, called as a user calls it, but within the process of the test.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -37,14 +37,14 @@ mod watch;
 
 use std::path::PathBuf;
 
-/// What a command has done.
+/// The result of a command.
 struct Outcome {
     code: u8,
     output: String,
     errors: String,
 }
 
-/// Runs `robot-symbolic` with arguments between streams that are not terminals: the exit code.
+/// Runs `robot-symbolic` with streams that are not terminals; returns the exit code.
 fn run_between(
     arguments: &[&str],
     input: &[u8],
@@ -54,7 +54,7 @@ fn run_between(
     run_shown(None, arguments, input, output, errors)
 }
 
-/// Runs it where standard output may be a terminal.
+/// Runs it with standard output that can be a terminal.
 fn run_on(screen: Option<robot_cli::Screen>, arguments: &[&str]) -> Outcome {
     let (mut output, mut errors) = (vec![], vec![]);
     let code = run_shown(screen, arguments, b"", &mut output, &mut errors);
@@ -93,7 +93,7 @@ fn run(arguments: &[&str]) -> Outcome {
     run_with(arguments, b"")
 }
 
-/// What a command prints that does its work without complaint.
+/// The output of a command that succeeds without messages.
 #[track_caller]
 fn output(arguments: &[&str], input: &str) -> String {
     let Outcome { code, output, errors } = run_with(arguments, input.as_bytes());
@@ -101,7 +101,7 @@ fn output(arguments: &[&str], input: &str) -> String {
     output
 }
 
-/// What a command prints that rounds decimals, says so, and complains of nothing else.
+/// The output of a command that succeeds with no message except the note about rounded decimals.
 #[track_caller]
 fn rounded_output(arguments: &[&str]) -> String {
     let Outcome { code, output, errors } = run(arguments);
@@ -109,11 +109,11 @@ fn rounded_output(arguments: &[&str]) -> String {
     output
 }
 
-/// What is said of decimals.
+/// The note about rounded decimals.
 const ROUNDED: &str =
     "note: decimals are rounded to 10 significant digits; --digits 17 prints all\n";
 
-/// What a command prints that writes files and complains of nothing.
+/// The output of a command that writes files and has no other messages.
 #[track_caller]
 fn output_beside_files(arguments: &[&str]) -> String {
     let Outcome { code, output, errors } = run(arguments);
@@ -122,7 +122,7 @@ fn output_beside_files(arguments: &[&str]) -> String {
     output
 }
 
-/// What a command complains of that ends with a code.
+/// The messages of a command that ends with an exit code.
 #[track_caller]
 fn complaint(code: u8, arguments: &[&str], input: &str) -> String {
     let outcome = run_with(arguments, input.as_bytes());
@@ -141,7 +141,7 @@ fn robot(name: &str) -> String {
     format!("{}/../../robots/{name}.toml", env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A wrist that is singular where q2 is 0.
+/// A wrist whose mass matrix is singular if q2 is 0.
 const WRIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/fixtures/gimbals/wrist.toml");
 
 /// A pendulum in URDF.

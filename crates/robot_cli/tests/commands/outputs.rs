@@ -1,4 +1,4 @@
-//! Output files of every command: never an input, a file of somebody else only with `--force`.
+//! Output files of every command never replace an input, and files that this program did not write only with `--force`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -29,20 +29,20 @@ impl Inputs {
         self.0.join(name).to_str().unwrap().to_owned()
     }
 
-    /// The words of a command line, `@NAME` being a file of the folder.
+    /// The words of a command line, in which `@NAME` is a file of the folder.
     fn words(&self, line: &str) -> Vec<String> {
         let place = |word: &str| word.strip_prefix('@').map(|name| self.path(name));
         line.split_whitespace().map(|word| place(word).unwrap_or_else(|| word.to_owned())).collect()
     }
 
-    /// Runs a command line and one word more.
+    /// Runs a command line with further words.
     fn run(&self, line: &str, last: &[&str]) -> crate::Outcome {
         let words = self.words(line);
         run(&words.iter().map(String::as_str).chain(last.iter().copied()).collect::<Vec<_>>())
     }
 }
 
-/// Command lines up to the name of the output, and the inputs that they have.
+/// Command lines up to the name of the output, with their inputs.
 const READERS: &[(&str, &[&str])] = &[
     ("generate @arm.toml -o", &["arm.toml", "arm.plan"]),
     ("document @arm.toml -o", &["arm.toml", "arm.plan"]),
@@ -119,7 +119,7 @@ fn files_of_others_are_replaced_with_force_alone_and_own_ones_without() {
     for (line, name) in WRITERS {
         let path = inputs.path(name);
         let write = |more: &[&str]| inputs.run(line, &[&[path.as_str()], more].concat());
-        // Measurements of the robot's motion are not the tables of this program.
+        // Tables with measurements of the robot's motion were not written by this program.
         let mine = if name.ends_with("csv") { TRAJECTORY } else { "my notes\n" };
         fs::write(&path, mine).unwrap();
         let outcome = write(&[]);
@@ -130,7 +130,7 @@ fn files_of_others_are_replaced_with_force_alone_and_own_ones_without() {
         assert_eq!(write(&["--force"]).code, 0, "{line} {name}");
         let first = fs::read(&path).unwrap();
         assert_ne!(first, mine.as_bytes(), "{line} {name}");
-        // What this program wrote, be it an older version of it, is replaced; so is an empty file.
+        // Files that this program wrote, also older versions, are replaced, and so are empty files.
         for older in [&first[..first.len() - 2], b""] {
             fs::write(&path, older).unwrap();
             let outcome = write(&[]);
@@ -173,7 +173,7 @@ fn a_robot_file_with_notes_is_replaced_with_force_alone() {
     let shown = run(&import);
     assert_eq!(shown.code, 1);
     assert!(shown.errors.contains("out.toml is not replaced"), "{}", shown.errors);
-    // Nor is it this program's own for any other command.
+    // Other commands do not replace it either.
     let other = inputs.path("arm.toml");
     assert_eq!(run(&["generate", &other, "-o", &toml]).code, 1);
     assert_eq!(fs::read_to_string(&toml).unwrap(), noted);
@@ -215,7 +215,7 @@ fn a_crate_of_somebody_else_stays() {
     }
     let outcome = run(&["crate", &file, "-o", &mine, "--force"]);
     assert_eq!((outcome.code, outcome.errors), (0, format!("wrote {mine}: 30 files\n")));
-    // All files of a crate are known as this program's.
+    // All files of a crate are recognized as files of this program.
     for name in names(mine.as_ref()).iter().filter(|name| Path::new(name).is_file()) {
         let text = fs::read_to_string(name).unwrap();
         fs::write(name, text.lines().next().unwrap()).unwrap();
@@ -228,7 +228,7 @@ fn a_crate_of_somebody_else_stays() {
     assert_eq!(output(&["crate", &file, "-o", &mine], ""), "");
 }
 
-/// A package is written again after each change of its robot, and says if functions of before are left in it.
+/// A package is written again after each change of its robot, with a warning if files of earlier functions remain.
 #[test]
 fn packages_of_all_languages_are_written_again() {
     let inputs = Inputs::new("outputs-languages");
@@ -262,7 +262,7 @@ fn packages_of_all_languages_are_written_again() {
         if warning {
             assert!(second.errors.contains("gravity.m; remove"), "{}", second.errors);
         }
-        // A folder holds nothing of before in what is up to date.
+        // A folder that is up to date contains no earlier files.
         assert_eq!(output(&[&arguments[..], &["inverse_dynamics", "--check"]].concat(), ""), "");
     }
 }
@@ -287,7 +287,7 @@ fn table_and_plot_are_two_files() {
     let path = inputs.path("both.svg");
     let outcome = inputs.run("simulate @arm.toml --time 0.1 -o", &[&path, "--plot", &path]);
     assert!(outcome.errors.contains("two outputs have this name"), "{}", outcome.errors);
-    // Neither is written where the other is refused.
+    // If one of the two outputs cannot be written, neither is.
     let (plot, table) = (inputs.path("plot.svg"), inputs.path("mine.csv"));
     fs::write(&table, TRAJECTORY).unwrap();
     let outcome = inputs.run("simulate @arm.toml --time 0.1 -o", &[&table, "--plot", &plot]);
@@ -311,7 +311,7 @@ fn messages_that_nobody_hears_do_not_end_the_work() {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     assert_eq!(run_between(&words, b"", &mut vec![], &mut Deaf), 0);
     assert!(Path::new(&toml).exists());
-    // Results that cannot be shown are an error, but for a reader that has seen enough.
+    // Output that cannot be written is an error, except if the reader has closed the stream.
     let plan = inputs.path("arm.plan");
     fs::remove_file(&plan).unwrap();
     let words = inputs.words("search @arm.toml");
@@ -321,7 +321,7 @@ fn messages_that_nobody_hears_do_not_end_the_work() {
     assert_eq!(run_with(&["--version"], b"").code, 0);
 }
 
-/// A disk that is full, or a reader that has seen enough.
+/// A stream that fails as on a full disk, or as if its reader has closed it.
 struct Broken(std::io::ErrorKind);
 
 impl std::io::Write for Broken {
@@ -338,7 +338,8 @@ fn broken(arguments: &[&str], kind: std::io::ErrorKind) -> u8 {
     run_between(arguments, b"", &mut Broken(kind), &mut vec![])
 }
 
-/// The code of what cannot be written is none of an answer, and a reader that leaves changes no answer.
+/// The exit code for output that cannot be written differs from those of answers; a reader that closes the stream does
+/// not change the answer.
 #[test]
 fn output_that_cannot_be_written_is_no_answer() {
     use std::io::ErrorKind::{BrokenPipe, StorageFull};
@@ -404,7 +405,7 @@ fn advice_is_what_the_command_takes() {
     }
 }
 
-/// A terminal obeys control characters: names and texts from elsewhere are shown without.
+/// Control characters could control a terminal, so names and texts from files are printed without them.
 #[test]
 fn messages_have_no_control_characters() {
     let folder = folder("outputs-control");

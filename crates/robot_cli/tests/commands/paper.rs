@@ -1,6 +1,6 @@
-//! The page that sets the equations of the paper's text beside the derived ones, term by term.
+//! The page that compares the equations of the paper's text with the derived ones, term by term.
 //!
-//! `UPDATE_SNAPSHOTS=1` writes it anew.
+//! `UPDATE_SNAPSHOTS=1` writes it again.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
 }
 
-/// The equations of the transcription: number, name and right side.
+/// The equations of the transcription, each with number, name and right side.
 fn transcribed() -> Vec<(String, String, String)> {
     let text = std::fs::read_to_string(root().join("docs/trttr1.printed")).unwrap();
     let mut all: Vec<(String, String, String)> = vec![];
@@ -35,7 +35,7 @@ fn derived() -> BTreeMap<String, String> {
     printed(&["--style", "paper"])
 }
 
-/// The same in the order of the text.
+/// The derived equations in the order of the text.
 fn alike() -> BTreeMap<String, String> {
     let text = root().join("docs/trttr1.printed");
     printed(&["--like", text.to_str().unwrap()])
@@ -121,7 +121,7 @@ fn term(text: &str) -> String {
     format!("{sign}{}", factors(product).iter().map(factor).collect::<Vec<_>>().join(" "))
 }
 
-/// Terms beside each other; those that are marked are red.
+/// Prints terms next to each other; marked terms are red.
 fn line(terms: &[String], marked: &[bool]) -> String {
     let one = |(place, text): (usize, &String)| {
         let shown = term(text);
@@ -134,10 +134,10 @@ fn line(terms: &[String], marked: &[bool]) -> String {
     terms.iter().enumerate().map(one).collect::<Vec<_>>().join(" ")
 }
 
-/// Characters of infix text in a line of a formula.
+/// The number of characters of infix text in a line of a formula.
 const LINE: usize = 95;
 
-/// A right side on several lines behind what is before it.
+/// Prints a right side on several lines, after the text before it.
 fn lines(before: &str, terms: &[String], others: &[String]) -> String {
     let marked: Vec<bool> =
         terms.iter().map(|one| !others.iter().any(|other| key(other) == key(one))).collect();
@@ -158,7 +158,7 @@ fn lines(before: &str, terms: &[String], others: &[String]) -> String {
     format!("{before} & {}", shown.collect::<Vec<_>>().join(" \\\\\n& \\quad "))
 }
 
-/// What a term is but for the order of its factors.
+/// The sign and the sorted factors of a term, which do not depend on the order of the factors.
 fn key(term: &str) -> (bool, Vec<String>) {
     let negative = term.starts_with('-');
     let mut factors = factors(term.trim_start_matches('-'));
@@ -166,7 +166,7 @@ fn key(term: &str) -> (bool, Vec<String>) {
     (negative, factors)
 }
 
-/// Whether the terms that both have are in the same order, with the factors in the same order.
+/// Whether the common terms have the same order, and their factors too.
 fn in_order(text: &[String], ours: &[String]) -> bool {
     let common = |of: &[String], other: &[String]| -> Vec<String> {
         of.iter().filter(|one| other.iter().any(|two| key(two) == key(one))).cloned().collect()
@@ -198,7 +198,7 @@ fn page() -> (String, Counts) {
     (body, counts)
 }
 
-/// An equation once if both have it letter by letter, else the text's and ours.
+/// Prints an equation once if both versions are identical, otherwise the text's and ours.
 fn rows(left: &str, text: &[String], ours: &[String], counts: &mut Counts) -> Vec<String> {
     let is_name = text.len() == 1 && text[0].starts_with(['F', 'M']) && text[0].contains('.');
     if is_name {
@@ -223,18 +223,18 @@ fn introduction(counts: &Counts) -> String {
     let all = same + differing + reordered + names;
     format!(
         "# TRTTR1, equation by equation\n\n\
-         The equations (9) to (61) of the [text that we have of the paper](trttr1.md) beside those that\n\
+         This page shows equations (9) to (61) of the [text that we have of the paper](trttr1.md) beside those that\n\
          `robot-symbolic equations robots/trttr1.toml --like docs/trttr1.printed` prints. A test writes this page and\n\
          compares it.\n\n\
          Of {all} scalar equations\n\n\
          - {same} are the same, letter by letter, and are shown once;\n\
-         - {differing} have the same order, but one or more terms differ, in red;\n\
+         - {differing} have the same order, but one or more terms differ and are red;\n\
          - {reordered} have their terms or factors in another order;\n\
          - {names} only name a component.\n\n\
-         The order of the terms is the text's; only their values are derived. `--style paper` does not read the text, and\n\
-         has the terms in the order in which the paper's relations (8) to (60) yield them: the terms of a product of sums\n\
-         one after the other, like terms at the place of the first. That is the order of the text but in (35) and from (42)\n\
-         on, where it follows no rule that we know.\n"
+         The order of the terms is the text's; only their values are derived. With `--style paper`, the text is not read:\n\
+         terms are in the order in which the paper's relations (8) to (60) yield them. The terms of a product of sums\n\
+         follow one another, and like terms are joined at the place of the first. The text has the same order except in\n\
+         (35) and from (42) on; there it follows no rule that we know.\n"
     )
 }
 
@@ -249,8 +249,8 @@ fn the_equations_of_the_text_are_beside_the_derived_ones() {
     assert_eq!(std::fs::read_to_string(path).unwrap(), shown, "{PAGE} is out of date");
 }
 
-/// The order of terms and factors is the paper's wherever its relations were carried out one after the other; elsewhere
-/// each term of the text that is right is one of ours.
+/// The order of terms and factors is that of the paper wherever its relations were evaluated one after the other;
+/// elsewhere each correct term of the text is one of ours.
 #[test]
 fn terms_are_in_the_order_of_the_paper() {
     let derived = derived();
@@ -271,11 +271,12 @@ fn terms_are_in_the_order_of_the_paper() {
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-    // 34 terms differ, and one of these is missing in the text (docs/trttr1.md). In brackets, (16) to (19), none does.
+    // 34 terms differ, and one of these is missing in the text (docs/trttr1.md). No term in brackets, (16) to (19),
+    // differs.
     assert_eq!(differing, 33);
 }
 
-/// Whatever the order of a published text is, `--like` has it.
+/// With `--like`, equations have the order of a published text, whatever it is.
 #[test]
 fn terms_are_in_the_order_of_the_text() {
     let (derived, alike) = (derived(), alike());
@@ -291,7 +292,7 @@ fn terms_are_in_the_order_of_the_text() {
     }
 }
 
-/// The number of a column is the one that the text gives to all of its components.
+/// The number of a column is the number that the text gives to all of its components.
 #[test]
 fn equations_have_the_numbers_of_the_text() {
     let text = root().join("docs/trttr1.printed");
@@ -314,7 +315,7 @@ fn equations_have_the_numbers_of_the_text() {
     assert!(!latex.contains(r"\label{eq:relation"), "{latex}");
 }
 
-/// Published LaTeX has an order as well; equations that are not in it keep the style's.
+/// Published LaTeX also has an order; equations that it does not contain keep the order of the style.
 #[test]
 fn the_order_of_latex_is_kept() {
     let expanded = |format: &str| output(&["equations", &robot("trttr1"), "--format", format], "");
@@ -363,7 +364,7 @@ fn equations_unlike_those_of_the_text_are_counted() {
     }
 }
 
-/// What helps with equations that are too long is an option that may stand there.
+/// The remedy for equations that are too long is an option that can be added to the command.
 #[test]
 fn the_remedy_for_a_long_style_is_another_form() {
     let shown = complaint(1, &["equations", &robot("panda"), "--style", "paper"], "");

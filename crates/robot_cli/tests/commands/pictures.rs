@@ -1,4 +1,4 @@
-//! The pictures of the README and the book are made from what the command prints today.
+//! The pictures in the README and the book are made from the current output of the command.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ fn sum(text: &str) -> String {
     hmac_sha256::Hash::hash(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// What a picture may be made from: the output of a command, or the tables of a page.
+/// The source of a picture: the output of a command, or the tables of a page.
 fn source(shell: &Shell, name: &str) -> String {
     if name.starts_with("robot-symbolic ") {
         let done = shell.run(name);
@@ -32,7 +32,7 @@ fn sources(picture: &str) -> Vec<(String, String)> {
     parts.map(|(name, sum)| (name.to_owned(), sum.to_owned())).collect()
 }
 
-/// Typst is not needed to see that a picture is old.
+/// This test finds outdated pictures without Typst.
 #[test]
 fn pictures_are_made_from_what_is_printed() {
     let (shell, mut sums, mut old) = (Shell::new(), BTreeMap::new(), vec![]);
@@ -58,7 +58,7 @@ fn pictures_are_made_from_what_is_printed() {
     );
 }
 
-/// They show on a page of any color, in programs without fonts, and are small.
+/// Pictures can be shown on a page of any color and in programs without fonts, and are small.
 #[test]
 fn pictures_need_nothing() {
     let (mut bytes, mut wrong) = (0, vec![]);

@@ -1,4 +1,4 @@
-//! Plans pinned beside robot files: when they hold, and what the commands make of those that do not.
+//! Pinned plans: when they are valid, and how commands handle invalid ones.
 
 use std::path::Path;
 use std::time::{Duration, SystemTime};
@@ -10,7 +10,7 @@ const ARM: &str = "format = 1\n[robot]\nname = \"arm\"\ngravity = [0, \"-g\", 0]
     [[link]]\nname = \"1\"\njoint = { type = \"revolute\", axis = \"z\" }\nmass = \"m\"\n\
     center_of_mass = [0.1, 0, 0]\ninertia = { xx = 0.01, yy = 0.02, zz = 0.02 }\n";
 
-/// A robot file with its plan, in a folder of its own.
+/// Makes a robot file with its plan in a separate folder.
 fn pinned(test: &str) -> String {
     let path = folder(test).join("arm.toml").to_str().unwrap().to_owned();
     std::fs::write(&path, ARM).unwrap();
@@ -76,7 +76,7 @@ fn a_stale_plan_is_a_warning_where_nothing_is_built_and_an_error_where_code_is()
     }
     let compared = run(&["diff", &arm, &other]);
     assert!(compared.code == 1 && compared.errors.contains("stale"), "{}", compared.errors);
-    // What needs no plan says nothing.
+    // Commands that do not need a plan print no message.
     for command in ["equations", "show", "base", "document"] {
         output(&[command, &arm], "");
     }
@@ -87,7 +87,7 @@ fn a_stale_plan_is_a_warning_where_nothing_is_built_and_an_error_where_code_is()
     let warned = complaint(0, &["check", &arm], "");
     assert!(warned.contains("warning[R0803]") && warned.contains(&remedy), "{warned}");
 
-    // A file that is wrong is that, whatever is pinned.
+    // The errors of an invalid file are reported, whatever is pinned.
     edit(&arm, "mass = \"m\"", "mas = \"m\"");
     let broken = complaint(1, &["check", &arm], "");
     assert!(broken.contains("R0101") && !broken.contains("R0803"), "{broken}");
@@ -157,7 +157,7 @@ fn a_search_sets_the_time_of_the_robot_file_and_leaves_its_text() {
     assert_eq!(std::fs::read_to_string(&arm).unwrap(), ARM);
 }
 
-/// What lies where the plan would lie and cannot be one is told, and never waited for.
+/// A file at the path of the plan that cannot be a plan is reported, and the command never waits for it.
 #[cfg(unix)]
 #[test]
 fn what_is_no_file_is_no_plan() {
@@ -188,7 +188,7 @@ fn a_tuned_plan_is_one_of_those_with_the_fewest_operations() {
         return;
     }
     assert_eq!(outcome.code, 0, "{}", outcome.errors);
-    // The table of times: operations are 274 at least, and one plan is chosen.
+    // In the table of times, there are at least 274 operations, and one plan is chosen.
     let rows = outcome.output.lines().skip_while(|line| !line.contains("ns per call")).skip(1);
     let rows: Vec<&str> = rows.take_while(|line| !line.trim().is_empty()).collect();
     assert!(rows.len() > 1, "{}", outcome.output);

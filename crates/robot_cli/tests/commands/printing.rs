@@ -1,8 +1,8 @@
-//! What is printed for people: angles, letters, numbers.
+//! Output for people: angles, letters, numbers.
 
 use crate::{ROUNDED, complaint, folder, output, robot, rounded_output, run};
 
-/// An arm whose angles are rounded as exported files round them.
+/// An arm with angles that are rounded as in exported files.
 const ROUNDED_ANGLES: &str = r#"<robot name="rounded">
   <link name="base"/>
   <link name="upper">
@@ -126,7 +126,8 @@ fn letters_are_those_of_matrices_and_columns() {
         assert!(shown.contains("\ntau = M(q)*qdd + C(q, qd)*qd + g(q) + w\n"), "{shown}");
         assert!(shown.contains("\nC(q, qd) = [ "), "{shown}");
     }
-    // Greek letters are spelled in text and set in print, and entries that do not fit have the letter of their matrix.
+    // Greek letters are spelled out in text and typeset in formulas, and entries that do not fit have the letter of
+    // their matrix.
     let greek = ["--letters", "tau,Lambda,mu,p"];
     let shown = of("trttr1", &greek);
     assert!(shown.contains("\ntau = Lambda(q)*qdd + mu(q, qd) + p(q) + w\n"), "{shown}");
@@ -143,7 +144,7 @@ fn letters_are_those_of_matrices_and_columns() {
     ] {
         assert!(document.contains(meaning), "{meaning}: {document}");
     }
-    // The letters of the paper are a style of their own.
+    // The style of the paper has its own letters.
     let arguments = ["equations", &robot("trttr1"), "--style", "paper", "--letters", "field"];
     assert!(complaint(2, &arguments, "").contains("--letters"));
 }
@@ -206,7 +207,7 @@ fn vectors_have_right_angles_where_the_file_has_rounded_ones() {
 #[test]
 fn the_mass_matrix_is_m_unless_masses_are() {
     let grouped = |name| run(&["equations", &robot(name), "--form", "grouped"]).output;
-    // The wrench of a tip has M_x, which is no M_11.
+    // The wrench of a tip has M_x, which differs from M_11.
     for name in ["planar_2r", "puma560", "panda"] {
         assert!(grouped(name).contains("\nM_1_1 = "), "{name}");
     }
@@ -249,7 +250,8 @@ fn digits_are_rounded_for_people_alone() {
     assert!(!output(&["document", &robot("planar_2r")], "").contains("significant digits"));
 }
 
-/// Doubles that a program wrote into a robot file have their noise in the equations of nobody but machines, and that is said.
+/// The rounding noise of doubles that a program wrote into a robot file is printed only for machines; a note says that
+/// decimals are rounded.
 #[test]
 fn the_noise_of_doubles_is_not_printed() {
     let folder = folder("noise");
@@ -385,8 +387,8 @@ fn base_parameters_that_are_standard_ones_are_named_once() {
 }
 
 #[test]
-fn misspelt_files_of_states_are_suggested() {
-    let folder = folder("misspelt_states");
+fn misspelled_files_of_states_are_suggested() {
+    let folder = folder("misspelled_states");
     std::fs::write(folder.join("states.csv"), "q1,q2\n0,0\n").unwrap();
     let file = folder.join("stats.csv");
     let arguments =
@@ -437,7 +439,7 @@ fn base_parameters_are_printed_in_markdown() {
     assert!(told.contains("--numbers has no effect on Markdown"), "{told}");
 }
 
-/// A torque that others contain has its own name, and sums of which terms would cancel are not cut.
+/// A torque that others contain has its own name, and sums are not split if terms would then cancel.
 #[test]
 fn compact_equations_are_those_of_mechanics() {
     let shown = output(&["equations", &robot("planar_2r"), "--form", "compact"], "");

@@ -1,4 +1,4 @@
-//! What commands take of files and values, and what they say of what has no effect.
+//! The files and values that commands accept, and their messages about input without effect.
 
 use crate::{URDF, complaint, folder, output, robot, run, run_with};
 
@@ -96,7 +96,7 @@ fn a_trunk_that_stands_still_is_a_warning_everywhere() {
         let expected = "warning[R0617]: the base of 5 kg is fixed, and 2 branches move on it";
         assert!(shown.contains(expected), "{arguments:?}: {shown}");
     }
-    // The base of an arm is what it always was.
+    // The base of an arm is unchanged.
     let arm = URDF.replace(
         "<link name=\"base\"/>",
         "<link name=\"base\"><inertial><mass value=\"3\"/>\
@@ -127,7 +127,7 @@ fn what_bears_on_the_dynamics_and_is_not_read_is_told_in_a_line() {
     {
         assert!(shown.contains(part), "{shown}");
     }
-    // What says nothing of the dynamics is not told.
+    // Data that does not concern dynamics is not reported.
     let file = written("reading-plain", "arm.urdf", URDF);
     output(&["generate", &file], "");
     let negative = URDF.replace("effort=\"10\"", "effort=\"-10\"");
@@ -211,12 +211,12 @@ fn a_motion_with_a_kink_is_refused() {
     let shown = refused("q1=t;q2=abs(t-0.025)", "0.1");
     assert!(shown.contains("`q2`: the velocity jumps at t = 0.025"), "{shown}");
     assert!(shown.contains("from -1 to 1"), "{shown}");
-    // At a sample, at the beginning, between samples twice, and a position that jumps.
+    // A velocity that jumps at a sample, at the start, and twice between samples, and a position that jumps.
     assert!(refused("q1=t;q2=abs(t-0.02)", "0.1").contains("t = 0.02"));
     assert!(refused("q1=abs(t);q2=t", "0.1").contains("`q1`: the velocity jumps at t = 0 s"));
     assert!(refused("q1=abs(sin(9*t));q2=t", "1").contains("`q1`: the velocity jumps"));
     assert!(refused("q1=t;q2=sign(t-0.055)", "0.1").contains("`q2`: the position jumps"));
-    // Smooth where it switches: the velocity has a kink, no jump; and beyond the time.
+    // The velocity has a kink but no jump, or the jump is after the end.
     taken("q1=t*abs(t-0.025)*(t-0.025);q2=t", "0.1");
     taken("q1=t;q2=abs(t-0.3)", "0.1");
     taken("q1=tanh((t-0.5)/1e-3);q2=1e6*sin(50*t) + abs(t + 1)", "1");
@@ -237,7 +237,7 @@ fn a_pole_between_two_samples_is_refused() {
         |expressions| complaint(1, &arguments(expressions).each_ref().map(String::as_str), "");
     let shown = refused("q1=t;q2=1/(t-0.505)");
     assert!(shown.contains("`q2`: the position has no bound at t = 0.505"), "{shown}");
-    // Of even order, under a root, deep in a product, of a parameter, and at a sample.
+    // Poles of even order, under a root, deep in a product, of a parameter, and at a sample.
     for expressions in [
         "q1=1/(t-0.505)^2;q2=t",
         "q1=1/sqrt((t-0.505)^2);q2=t",
@@ -248,7 +248,7 @@ fn a_pole_between_two_samples_is_refused() {
         assert!(refused(expressions).contains("`q1`: the position has no bound"), "{expressions}");
     }
     assert!(refused("q1=1/(t-0.5);q2=t").contains("no bound at t = 0.5 s"));
-    // A divisor that passes 0 where the numerator does, one that does not, and one beyond the time.
+    // A divisor that is 0 where the numerator is, one that is never 0, and one that is 0 after the end.
     for expressions in [
         "q1=sin(t-0.505)/(t-0.505);q2=t",
         "q1=1/((t-0.505)^2+1e-9);q2=t",
@@ -268,7 +268,7 @@ fn torques_without_a_finite_value_are_an_error() {
 
 #[test]
 fn values_that_are_not_finite_are_told_by_their_cause() {
-    // Two massless links: at q2 = 0 the axes of the first and the last joint are one.
+    // Two massless links: at q2 = 0 the axes of the first and the last joint coincide.
     let text = "format = 1\n[robot]\nname = \"gimbal\"\n\
         [[link]]\nname = \"a\"\njoint = { type = \"revolute\", axis = \"z\" }\nmassless = true\n\
         [[link]]\nname = \"b\"\njoint = { type = \"revolute\", axis = \"y\" }\nmassless = true\n\
@@ -287,7 +287,7 @@ fn values_that_are_not_finite_are_told_by_their_cause() {
     );
     assert!(!shown.contains("q2 ="), "{shown}");
 
-    // Singular in every configuration.
+    // The mass matrix is singular in every configuration.
     let text = text.replace("axis = \"y\"", "axis = \"z\"");
     let file = written("reading-idle", "idle.toml", &text);
     let arguments = ["eval", &file, "--function", "forward_dynamics", "--states", "-"];

@@ -27,7 +27,7 @@ fn base_parameters_of_a_page_are_in_the_frames_that_are_asked_for() {
         output(&["report", &file, "--without-compiler", "--base-frames", frames], "")
     };
     let [own, other] = ["file", "denavit_hartenberg"].map(page);
-    // The moment of inertia about the first joint axis: ZZ in the file's frames, a second moment in the others.
+    // The moment of inertia about the first joint axis is ZZ in the file's frames, and a second moment in the others.
     let has = |page: &str, name: &str| page.contains(&format!("id=\"regrouped-{name}\""));
     assert!(has(&own, "ZZR-1") && !has(&own, "SYYR-1"));
     assert!(has(&other, "SYYR-1") && !has(&other, "ZZR-1"));

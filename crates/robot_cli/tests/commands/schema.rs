@@ -1,5 +1,5 @@
-//! `schema`: the committed schema is current, takes what the reader takes, and refuses what it
-//! refuses for keys and kinds of values.
+//! `schema`: the committed schema is current, accepts all files that the reader accepts, and rejects those that it
+//! rejects because of keys and kinds of values.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -63,7 +63,7 @@ fn what_the_reader_takes_is_valid() {
     texts.extend(pages.map(|text| ("an example".to_owned(), text)));
     texts.push(("everything.toml".to_owned(), EVERYTHING.to_owned()));
     let broken = files("crates/robot_model/tests/broken");
-    // Slips, and what only another figure makes wrong.
+    // Files with likely mistakes, and files that are invalid only with other values of parameters.
     texts.extend(broken.into_iter().filter(|(name, text)| read_toml(name, text).is_ok()));
     assert!(texts.len() >= 25, "{}", texts.len());
     for (name, text) in &texts {
@@ -87,7 +87,7 @@ fn wrong_keys_and_kinds_of_values_are_not() {
         if codes.contains(code::SYNTAX) {
             continue;
         }
-        // Numbers beyond the range are not read by every parser.
+        // Not every parser reads numbers outside the range.
         let Ok(value) = toml::from_str::<Value>(&text) else { continue };
         if codes.iter().any(|code| told.contains(code)) {
             refused += 1;
@@ -100,7 +100,7 @@ fn wrong_keys_and_kinds_of_values_are_not() {
     assert!(refused >= 15, "{refused}");
 }
 
-/// The keys of a shape and of those below it that an instance has.
+/// Collects the keys of a shape, and of the shapes below it, that an instance has.
 fn seen(shape: &'static Shape, value: &Value, keys: &mut BTreeSet<(*const Shape, &'static str)>) {
     let Value::Object(table) = value else { return };
     for key in shape.keys {
@@ -124,7 +124,7 @@ fn seen(shape: &'static Shape, value: &Value, keys: &mut BTreeSet<(*const Shape,
     }
 }
 
-/// All shapes of the file, each once.
+/// Collects all shapes of the file, each once.
 fn shapes(shape: &'static Shape, found: &mut Vec<&'static Shape>) {
     if found.iter().any(|one| std::ptr::eq(*one, shape)) {
         return;
@@ -142,7 +142,7 @@ fn shapes(shape: &'static Shape, found: &mut Vec<&'static Shape>) {
     }
 }
 
-/// The schema offers no key that the reader does not take somewhere, and the reference has all.
+/// The reader uses every key of the schema, and the reference documents all of them.
 #[test]
 fn every_key_is_read_and_documented() {
     let mut keys = BTreeSet::new();

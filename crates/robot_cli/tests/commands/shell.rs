@@ -1,4 +1,4 @@
-//! Commands as a user types them: the built command in a shell, in a folder with the robots.
+//! Commands as users type them: the built command in a shell, in a folder with the robots.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -12,7 +12,7 @@ pub(crate) struct Shell {
     path: std::ffi::OsString,
 }
 
-/// What a script has done.
+/// The result of a script.
 pub(crate) struct Done {
     pub(crate) code: Option<i32>,
     pub(crate) output: String,
@@ -20,7 +20,7 @@ pub(crate) struct Done {
 }
 
 impl Shell {
-    /// A fresh folder, outside of this workspace, so that Cargo does not take its packages for members.
+    /// Makes a new folder outside of this workspace, so that Cargo does not regard its packages as members.
     pub(crate) fn new() -> Shell {
         let folder = TempDir::new().unwrap();
         let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
@@ -47,7 +47,7 @@ impl Shell {
         std::fs::write(path, text).unwrap();
     }
 
-    /// Runs a script; it ends where a command fails. What Cargo builds goes to a folder of its own.
+    /// Runs a script, which ends if a command fails. Cargo builds into a separate folder.
     pub(crate) fn run(&self, script: &str) -> Done {
         let output = Command::new("sh")
             .args(["-eu", "-c", script])

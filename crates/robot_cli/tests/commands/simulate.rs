@@ -27,8 +27,8 @@ fn a_motion_is_csv_and_keeps_its_energy() {
     assert_eq!(column(&csv, "t").last(), Some(&2.0));
 }
 
-/// The torques of a motion, given as a file, bring the motion about again: they are linear in time, as
-/// the file is between its lines.
+/// The torques of a motion, given as a file, result in the same motion again: they are linear in time, as is the
+/// interpolation between the lines of the file.
 #[test]
 fn torques_from_a_file_repeat_the_motion() {
     let path = folder("simulate-file").join("motion.csv");
@@ -82,7 +82,7 @@ fn dry_friction_holds_and_lets_go() {
     }
     let moved = pushed("1=15", "1");
     assert!((column(&moved, "q1").last().unwrap() - 2.5).abs() < 1e-12);
-    // A force that jumps with the velocity asks for the impossible, and soon.
+    // With a force that jumps with the velocity there is no solution, which is reported soon.
     let jump = ["simulate", slide, "--friction", "--torque", "1=20*(1-qd1/abs(qd1))", "--qd0", "1"];
     let shown = complaint(1, &jump, "");
     assert!(shown.contains("the motion ends at t = 0.1"), "{shown}");
@@ -95,7 +95,7 @@ fn dry_friction_holds_and_lets_go() {
     assert!(steps.parse::<usize>().unwrap() < 2500, "{shown}");
 }
 
-/// A hopeless run ends after some thousand steps.
+/// A run that cannot succeed ends after a few thousand steps.
 #[test]
 fn steps_that_lead_nowhere_are_few() {
     let file = robot("planar_2r");
@@ -145,7 +145,7 @@ fn a_motion_through_a_singular_configuration_is_reported() {
     assert_eq!(from("0.1,0.5,0.2").errors, "");
 }
 
-/// I2 + m2 r2² is 0 but for rounding: a quotient by it is not an acceleration.
+/// I2 + m2 r2² is 0 except for rounding, so a quotient with it as divisor is not an acceleration.
 #[test]
 fn a_mass_matrix_of_rounding_is_reported() {
     let file = robot("planar_2r");
@@ -189,7 +189,7 @@ fn numbers_of_any_size_are_shown_short() {
     assert_eq!(column(&shown, "t"), [0.0, 1e-300]);
 }
 
-/// Runs a command line as documents show it: robot files of the project, other files in `folder`.
+/// Runs a command line as documents show it, with robot files of the project and other files in `folder`.
 fn run_line(line: &str, folder: &Path) {
     let mut words = vec![];
     for (index, part) in line.split('"').enumerate() {
@@ -218,8 +218,7 @@ fn run_line(line: &str, folder: &Path) {
     output_beside_files(&arguments);
 }
 
-/// What a picture says: its texts, but for the labels of the error of integration, which differ from
-/// one processor to the other.
+/// The texts of a picture, except the labels of the integration error, which depends on the processor.
 fn texts(svg: &str) -> Vec<&str> {
     let upto = svg.find("energy − start").unwrap_or(svg.len());
     svg[..upto].lines().filter(|line| !line.starts_with('<')).collect()
@@ -299,7 +298,7 @@ fn starts_may_be_in_degrees_and_the_drift_is_told() {
     let (_, energy) = outcome.output.split_once("; energy from ").unwrap();
     let (before, energy) = energy.split_once(" J to ").unwrap();
     let (after, change) = energy.split_once(" J, a relative change of ").unwrap();
-    // Six digits: the change says what the others would.
+    // The energies have six digits, because the change is also printed.
     assert!(before == after && before.len() <= 8, "{}", outcome.output);
     assert!(change.trim_end().contains("e-"), "{}", outcome.output);
     assert!(outcome.errors.contains(&format!("wrote {table} (")), "{}", outcome.errors);

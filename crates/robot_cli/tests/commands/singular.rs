@@ -1,4 +1,4 @@
-//! Robots without forward dynamics: the mass matrix is singular in every configuration.
+//! Robots without forward dynamics, because the mass matrix is singular in every configuration.
 
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ fn arm(test: &str) -> String {
     path
 }
 
-/// What a command tells of functions that there are not: in one line.
+/// Checks that a command reports missing functions in one line.
 #[track_caller]
 fn told(errors: &str) {
     let lines: Vec<&str> = errors.lines().filter(|line| line.contains(WHY)).collect();
@@ -64,12 +64,12 @@ fn all_functions_are_those_that_there_are() {
     assert_eq!(all.code, 0, "{}", all.errors);
     told(&all.errors);
     assert!(all.output.contains("fn mass_matrix") && !all.output.contains("forward_dynamics"));
-    // One that is named is an error.
+    // If such a function is named, that is an error.
     let function = ["--function", "forward_dynamics"];
     let named =
         complaint(1, &[&["generate", &arm, "--allow-massless"][..], &function].concat(), "");
     assert!(named.contains("forward dynamics has no solution"), "{named}");
-    // The usual functions do not report those that the robot lacks.
+    // With the usual functions, missing ones are not reported.
     let usual = run(&["generate", &arm, "--allow-massless"]);
     assert!(!usual.output.contains("forward_dynamics"), "{}", usual.output);
 }

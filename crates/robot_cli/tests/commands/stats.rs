@@ -36,7 +36,8 @@ fn text_has_a_line_for_each_function() {
     assert!(shown.lines().nth(2).unwrap().starts_with("  once for inverse_dynamics "));
 }
 
-/// Code beyond the instruction cache is said to wait for it; the estimate grows with the operations.
+/// For code larger than the instruction cache, the time to fetch it is reported; the estimate grows with the
+/// operations.
 #[test]
 fn code_sizes_are_told() {
     let file = robot("panda");

@@ -1,4 +1,4 @@
-//! Long inputs of `eval` and `torques`: what is in memory, and what an error near the end leaves.
+//! Long inputs of `eval` and `torques`: how much is in memory, and what remains after an error near the end.
 
 use std::cell::Cell;
 use std::fs;
@@ -6,16 +6,16 @@ use std::io::{Read, Write};
 
 use crate::{complaint, folder, output, output_beside_files, robot, run, run_with};
 
-/// Lines that have been read, and lines that have been printed.
+/// The numbers of lines that have been read and printed.
 #[derive(Default)]
 struct Lines {
     read: Cell<usize>,
     printed: Cell<usize>,
-    /// The most that were read and not printed.
+    /// The largest number of lines that were read but not yet printed.
     behind: Cell<usize>,
 }
 
-/// Lines of a header and states, made as they are read.
+/// A header and lines of states, which are made when they are read.
 struct States<'l> {
     lines: &'l Lines,
     count: usize,
@@ -41,7 +41,7 @@ impl Read for States<'_> {
     }
 }
 
-/// A writer that keeps nothing.
+/// A writer that only counts lines.
 struct Printed<'l>(&'l Lines);
 
 impl Write for Printed<'_> {
@@ -81,11 +81,11 @@ fn few_states_are_in_memory() {
     };
     assert_eq!(robot_cli::run(arguments, &mut terminal), 0);
     assert_eq!((lines.read.get(), lines.printed.get()), (count + 1, count + 1));
-    // A block of states, 64 KiB of input and 64 KiB of output are on their way.
+    // At most a block of states, 64 KiB of input and 64 KiB of output are in memory.
     assert!(lines.behind.get() < 8000, "{}", lines.behind.get());
 }
 
-/// Many states, of which the last is wrong.
+/// Many states, of which the last is invalid.
 fn wrong_at_the_end() -> String {
     let states: String = (1..9000).map(|number| format!("{number}e-3,2\n")).collect();
     format!("q1,q2\n{states}1,x\n")
@@ -118,7 +118,8 @@ fn an_error_near_the_end_leaves_no_file() {
     assert_eq!(names.collect::<Vec<_>>(), ["states.csv"]);
 }
 
-/// Standard output has what was computed before, in whole lines but for the last, and the code says that it is not all.
+/// Standard output has the results before the error, in complete lines except for the last, and the exit code shows
+/// that it is incomplete.
 #[test]
 fn an_error_near_the_end_is_told_after_the_output() {
     let file = robot("planar_2r");
@@ -129,7 +130,7 @@ fn an_error_near_the_end_is_told_after_the_output() {
     assert_eq!(found.errors, "error: standard input: line 9001: `q2` is `x`, not a number\n");
     assert!(found.output.len() > 100_000 && found.output.len() < whole.len());
     assert!(whole.starts_with(&found.output));
-    // What is short is printed as a whole or not at all.
+    // Short output is printed completely or not at all.
     complaint(1, &eval, "q1,q2\n1,2\n3,x\n");
 }
 
@@ -145,7 +146,7 @@ fn a_file_has_what_standard_output_has() {
         fs::write(&path, "").unwrap();
         assert_eq!(output_beside_files(&[&into[..], &format].concat()), "");
         assert_eq!(fs::read_to_string(&path).unwrap(), printed);
-        // The same is not written again; another file of this name is not replaced.
+        // A file with the same contents is not written again; another file with this name is not replaced.
         assert_eq!(output(&[&into[..], &format].concat(), ""), "");
         fs::write(&path, "mine").unwrap();
         let shown = complaint(1, &[&into[..], &format].concat(), "");
@@ -182,7 +183,7 @@ fn numbers_keep_their_bytes() {
     }
 }
 
-/// A wrench at the last of many states chooses the function for all of them, from a file as from a stream.
+/// A wrench at the last of many states determines the function for all of them, from a file and from a stream.
 #[test]
 fn a_wrench_at_the_end_counts_for_all() {
     let (folder, file) = (folder("streams-wrench"), robot("planar_2r"));
@@ -211,7 +212,7 @@ fn a_wrench_at_the_end_counts_for_all() {
     assert_ne!(lines[1], lines[20_001]);
 }
 
-/// The parts of a trajectory that are computed one by one are those of the whole.
+/// A trajectory that is computed in parts has the results of the whole.
 #[test]
 fn a_trajectory_in_parts_is_the_whole() {
     let (folder, file) = (folder("streams-parts"), robot("planar_2r"));

@@ -10,7 +10,7 @@ fn wrong_usage_has_its_own_code() {
     assert!(complaint(1, &["stats", "none.toml"], "").contains("there is no such file"));
 }
 
-/// A command that took a larger angle would print equations of another robot.
+/// If a command accepted a larger angle, it would print the equations of another robot.
 #[test]
 fn a_tolerance_that_is_no_small_angle_is_refused() {
     let file = robot("ur5");
@@ -58,7 +58,7 @@ fn an_imported_urdf_gives_the_same_torques() {
     let eval =
         |file| output(&["eval", file, "--function", "inverse_dynamics", "--states", "-"], states);
     assert_eq!(eval(urdf), eval(toml));
-    // Moments of inertia without mass: refused, unless that is waived.
+    // Moments of inertia without mass are an error, unless an option allows them.
     let massless = URDF.replace("<mass value=\"2\"/>", "<mass value=\"0\"/>");
     std::fs::write(urdf, massless).unwrap();
     assert!(complaint(1, &["import", urdf], "").contains("--allow-massless"));

@@ -1,4 +1,4 @@
-//! `watch`: the real process, its page and its end.
+//! `watch` as a real process, with its page and its end.
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use crate::{complaint, folder, robot};
 
-/// The command, watching a copy of the plane arm.
+/// The command while it watches a copy of the planar arm.
 struct Watch {
     process: Child,
     lines: Receiver<String>,
@@ -38,7 +38,7 @@ impl Watch {
         Watch { process, lines, file, page }
     }
 
-    /// Waits for a line, a minute at most.
+    /// Waits for a line, for at most a minute.
     fn wait_for(&self, wanted: &str) {
         loop {
             let line = self.lines.recv_timeout(Duration::from_secs(60));
@@ -54,7 +54,7 @@ impl Watch {
         std::fs::write(&self.file, text.replace(from, to)).unwrap();
     }
 
-    /// The picture that tells which page is the newest, once there is another than the one given.
+    /// The picture that identifies the newest page, when it differs from the given one.
     fn picture(&self, earlier: Option<&str>) -> String {
         let path = self.page.with_extension("html.svg");
         for _ in 0..600 {
@@ -66,7 +66,7 @@ impl Watch {
         panic!("there is no other picture");
     }
 
-    /// Presses Ctrl-C; gives the exit code.
+    /// Sends Ctrl-C; returns the exit code.
     fn end(&mut self) -> Option<i32> {
         let kill = Command::new("kill").args(["-INT", &self.process.id().to_string()]).status();
         assert!(kill.unwrap().success());
@@ -74,7 +74,7 @@ impl Watch {
     }
 }
 
-/// The text of a file that is there and not empty.
+/// The text of a file that exists and is not empty.
 fn read(path: &Path) -> Option<String> {
     std::fs::read_to_string(path).ok().filter(|text| !text.is_empty())
 }

@@ -1,5 +1,5 @@
-//! Printers of compiled modules: [`common`] has what a printer of any language needs, [`flat`] what those share that
-//! print functions of statements. Beside them stands a module for each language, behind a feature of its name.
+//! Printers of compiled modules. [`common`] is shared by the printers of all languages, [`flat`] by those that print
+//! functions of statements. Each language has a module of its own, behind a feature of its name.
 
 #[cfg(feature = "c")]
 pub mod c;

@@ -4,16 +4,16 @@ use crate::error::Errors;
 use crate::module::Module;
 use crate::program::Limits;
 
-/// A language that modules are printed in.
+/// A language in which modules are printed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Language {
-    /// Its name, as people write it.
+    /// The name of the language, as people write it.
     pub name: &'static str,
     /// The extension of its source files.
     pub extension: &'static str,
-    /// The words that no printed name may be, if names of a robot file are used.
+    /// The words that names from a robot file must not be in printed code.
     pub reserved: &'static [&'static str],
-    /// The sizes of expressions, blocks and functions that its compilers take well.
+    /// The sizes of expressions, blocks and functions that its compilers handle well.
     pub limits: Limits,
 }
 
@@ -22,19 +22,19 @@ pub struct Language {
 pub struct SourceFile {
     /// The name, without a folder.
     pub name: String,
-    /// What is in it.
+    /// The contents of the file.
     pub contents: Contents,
 }
 
 impl SourceFile {
-    /// A file of text.
+    /// Makes a text file.
     #[must_use]
     pub fn text(name: String, text: String) -> SourceFile {
         SourceFile { name, contents: Contents::Text(text) }
     }
 }
 
-/// What is in a file.
+/// The contents of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Contents {
     /// Text.
@@ -53,7 +53,7 @@ impl Contents {
         }
     }
 
-    /// The text; `None` of bytes that are not text.
+    /// The text; `None` if the file is not a text file.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         match self {
@@ -68,10 +68,10 @@ pub trait Target {
     /// The language.
     fn language(&self) -> &'static Language;
 
-    /// The source files of a module, in a fixed order.
+    /// Prints the source files of a module, in a fixed order.
     ///
     /// # Errors
     ///
-    /// Options that the language does not take, and constants that its numbers cannot hold.
+    /// Options that the language does not support, and constants that its number type cannot represent.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors>;
 }

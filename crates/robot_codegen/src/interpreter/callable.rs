@@ -8,14 +8,14 @@ use crate::program::{Program, Source};
 use crate::spec::Input;
 use crate::trigonometry::Trigonometry;
 
-/// The states of a block: so many that what is to be done for each operation is done rarely, and so few that the values
-/// of a program stay in the cache.
+/// The number of states in a block. It is large enough that decoding an operation takes little time per state, and
+/// small enough that the values of a program stay in the cache.
 const BLOCK: usize = 16;
 
-/// The rows that have an entry of an input, one for each state, and its place in them.
+/// The rows of an input, one for each state, and the index of an entry in each row.
 pub type Place<'v> = (&'v [Vec<f64>], usize);
 
-/// A function of a module whose parameters are given, looked up once.
+/// A function of a module whose parameters are given. It is looked up once and can be called many times.
 #[derive(Clone, Copy, Debug)]
 pub struct Callable<'i> {
     function: &'i Function,
@@ -23,7 +23,7 @@ pub struct Callable<'i> {
     trigonometry: Trigonometry,
 }
 
-/// The values of the programs at a block of states.
+/// The values of a function's programs at a block of states.
 struct Block<const STATES: usize> {
     values: Vec<[f64; STATES]>,
     /// The sines and cosines of the angles.
@@ -83,7 +83,7 @@ impl<'i> Callable<'i> {
         &self.function.core
     }
 
-    /// The entries of all outputs at a state; inputs by name.
+    /// Computes the entries of all outputs at one state; the inputs are given by name.
     ///
     /// # Errors
     ///
@@ -95,18 +95,19 @@ impl<'i> Callable<'i> {
         Ok(found)
     }
 
-    /// Computes one state: the entries of all inputs, in their order, and those of all outputs.
+    /// Computes one state. `inputs` has the entries of all inputs, in their order; `outputs` receives those of all
+    /// outputs.
     ///
     /// # Errors
     ///
-    /// Another number of entries.
+    /// The number of entries is wrong.
     pub fn entries(self, inputs: &[f64], outputs: &mut [f64]) -> Result<(), Errors> {
         self.check_columns(inputs.len(), outputs.len())?;
         self.blocks::<1>(1, |entry, _| inputs[entry], |entry, _, value| outputs[entry] = value);
         Ok(())
     }
 
-    /// The outputs of [`Callable::call`] with their names and shapes.
+    /// Splits the values returned by [`Callable::call`] into outputs with their names and shapes.
     #[must_use]
     pub fn named(self, values: Vec<f64>) -> Vec<OutputValues> {
         let mut values = values.into_iter();
@@ -118,12 +119,12 @@ impl<'i> Callable<'i> {
         outputs.collect()
     }
 
-    /// Computes many states: `inputs` has a column for each entry of the inputs, in their order, `outputs` one for
-    /// each entry of the outputs; row i of all columns is of state i. Nothing is allocated for a state.
+    /// Computes many states. `inputs` has a column for each entry of the inputs, in their order, and `outputs` has one
+    /// for each entry of the outputs; row i of every column belongs to state i. Memory is not allocated for each state.
     ///
     /// # Errors
     ///
-    /// Another number of columns than there are entries; columns that are not all of one length.
+    /// The number of columns differs from the number of entries, or the columns have different lengths.
     pub fn columns(self, inputs: &[&[f64]], outputs: &mut [&mut [f64]]) -> Result<(), Errors> {
         let states = self.check_lengths(inputs, outputs)?;
         let read = |entry: usize, state: usize| inputs[entry][state];
@@ -131,7 +132,7 @@ impl<'i> Callable<'i> {
         Ok(())
     }
 
-    /// The number of states of columns, if they are those of [`Callable::columns`].
+    /// Returns the number of states, if the columns are valid arguments of [`Callable::columns`].
     ///
     /// # Errors
     ///
@@ -153,11 +154,11 @@ impl<'i> Callable<'i> {
         Errors::check(errors, states)
     }
 
-    /// Whether there are as many columns, or numbers of one state, as entries.
+    /// Checks that there are as many columns, or numbers of one state, as entries.
     ///
     /// # Errors
     ///
-    /// Another number.
+    /// The number is different.
     pub fn check_columns(self, inputs: usize, outputs: usize) -> Result<(), Errors> {
         let mut errors = vec![];
         for (kind, expected, found) in
@@ -171,12 +172,12 @@ impl<'i> Callable<'i> {
         Errors::check(errors, ())
     }
 
-    /// Computes a number of states: `inputs` has for each input, by name, its entries at each state; the result for
-    /// each state the entries of all outputs.
+    /// Computes several states. `inputs` has the entries of each named input at each state; the result has, for each
+    /// state, the entries of all outputs.
     ///
     /// # Errors
     ///
-    /// Inputs that are missing, unknown, of the wrong length at a state, or of another number of states.
+    /// Inputs that are missing or unknown, have the wrong length at a state, or have different numbers of states.
     pub fn states(
         self,
         states: usize,
@@ -192,7 +193,7 @@ impl<'i> Callable<'i> {
         Ok(found)
     }
 
-    /// For each entry of the inputs, in their order, the rows that have it and its place in them.
+    /// Returns, for each entry of the inputs, in their order, the rows that contain it and its index in them.
     ///
     /// # Errors
     ///
@@ -221,8 +222,8 @@ impl<'i> Callable<'i> {
         Ok(entries.collect())
     }
 
-    /// Computes the states block by block. `read` gives an entry of the inputs at a state, `write` takes one of the
-    /// outputs. The last block is filled up with its last state.
+    /// Computes the states block by block. `read` returns an entry of the inputs at a state, `write` stores an entry of
+    /// the outputs. The last state is repeated to fill the last block.
     fn blocks<const STATES: usize>(
         self,
         states: usize,
@@ -244,7 +245,7 @@ impl<'i> Callable<'i> {
         }
     }
 
-    /// Leaves the values of the arithmetic at a block of states.
+    /// Computes the values of the arithmetic at a block of states.
     fn block<const STATES: usize>(
         self,
         read: impl Fn(usize) -> [f64; STATES],
@@ -305,7 +306,7 @@ impl<'i> Callable<'i> {
         Ok(entries.copied().collect())
     }
 
-    /// Whether these inputs, with these numbers of entries, are the function's.
+    /// Checks that the function has exactly these inputs with these numbers of entries.
     fn check(self, given: &[(&str, usize)]) -> Result<(), Errors> {
         let function = self.function;
         let mut errors = vec![];

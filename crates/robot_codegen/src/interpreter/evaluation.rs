@@ -1,4 +1,4 @@
-//! The operations of a program, one by one, at one state or at a block of states.
+//! Evaluation of a program, operation by operation, at one state or at a block of states.
 
 use robot_runtime::{Scalar as _, trig};
 use robot_symbolic::Function as Call;
@@ -13,7 +13,7 @@ pub(super) fn sin_cos(trigonometry: Trigonometry, angle: f64) -> (f64, f64) {
     }
 }
 
-/// The functions as generated code has them.
+/// Evaluates a function as generated code does.
 pub(crate) fn call(trigonometry: Trigonometry, function: Call, argument: f64) -> f64 {
     match function {
         Call::Sin => sin_cos(trigonometry, argument).0,
@@ -25,7 +25,7 @@ pub(crate) fn call(trigonometry: Trigonometry, function: Call, argument: f64) ->
     }
 }
 
-/// The results of a program, given what its loads read. A multiply-add rounds twice.
+/// Computes the results of a program, given the values that its loads read. A multiply-add rounds twice.
 #[must_use]
 pub fn evaluate(
     program: &Program,
@@ -37,8 +37,8 @@ pub fn evaluate(
     program.results().iter().map(|value| values[value.index()][0]).collect()
 }
 
-/// Puts the values of a program at a block of states into `values`, in place of what was there: for each value
-/// of the program its numbers, one for each state. Each state is computed as if it were alone.
+/// Replaces the contents of `values` with the values of a program at a block of states: one array for each value of the
+/// program, with one number for each state. The result for a state does not depend on the other states.
 pub(crate) fn evaluate_block<const STATES: usize>(
     program: &Program,
     trigonometry: Trigonometry,

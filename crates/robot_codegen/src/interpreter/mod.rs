@@ -1,12 +1,12 @@
-//! Running programs without compiling them.
+//! The interpreter, which runs programs without compiling them.
 //!
-//! The interpreter does the operations of the generated code in `f64`, one by one and in the same
-//! order, so that numbers can be had without a compiler and generated code can be checked to the
-//! last bit (but for multiply-adds, those of the runtime's sines among them, which round twice here on
-//! every machine and once on targets that fuse them).
+//! The interpreter does the operations of the generated code in `f64`, one by one and in the same order.
+//! It computes values without a compiler, and generated code can be compared with it to the last bit, except
+//! for multiply-adds, including those of the runtime's sines: here they round twice on every machine, in
+//! compiled code once on targets that fuse them.
 //!
-//! [`Interpreter::call`] takes everything by name. If one function runs at many states,
-//! [`Interpreter::function`] looks it up once and gives a [`Callable`], which computes blocks of states.
+//! [`Interpreter::call`] takes the function and its inputs by name. If one function runs at many states,
+//! [`Interpreter::function`] looks it up once and returns a [`Callable`], which computes blocks of states.
 
 mod callable;
 mod evaluation;
@@ -25,18 +25,18 @@ use crate::program::Source;
 use crate::rounding::{self, Rounded};
 use crate::trigonometry::Trigonometry;
 
-/// A module with its parameters given.
+/// A module with values of its parameters.
 #[derive(Clone, Debug)]
 pub struct Interpreter<'m> {
     module: Cow<'m, Module>,
     parameters: Vec<f64>,
     fields: Vec<f64>,
-    /// The fields with bounds of their rounding, once these are asked for.
+    /// The fields with bounds on their rounding errors, computed on first use.
     rounded: OnceLock<Vec<Rounded>>,
     trigonometry: Trigonometry,
 }
 
-/// An output of a call.
+/// One output of a call.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OutputValues {
     /// The name.
@@ -48,7 +48,7 @@ pub struct OutputValues {
 }
 
 impl<'m> Interpreter<'m> {
-    /// Runs the constructor: the parameters that `given` names, the others at their nominal values.
+    /// Runs the constructor with the parameter values in `given`; all other parameters have their nominal values.
     ///
     /// # Errors
     ///
@@ -57,7 +57,7 @@ impl<'m> Interpreter<'m> {
         Interpreter::of(Cow::Borrowed(module), given)
     }
 
-    /// [`Interpreter::new`] with ownership of the module.
+    /// Does the same as [`Interpreter::new`], but takes ownership of the module.
     ///
     /// # Errors
     ///
@@ -92,7 +92,7 @@ impl<'m> Interpreter<'m> {
         Ok(Interpreter { module, parameters, fields, rounded: OnceLock::new(), trigonometry })
     }
 
-    /// Takes sines and cosines, of the constructor as well, from elsewhere.
+    /// Changes the source of sines and cosines, including those of the constructor.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Interpreter<'m> {
         if trigonometry == self.trigonometry {
@@ -102,7 +102,7 @@ impl<'m> Interpreter<'m> {
         Interpreter { fields, rounded: OnceLock::new(), trigonometry, ..self }
     }
 
-    /// Calls a function; inputs by name.
+    /// Calls a function; the inputs are given by name.
     ///
     /// # Errors
     ///
@@ -116,8 +116,9 @@ impl<'m> Interpreter<'m> {
         Ok(function.named(function.call(inputs)?))
     }
 
-    /// [`Interpreter::call`] with all outputs in one array and bounds of their rounding errors, that
-    /// of the constructor and of the parameters' values included: half a unit in the last place of each.
+    /// Calls a function as [`Interpreter::call`] does, but returns all outputs in one array, with bounds on their
+    /// rounding errors. The bounds include the errors of the constructor and of the parameters' values: half a unit in
+    /// the last place of each value.
     ///
     /// # Errors
     ///
@@ -138,7 +139,7 @@ impl<'m> Interpreter<'m> {
         Ok(rounding::evaluate(callable.core(), self.trigonometry, load))
     }
 
-    /// The values that the constructor stores, with bounds of their rounding.
+    /// Computes the values that the constructor stores, with bounds on their rounding errors.
     fn rounded_fields(&self) -> Vec<Rounded> {
         rounding::evaluate(&self.module.constructor, self.trigonometry, |source| {
             let value = match source {
@@ -155,13 +156,13 @@ impl<'m> Interpreter<'m> {
         &self.module
     }
 
-    /// The fields: what the constructor stores.
+    /// The fields: the values that the constructor stores.
     #[must_use]
     pub fn fields(&self) -> &[f64] {
         &self.fields
     }
 
-    /// A function by its name.
+    /// Looks up a function by its name.
     ///
     /// # Errors
     ///
@@ -178,7 +179,7 @@ impl<'m> Interpreter<'m> {
     }
 }
 
-/// The values that the constructor stores.
+/// Computes the values that the constructor stores.
 fn fields(module: &Module, parameters: &[f64], trigonometry: Trigonometry) -> Vec<f64> {
     evaluate(&module.constructor, trigonometry, |source| match source {
         Source::Parameter(index) => parameters[index as usize],

@@ -1,8 +1,8 @@
-//! Arrival order: sums and products take their operands as these become known, so that no result
-//! waits for more than it must.
+//! Arrival order: sums and products combine their operands in the order in which these become known, so that no
+//! result waits longer than necessary.
 //!
-//! A recursion hands each link the sums of the link before it. If those come last into a sum, each
-//! link adds one operation to the chain that a call waits for, in place of one for each term.
+//! In a recursion, each link uses the sums of the link before it. If these are the last terms of a sum, each link
+//! adds a single operation to the longest chain of a call, instead of one for each term.
 
 use super::nary::Node;
 use super::waiting::Waiting;
@@ -15,13 +15,14 @@ pub(super) fn run(program: &Program) -> Program {
     ordered(program, false).view.program()
 }
 
-/// The program in that order, all settled; `fused` says whether products will become part of multiply-adds.
+/// Returns the reordered program, with the arrival time of every node; `fused` says whether products will become part
+/// of multiply-adds.
 pub(super) fn ordered(program: &Program, fused: bool) -> Waiting {
     let mut waiting = Waiting::new(program, fused);
     for id in waiting.ids() {
         match waiting.view.node(id).clone() {
             Node::Sum(mut terms) => {
-                // Of what is known at once, the product is last, which then fuses.
+                // Of terms known at the same time, a product is last, because it can then be fused.
                 terms.sort_by_key(|term| {
                     let node = term.node;
                     (waiting.known(node), waiting.fuses(node), term.negative)
@@ -52,7 +53,7 @@ mod tests {
         assert_same_values("arrival order", run);
     }
 
-    /// Ten sums, each of the one before it, of a product and of three inputs: the term that is known late comes first.
+    /// Ten sums, each of the sum before it, a product and three inputs. The term that is known late comes first.
     fn recursion() -> Program {
         let mut b = Builder::new();
         let mut late = b.load(Source::Input(0));
@@ -69,7 +70,8 @@ mod tests {
     #[test]
     fn what_is_known_late_comes_last() {
         let (program, ordered) = (recursion(), run(&recursion()));
-        // A product and three sums a link. A product and one sum, but for the first, which has nothing late.
+        // As built, a product and three sums for each link. Reordered, a product and one sum, except for the first
+        // link, which has no late term.
         assert_eq!(longest_chain(&program), 10 * (PRODUCT + 3 * SUM));
         assert_eq!(longest_chain(&ordered), 3 * SUM + 9 * (PRODUCT + SUM));
     }

@@ -2,7 +2,7 @@
 
 use crate::program::{Operation, Program, Value};
 
-/// Removes what no result needs; the order of the rest stays.
+/// Removes operations that no result needs; the order of the others does not change.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
     let mut needed = vec![false; program.operations().len()];

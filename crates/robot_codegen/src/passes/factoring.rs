@@ -5,10 +5,10 @@ use rustc_hash::FxHashMap;
 use super::nary::{Id, Nary, Node, Term};
 use crate::program::Program;
 
-/// Takes common factors out of sums, the one that saves most first.
+/// Takes common factors out of sums, first those that save most.
 ///
-/// Terms in parameters alone cost nothing at a call: x p + x r becomes x (p + r) with the
-/// sum in the constructor. Reassociates.
+/// Terms that contain only parameters cost nothing at a call: x p + x r becomes x (p + r), and the
+/// constructor computes the sum. This pass reassociates.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
     let mut view = Nary::new(program);
@@ -26,13 +26,13 @@ pub(super) fn run(program: &Program) -> Program {
     view.program()
 }
 
-/// A factor and the terms of the sum that have it.
+/// A factor and the terms of the sum that contain it.
 struct Factoring {
     factor: Id,
     terms: Vec<usize>,
 }
 
-/// The factoring of a sum that saves most operations; of several, the one of the earliest node.
+/// Returns the factoring of a sum that saves the most operations; of several, the one with the earliest node as factor.
 fn best(view: &Nary, sum: Id, uses: &[u32]) -> Option<Factoring> {
     let Node::Sum(terms) = view.node(sum) else {
         return None;
@@ -67,7 +67,7 @@ fn best(view: &Nary, sum: Id, uses: &[u32]) -> Option<Factoring> {
     best.map(|(_, factoring)| factoring)
 }
 
-/// The factors of a term that nothing else needs; else the term is its own only factor.
+/// Returns the factors of a term if nothing else uses it; otherwise the term itself is the only factor.
 fn factors(view: &Nary, node: Id, uses: &[u32]) -> Vec<Id> {
     match view.node(node) {
         Node::Product(factors) if uses[node as usize] == 1 => factors.clone(),
@@ -75,7 +75,7 @@ fn factors(view: &Nary, node: Id, uses: &[u32]) -> Vec<Id> {
     }
 }
 
-/// The factors but one.
+/// Returns all factors except one.
 fn without(mut factors: Vec<Id>, factor: Id) -> Vec<Id> {
     if let Some(place) = factors.iter().position(|known| *known == factor) {
         factors.remove(place);
@@ -90,7 +90,7 @@ fn saving(view: &Nary, terms: &[Term], factor: Id, places: &[usize], uses: &[u32
     let rests: Vec<Vec<Id>> = rests.collect();
     let inner_early = rests.iter().filter(|rest| is_early(rest)).count();
     let inner = operations(rests.len(), inner_early);
-    // The factor times the inner sum, which is early if all of it is.
+    // The product of the factor and the inner sum, which is early if all its terms are.
     let whole_early = inner_early == rests.len();
     let product = operations(2, usize::from(view.is_early(factor)) + usize::from(whole_early));
     let outside: Vec<usize> = (0..terms.len()).filter(|place| !places.contains(place)).collect();
@@ -109,14 +109,14 @@ fn saving(view: &Nary, terms: &[Term], factor: Id, places: &[usize], uses: &[u32
     before.saturating_sub(after)
 }
 
-/// The operations at a call that join so many operands, those known early joined in
-/// the constructor.
+/// Returns the number of operations at a call that combine so many operands; the constructor combines those that are
+/// known early.
 fn operations(operands: usize, early: usize) -> usize {
     if operands == early { 0 } else { operands - early - 1 + usize::from(early > 0) }
 }
 
 impl Factoring {
-    /// Rewrites the sum; gives the new sum that is multiplied by the factor.
+    /// Rewrites the sum; returns the new sum that is multiplied by the factor.
     fn apply(&self, view: &mut Nary, sum: Id) -> Id {
         let Node::Sum(terms) = view.node(sum).clone() else {
             return sum;
@@ -178,7 +178,7 @@ mod tests {
         let [xy, xz, yw] = [b.mul(x, y), b.mul(x, z), b.mul(y, w)];
         let (sum, rest) = (b.add(xy, xz), b.mul(xz, w));
         let sum = b.sub(sum, yw);
-        // x y + x z − y w with x z needed again: y (x − w) + x z.
+        // x y + x z − y w, if x z is needed again, becomes y (x − w) + x z.
         let factored = Counts::of(&run(&b.finish(vec![sum, rest])));
         assert_eq!((factored.mul, factored.add), (3, 2));
     }
@@ -203,8 +203,8 @@ mod tests {
         }
     }
 
-    /// p r x + p s y: with p r and p s from the constructor two products and a sum, and no factoring of p
-    /// makes them fewer.
+    /// p r x + p s y: the constructor computes p r and p s, so two products and a sum remain; factoring out p does not
+    /// save any.
     #[test]
     fn what_saves_nothing_stays() {
         let mut b = Builder::new();
@@ -217,7 +217,7 @@ mod tests {
         assert_eq!((counts.mul, counts.add), (2, 1));
     }
 
-    /// p x + p: the constructor has p, and p (x + 1) is as many operations.
+    /// p x + p: p is known before the call, and p (x + 1) has the same number of operations.
     #[test]
     fn a_parameter_is_not_taken_out_of_what_costs_as_much() {
         let mut b = Builder::new();
@@ -240,7 +240,7 @@ mod tests {
         assert_eq!((counts.mul, counts.add), (1, 0));
     }
 
-    /// The operations of a call of the sums and products of a view, equal ones counted each.
+    /// The operations at a call of the sums and products of a view; equal operations are each counted.
     fn operations_of(view: &Nary) -> usize {
         let uses = view.uses();
         let needed =
@@ -257,7 +257,7 @@ mod tests {
             .sum()
     }
 
-    /// The saving that a factoring predicts is confirmed by counting operations before and after.
+    /// The predicted saving of a factoring is the difference of the operations before and after it.
     #[test]
     fn savings_come_as_foretold() {
         let mut counted = 0;
@@ -285,7 +285,7 @@ mod tests {
         assert!(counted > 100, "{counted}");
     }
 
-    /// Of two factors that save as much, the one of the earliest node; of two that do not, the better.
+    /// Of two factors that save equally much, the earlier node is taken; otherwise the factor that saves more.
     #[test]
     fn the_factor_that_saves_most_is_taken() {
         let mut b = Builder::new();
@@ -319,7 +319,7 @@ mod tests {
     fn no_program_costs_more_and_many_less() {
         let (before, after) = operations_left(run);
         assert!(before == 6338 && after <= 4876, "{before} became {after}");
-        // A second time there is little left: what one factor gave may give another.
+        // A second run may save a little more: the result of one factoring can allow another.
         let (once, twice) = operations_left(|program| run(&run(program)));
         assert!(twice <= after && once == before, "{after} became {twice}");
     }

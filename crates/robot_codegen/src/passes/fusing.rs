@@ -1,11 +1,11 @@
-//! Fusing: a product and the sum that alone uses it become a multiply-add.
+//! Fusing: a product that is used only by one sum becomes a multiply-add together with that sum.
 
 use crate::program::{Builder, Operation, Program, Value};
 
-/// Forms a multiply-add of each sum with a product that it alone uses. Changes of sign are part of
+/// Forms a multiply-add from each sum and a product that only this sum uses. Changes of sign are part of
 /// the instruction.
 ///
-/// Without a fused instruction on the target, not a bit changes.
+/// If the target has no fused instruction, no bits change.
 #[must_use]
 pub(crate) fn run(program: &Program) -> Program {
     let fusible = fusible(program);
@@ -42,9 +42,9 @@ pub(crate) fn run(program: &Program) -> Program {
     super::dead_code::run(&builder.finish(results.collect()))
 }
 
-/// For each value, whether it is a product that one sum alone uses, as one of its operands.
+/// For each value, whether it is a product that is used only once, as an operand of a sum.
 ///
-/// A product of several sums would be multiplied in each, if sums cost as little as products.
+/// A product that several sums use would have to be multiplied in each of them.
 fn fusible(program: &Program) -> Vec<bool> {
     let mut fusible = vec![false; program.operations().len()];
     let uses = program.uses();
@@ -56,8 +56,8 @@ fn fusible(program: &Program) -> Vec<bool> {
             }
         }
     }
-    // One product alone can be part of the instruction: of two the one that is known later, for the
-    // sum need not wait for it.
+    // Only one product can be part of the instruction. Of two, it is the one that is known later, because the
+    // sum then does not wait for a separate product.
     let depths = depths(program);
     for operation in program.operations() {
         if let Operation::Add(a, b) | Operation::Sub(a, b) = *operation
@@ -71,7 +71,7 @@ fn fusible(program: &Program) -> Vec<bool> {
     fusible
 }
 
-/// For each value, how many operations follow each other up to it.
+/// For each value, the length of the longest chain of operations that ends with it.
 fn depths(program: &Program) -> Vec<u32> {
     let mut depths: Vec<u32> = Vec::with_capacity(program.operations().len());
     for operation in program.operations() {
@@ -95,7 +95,7 @@ mod tests {
         assert_same_bits("fusing", run);
     }
 
-    /// x y z + u v: the sum waits for x y z anyway, and u v is there before.
+    /// x y z + u v: the sum waits for x y z anyway, and u v is known earlier.
     #[test]
     fn of_two_products_the_later_is_part_of_the_instruction() {
         for swapped in [false, true] {
@@ -114,7 +114,7 @@ mod tests {
         }
     }
 
-    /// The multiply-adds and operations of what `build` makes, whose values stay.
+    /// The numbers of multiply-adds and of operations of the program that `build` makes; checks that its values stay.
     fn fused(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> (usize, usize) {
         let mut b = Builder::new();
         let loads = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
@@ -174,7 +174,7 @@ mod tests {
         assert_eq!((sums.0, result.0, square.0), (0, 0, 0));
     }
 
-    /// Loads are at the depth 0, and each operation one below the deepest of its operands.
+    /// Loads have the depth 0, and each operation is one deeper than the deepest of its operands.
     #[test]
     fn depths_are_those_of_the_deepest_operand() {
         let mut b = Builder::new();

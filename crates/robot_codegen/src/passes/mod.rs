@@ -1,10 +1,10 @@
-//! Passes over programs: each takes a [`Program`] and gives one that computes the same results.
+//! Passes over programs: each takes a [`Program`] and returns one that computes the same results.
 //!
-//! The recursion that made the expressions decides what a program costs; the passes save a few
-//! operations in a hundred, more if a recursion repeats itself, and order the rest.
+//! The cost of a program is mainly determined by the recursion that made the expressions. The passes save a few
+//! percent of the operations, more if a recursion repeats itself, and order the rest.
 //!
-//! Each pass is a function in a file of its own and proved on random programs to keep the values:
-//! to the last bit if it does not reassociate, else to rounding.
+//! Each pass is a function in a file of its own. Tests on random programs check that it keeps the values:
+//! to the last bit if it does not reassociate, otherwise up to rounding.
 
 mod arrival;
 mod dead_code;
@@ -28,35 +28,36 @@ use crate::cost::Cost;
 use crate::counts::{Counts, PassCounts};
 use crate::program::Program;
 
-/// Values, summed over the rounds, after which no further round begins: the first saves nearly all, and
-/// for functions of dozens of joints each takes a second. Those of arms have some thousands.
+/// The number of values, summed over the rounds, after which no further round begins. The first round saves nearly
+/// everything, and for functions of dozens of joints each round takes a second. Functions of arms have a few thousand
+/// values.
 const MAX_WORK: usize = 100_000;
 
-/// Which passes run, and what they minimize.
+/// The passes that run, and the cost that they minimize.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// `factoring` of sums.
+    /// Whether `factoring` of sums runs.
     pub factoring: bool,
-    /// `pair_reuse` in sums and products.
+    /// Whether `pair_reuse` in sums and products runs.
     pub pair_reuse: bool,
     /// The effort of `resubstitution`.
     pub resubstitution: Resubstitution,
-    /// The most times these run in turn; they end when none saves anything.
+    /// The most rounds of these passes. The rounds end when no pass saves anything.
     pub rounds: usize,
-    /// The order of sums and products: `arrival`, and `product_last` if multiply-adds follow.
+    /// Whether sums and products are reordered: by `product_last` if multiply-adds follow, otherwise by `arrival`.
     pub arrival: bool,
-    /// `signs` into differences.
+    /// Whether `signs` moves changes of sign into differences.
     pub signs: bool,
     /// Whether products and sums become multiply-adds.
     pub fused: Fused,
     /// The order of statements.
     pub schedule: Schedule,
-    /// The measure by which the result of a pass is taken or left.
+    /// The measure by which the result of a pass is taken or discarded.
     pub cost: Cost,
 }
 
 impl Default for Options {
-    /// Everything but multiply-adds; the fewest operations.
+    /// All passes except multiply-adds; minimizes the number of operations.
     fn default() -> Options {
         Options {
             factoring: true,
@@ -73,8 +74,8 @@ impl Default for Options {
 }
 
 impl Options {
-    /// The program as the expressions were built, but for dead code: what the other passes save is
-    /// the difference.
+    /// No passes except the removal of dead code: the program as the expressions were built. The difference in cost
+    /// is the saving of the other passes.
     #[must_use]
     pub fn none() -> Options {
         Options {
@@ -92,22 +93,22 @@ impl Options {
 /// The effort of `resubstitution`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Resubstitution {
-    /// Not at all.
+    /// The pass does not run.
     Off,
-    /// For equal values and multiples: quick.
+    /// Searches for equal values and multiples; quick.
     #[default]
     Multiples,
-    /// Also for sums and products of two values: the time grows with the square of the program.
+    /// Also searches for sums and products of two values; the time grows with the square of the program's length.
     Pairs,
 }
 
 /// Whether products and sums become multiply-adds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Fused {
-    /// Never: the same bits on every target.
+    /// Never, so that the bits are the same on every target.
     #[default]
     Never,
-    /// Fuses if the target has the instruction; otherwise the same code multiplies and adds.
+    /// If the target has the instruction; otherwise the same code multiplies and adds.
     WhereTarget,
 }
 
@@ -129,7 +130,7 @@ pub(crate) fn run(
         let factored = options.factoring && runner.attempt("factoring", factoring::run);
         let reused = options.pair_reuse && runner.attempt("pair reuse", pair_reuse::run);
         if round > 0 && !factored && !reused {
-            // The program is as resubstitution left it, and that had found nothing more.
+            // The program has not changed since resubstitution, which had already taken all that it found.
             break;
         }
         let effort = options.resubstitution;
@@ -144,7 +145,7 @@ pub(crate) fn run(
     (runner.program, runner.report)
 }
 
-/// The passes on a program that loads fields: those that depend on the final operations.
+/// Runs the passes that depend on the final operations, on a program that loads fields.
 pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<PassCounts>) {
     let mut runner = Runner { program: program.clone(), cost: options.cost, report: vec![] };
     runner.take("constructor", dead_code::run);
@@ -164,7 +165,7 @@ pub(crate) fn finish(program: &Program, options: &Options) -> (Program, Vec<Pass
     (runner.program, runner.report)
 }
 
-/// The passes for programs off the path of a call.
+/// Runs the passes for programs that are not part of a call's arithmetic.
 pub(crate) fn tidy(program: &Program) -> Program {
     dead_code::run(&signs::run(&dead_code::run(program)))
 }
@@ -193,8 +194,8 @@ impl Runner {
         self.note(name);
     }
 
-    /// Takes the result of a pass if, `finished`, no result waits longer, for what was a tree of sums can
-    /// have become a chain, and if no operation is added.
+    /// Takes the result of a pass if, after `finished`, no result waits longer and no operation is added. A result can
+    /// wait longer if a tree of sums has become a chain.
     fn take_order(
         &mut self,
         name: &'static str,
@@ -278,7 +279,7 @@ mod tests {
         report.iter().map(|counts| counts.pass).collect()
     }
 
-    /// A round after one that saved something; it ends if the first two save nothing more.
+    /// A round that follows a saving round ends after its first two passes if these save nothing more.
     #[test]
     fn rounds_end_when_nothing_is_saved() {
         let program = |saves: bool| {
@@ -308,7 +309,7 @@ mod tests {
             [&start[..], &round[..1], &round[..1]].concat()
         );
         assert_eq!(of(true, Options { rounds: 0, ..all }), start);
-        // (x z + y z)/z beside x + y: resubstitution alone saves.
+        // (x z + y z)/z, if x + y is computed too: only resubstitution saves operations.
         let mut b = Builder::new();
         let [x, y, z] = [0, 1, 2].map(|index| b.load(Source::Input(index)));
         let (sum, xz, yz) = (b.add(x, y), b.mul(x, z), b.mul(y, z));
@@ -318,7 +319,7 @@ mod tests {
         assert_eq!(names(&report), [&start[..], &round, &round[..2]].concat());
     }
 
-    /// Thousands of sums x y + x z: more values than the rounds may see, once.
+    /// Thousands of sums x y + x z, one program with fewer values than the limit of the rounds and one with more.
     #[test]
     fn large_programs_have_one_round() {
         let rounds = |sums: u32| {
@@ -339,7 +340,7 @@ mod tests {
             assert_eq!(Counts::of_calls(&found).operations(), 2 * sums as usize);
             names(&report).into_iter().filter(|name| *name == "factoring").count()
         };
-        // Six values a sum.
+        // Six values for each sum.
         let most = MAX_WORK as u32 / 6;
         assert_eq!((rounds(most - 10), rounds(most + 10)), (2, 1));
     }
@@ -360,7 +361,8 @@ mod tests {
         );
     }
 
-    /// A program that costs as much is left, and so is one that waits longer or adds an operation in another order.
+    /// The result of a pass is discarded if it costs as much as before, and that of a reordering if it waits longer or
+    /// adds an operation.
     #[test]
     fn results_of_passes_are_taken_where_they_are_better() {
         let program = |value: u32| {
@@ -393,7 +395,7 @@ mod tests {
         }
     }
 
-    /// The fewest operations of all: with pairs, and what each pass adds to the others.
+    /// All passes together, over several rounds, leave fewer operations than one round or than without one of them.
     #[test]
     fn together_passes_save_more_than_each() {
         let left = |options: Options| {

@@ -1,4 +1,4 @@
-//! Pair reuse: two terms or factors that occur together in several sums or products are joined
+//! Pair reuse: two terms or factors that occur together in several sums or products are combined only
 //! once.
 
 use std::cmp::Reverse;
@@ -9,13 +9,13 @@ use rustc_hash::FxHashMap;
 use super::nary::{Id, Nary, Node, Term};
 use crate::program::Program;
 
-/// Longer sums and products are left alone: their pairs are too many.
+/// The most terms of a sum or factors of a product; longer ones have too many pairs and are not changed.
 const LONGEST: usize = 64;
 
-/// Joins pairs, the most frequent one first.
+/// Joins pairs, the most frequent pair first.
 ///
-/// Terms pair up to a common sign. What depends on parameters alone is joined in any case, for it
-/// costs nothing at a call. Reassociates.
+/// Pairs of terms that differ by a common sign are equal. Terms that depend only on parameters are always joined,
+/// because their sum costs nothing at a call. This pass reassociates.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
     let mut view = Nary::new(program);
@@ -60,7 +60,7 @@ struct Rows {
     kind: Kind,
     rows: Vec<(Id, Vec<Term>)>,
     counts: FxHashMap<Pair, u32>,
-    /// The rows in which a pair stood when it was counted; it may have left them since.
+    /// The rows that contained a pair when it was counted. Some of them may no longer contain it.
     places: FxHashMap<Pair, Vec<usize>>,
     heap: BinaryHeap<(u32, Reverse<Pair>)>,
 }
@@ -123,7 +123,7 @@ impl Rows {
             if now == count {
                 self.join(pair, view);
             } else if now > 1 {
-                // It was counted higher before some of its rows changed.
+                // Its count was higher before some of its rows changed.
                 self.heap.push((now, Reverse(pair)));
             }
         }
@@ -132,7 +132,7 @@ impl Rows {
         }
     }
 
-    /// Puts one node in the place of a pair wherever it occurs.
+    /// Replaces a pair with one node wherever it occurs.
     fn join(&mut self, pair: Pair, view: &mut Nary) {
         let mut rows = self.places.remove(&pair).unwrap_or_default();
         rows.sort_unstable();
@@ -190,7 +190,7 @@ impl Rows {
     }
 }
 
-/// Joins the terms that are known before the call into one, the same for the same terms.
+/// Joins the terms that are known before the call into one node; equal terms give the same node.
 fn join_early(
     view: &mut Nary,
     kind: Kind,
@@ -279,7 +279,7 @@ mod tests {
         assert_eq!(Counts::of(&run(&b.finish(vec![cube, other]))).mul, 4);
     }
 
-    /// The operations left of what `build` makes, whose values stay.
+    /// The operations that remain of the program that `build` makes; checks that its values stay.
     fn left(build: impl Fn(&mut Builder, [Value; 5]) -> Vec<Value>) -> (usize, usize) {
         let mut b = Builder::new();
         let loads = inputs(&mut b);
@@ -327,14 +327,14 @@ mod tests {
         let square = left(|b, [u, v, ..]| vec![joined(b, &[u, u, v, v], Builder::mul)]);
         let fourth = left(|b, [u, ..]| vec![joined(b, &[u, u, u, u], Builder::mul)]);
         let cube = left(|b, [u, ..]| vec![joined(b, &[u, u, u], Builder::mul)]);
-        // u⁴ v² beside u v: ((u v) u)²
+        // u⁴ v², if u v is computed too: ((u v) u)²
         let fifth = left(|b, [u, v, ..]| {
             vec![joined(b, &[u, u, v, u, v, u], Builder::mul), joined(b, &[u, v], Builder::mul)]
         });
         assert_eq!([three, square, fourth, cube, fifth].map(|counts| counts.1), [4, 2, 2, 2, 3]);
     }
 
-    /// The pair that occurs in three sums is joined before the two that occur in two, which it breaks.
+    /// The most frequent pairs are joined first.
     #[test]
     fn the_commonest_pair_is_joined_first() {
         let sums = left(|b, [u, v, x, y, z]| {
@@ -344,7 +344,7 @@ mod tests {
         assert_eq!(sums.0, 7);
     }
 
-    /// Terms known early are joined in the constructor, the same for the same terms of either sign.
+    /// Terms known early are joined in the constructor; the same terms with opposite signs share a node.
     #[test]
     fn early_terms_of_many_sums_are_one() {
         let mut b = Builder::new();
@@ -363,7 +363,7 @@ mod tests {
         assert_eq!(products.1, 2);
     }
 
-    /// Sums of 64 terms are looked at, those of 65 are not.
+    /// Sums of 64 terms are changed, sums of 65 are not.
     #[test]
     fn the_longest_sums_are_left_alone() {
         let added = |terms: u32| {

@@ -7,8 +7,8 @@ use super::nary::{Id, Node, Term};
 use super::waiting::Waiting;
 use crate::program::Program;
 
-/// Orders sums and products by [`arrival`]; then lets each sum that starts with a product of its own start
-/// with the first of its terms that is not, if no result is known later for it. Reassociates.
+/// Orders sums and products by [`arrival`]. Then a sum that starts with a product that only it uses starts with the
+/// first other kind of term instead, if that does not delay any result. This pass reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program) -> Program {
     let waiting = arrival::ordered(program, true);
@@ -19,8 +19,8 @@ pub(crate) fn run(program: &Program) -> Program {
 
 struct Order {
     waiting: Waiting,
-    /// For each node, when it has to be known for no result to be known later than the last is; of a
-    /// product that fuses, when its factors have to be.
+    /// For each node, the latest cycle at which it may be known without delaying the last result; for a
+    /// product that fuses, the latest cycle for its factors.
     needed: Vec<u32>,
 }
 
@@ -42,7 +42,7 @@ impl Order {
         *needed = by.min(*needed);
     }
 
-    /// Orders a node that has to be known by a cycle, and says when its operands have to be.
+    /// Orders the operands of a node that has to be known by a cycle, and records when its operands have to be known.
     fn visit(&mut self, id: Id, by: u32) {
         match self.waiting.view.node(id).clone() {
             Node::Leaf(_) => {}
@@ -60,7 +60,7 @@ impl Order {
         }
     }
 
-    /// The last multiplication has to start by a cycle.
+    /// Records when the factors of a product have to be known whose last multiplication has to start by a cycle.
     fn visit_product(&mut self, factors: &[Id], mut by: u32) {
         for (place, factor) in factors.iter().enumerate().rev() {
             self.need(*factor, by);
@@ -76,14 +76,15 @@ impl Order {
                 by -= self.waiting.added_by(term);
                 self.need(term.node, by);
             } else {
-                // Of a product that fuses, its factors: it is multiplied here.
+                // A product that would fuse is multiplied separately as the first term, so its factors are needed
+                // earlier.
                 let product = if self.waiting.fuses(term.node) { PRODUCT } else { 0 };
                 self.need(term.node, by - product);
             }
         }
     }
 
-    /// The terms in the order that fuses one product more, if the sum is known in time.
+    /// Returns the terms in the order that fuses one more product, if the sum is then still known in time.
     fn product_last(&self, terms: Vec<Term>, by: u32) -> Vec<Term> {
         let fuses = |term: &Term| self.waiting.fuses(term.node);
         let plain = terms.iter().position(|term| !fuses(term));
@@ -129,14 +130,14 @@ mod tests {
         let [x, y, z, w, v] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
         let (xy, zw) = (b.mul(x, y), b.mul(z, w));
         let products = b.add(xy, zw);
-        // Known late: to start with it would put both products behind it.
+        // This term is known late: if the sum started with it, both products would wait for it.
         let late = b.call(Function::Sqrt, v);
         let sum = b.add(products, late);
         let program = b.finish(vec![sum]);
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
     }
 
-    /// A sum that is also a factor: the product with it has to be known before the last factor is.
+    /// A sum that is also a factor: its product has to be known before the last factor is known.
     #[test]
     fn no_product_waits_for_it() {
         let mut b = Builder::new();
@@ -155,8 +156,8 @@ mod tests {
         assert_eq!(Counts::of(&fusing::run(&run(&program))).fused, 1);
     }
 
-    /// x y + z w + late, where `late` is known so many sums after the inputs and the sum is needed by a
-    /// chain, or has so many sums to spare beside another.
+    /// x y + z w + r, where r is the reciprocal of a chain of `late` sums. Another result is a reciprocal divided
+    /// `spare` times.
     fn fused_with(late: usize, spare: usize) -> usize {
         let mut b = Builder::new();
         let loads: Vec<_> = (0..40).map(|index| b.load(Source::Input(index))).collect();
@@ -175,7 +176,7 @@ mod tests {
         Counts::of(&fusing::run(&run(&program))).fused
     }
 
-    /// The first term may be a late one if another result is later still.
+    /// A sum can start with a late term if another result is even later.
     #[test]
     fn time_to_spare_is_used() {
         // The sum with the late term first is known at 13 + 2 · 4 cycles, with it last at 13 + 3.
@@ -185,8 +186,8 @@ mod tests {
         assert_eq!([0, 1, 2].map(|spare| fused_with(2, spare)), [1, 1, 2]);
     }
 
-    /// Layers of a b ± c d + e, with quotients and functions between them: what one result waits for, others
-    /// have time for.
+    /// Layers of a b ± c d + e, with quotients and functions between them. A value for which one result waits
+    /// can be early enough for the others.
     fn layers(seed: u64) -> Program {
         let mut random = Random::new(seed);
         let mut b = Builder::new();
@@ -210,7 +211,7 @@ mod tests {
         b.finish(pool[pool.len() - 4..].to_vec())
     }
 
-    /// No result of any program is later than in the order of arrival, and more products fuse.
+    /// No program's last result is later than in the order of arrival, and more products fuse.
     #[test]
     fn nothing_is_lost_against_the_order_of_arrival() {
         let (mut before, mut after) = (0, 0);

@@ -1,12 +1,12 @@
-//! Signs: a change of sign is taken into a subtraction or a constant if that is possible.
+//! Signs: changes of sign are moved into subtractions or constants if possible.
 
 use crate::program::{Builder, Operation, Program, Value};
 
-/// The most operations that a sign may pass to find a place.
+/// The most operations through which a change of sign may be moved.
 const DEPTH: usize = 12;
 
-/// Lets the negatives of values that nothing else uses sink to a difference, which turns round, or
-/// to a constant factor. No bits of a finite result change but the signs of zeros.
+/// Moves the negation of a value that nothing else uses to a difference, whose operands are swapped, or
+/// to a constant. The bits of finite results do not change, except for the signs of zeros.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
     let mut signs =
@@ -29,8 +29,8 @@ struct Signs<'p> {
 }
 
 impl Signs<'_> {
-    /// Whether the value can become its negative at no cost: nothing else uses it, nor what the
-    /// sign sinks through.
+    /// Whether the value can be replaced with its negative at no cost: nothing else uses it or any value through which
+    /// the sign is moved.
     fn can_sink(&self, value: Value, depth: usize) -> bool {
         if self.uses[value.index()] != 1 || depth == 0 {
             return false;
@@ -44,7 +44,7 @@ impl Signs<'_> {
         }
     }
 
-    /// Whether an operand takes the sign: a constant does, whatever else uses it.
+    /// Whether an operand can take the sign. A constant always can, even if it has other users.
     fn takes(&self, operand: Value, depth: usize) -> bool {
         self.is_constant(operand) || self.can_sink(operand, depth - 1)
     }
@@ -83,7 +83,7 @@ impl Signs<'_> {
         super::dead_code::run(&builder.finish(results.collect()))
     }
 
-    /// The negative of an operation with an operand that is flipped already, or of a constant.
+    /// Builds the negative of an operation: of a difference, or of an operation with a flipped operand or a constant.
     fn negative(&self, operation: Operation, values: &[Value], builder: &mut Builder) -> Value {
         let at = |value: Value| values[value.index()];
         let mut operand = |value: Value| match self.program.operation(value) {
@@ -93,7 +93,7 @@ impl Signs<'_> {
         let negative = match operation {
             Operation::Sub(a, b) => Operation::Sub(at(b), at(a)),
             Operation::Mul(a, b) | Operation::Div(a, b) | Operation::Add(a, b) => {
-                // Of two operands that could take the sign, one does.
+                // If both operands could take the sign, only one does.
                 let (first, is_negative) = operand(a);
                 let (first, second, order) =
                     if is_negative { (first, at(b), false) } else { (operand(b).0, at(a), true) };
@@ -139,7 +139,7 @@ mod tests {
         assert_eq!(Counts::of(&run(&program)).neg, 0);
     }
 
-    /// The changes of sign that are left of −value, and the results at two inputs before and after.
+    /// The number of changes of sign that remain; checks that the results at two inputs stay the same.
     fn left(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> usize {
         let mut b = Builder::new();
         let loads = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
@@ -156,7 +156,7 @@ mod tests {
         Counts::of(&found).neg
     }
 
-    /// −(x − y), alone and as an operand of each operation, on either side.
+    /// −(x − y), by itself and as the left or right operand of each operation.
     #[test]
     fn every_operation_passes_a_sign_on() {
         type Make = fn(Value, Value) -> Operation;
@@ -172,7 +172,8 @@ mod tests {
                         let scaled = b.push(Operation::Mul(value, z));
                         vec![b.neg(value), b.neg(scaled)]
                     });
-                    // The first use of two stays as it is; the other operand of the second takes no sign.
+                    // A value with two uses is not flipped, and the other operand of the second use cannot take the
+                    // sign.
                     assert_eq!(negatives, 2);
                     let negatives = left(|b, [x, y, z, _]| {
                         let part = if constant { b.constant(2.5) } else { b.sub(x, y) };
@@ -199,7 +200,7 @@ mod tests {
             let product = b.mul(root, z);
             vec![b.neg(product)]
         });
-        // A constant is flipped whatever else uses it, one of two operands alone.
+        // A constant is flipped even if it has other users, but only one of two operands is.
         let constant = left(|b, [x, y, z, w]| {
             let third = b.constant(1.5);
             let (first, second) = (b.mul(third, x), b.mul(third, y));
@@ -211,7 +212,7 @@ mod tests {
         assert_eq!((shared, call, constant), (1, 1, 0));
     }
 
-    /// Through as many operations as its depth, and no further.
+    /// A sign is moved through as many operations as the depth allows, and no further.
     #[test]
     fn a_sign_sinks_so_deep() {
         let through = |operations: usize| {

@@ -6,7 +6,7 @@ use super::dead_code;
 use crate::counts::Counts;
 use crate::program::{Builder, Operation, Program, Source, Value};
 
-/// Between 1/4 and 7/4, or the negative of such a number.
+/// A random number between 1/4 and 7/4, or the negative of such a number.
 fn real(random: &mut Random) -> f64 {
     let size = random.uniform(0.25, 1.75);
     if random.index(2) == 0 { size } else { -size }
@@ -14,14 +14,14 @@ fn real(random: &mut Random) -> f64 {
 
 const SEEDS: u64 = 200;
 
-/// Square roots are left out: a sum that rounds to just below 0 has none.
+/// The functions in random programs, without square roots, because a sum can round to just below 0.
 const FUNCTIONS: [Function; 5] =
     [Function::Abs, Function::Sin, Function::Cos, Function::Sign, Function::Tanh];
 
-/// Stands for a bound if rounding may have decided a sign: nothing follows from the value.
+/// The bound of a value if rounding may have determined a sign, so that nothing follows from the value.
 const UNDECIDED: f64 = 1e100;
 
-/// A program with loads of parameters and inputs, many sums and products, and some of the rest.
+/// Returns a program with loads of parameters and inputs, many sums and products, and some other operations.
 pub(super) fn random_program(seed: u64) -> Program {
     let mut random = Random::new(seed);
     let mut builder = Builder::new();
@@ -48,7 +48,7 @@ pub(super) fn random_program(seed: u64) -> Program {
     builder.finish(results.collect())
 }
 
-/// Sums of products of few loads, some of them of parameters: much to take out, to join and to find again.
+/// Returns sums of products of few loads, some of them of parameters, with many common factors, pairs and equal values.
 pub(super) fn random_polynomials(seed: u64) -> Program {
     let mut random = Random::new(seed ^ 0x9017);
     let mut builder = Builder::new();
@@ -77,7 +77,7 @@ pub(super) fn random_polynomials(seed: u64) -> Program {
     builder.finish(results)
 }
 
-/// The program with inputs in the place of parameters.
+/// Returns the program with inputs instead of parameters.
 pub(super) fn inputs_only(program: &Program) -> Program {
     let mut b = Builder::new();
     let mut values: Vec<Value> = vec![];
@@ -91,8 +91,8 @@ pub(super) fn inputs_only(program: &Program) -> Program {
     dead_code::run(&b.finish(results.collect()))
 }
 
-/// The operations at calls of many programs of sums and products, before and after a pass, which makes
-/// none of them more.
+/// Returns the operations at calls of many programs of sums and products, before and after a pass; checks that the pass
+/// adds none to any program.
 pub(super) fn operations_left(pass: impl Fn(&Program) -> Program) -> (usize, usize) {
     let (mut before, mut after) = (0, 0);
     for seed in 0..SEEDS {
@@ -105,7 +105,7 @@ pub(super) fn operations_left(pass: impl Fn(&Program) -> Program) -> (usize, usi
     (before, after)
 }
 
-/// The value of each result, and a bound of how far rounding can move it, in units of 2⁻⁵³.
+/// Returns the value of each result and a bound on its rounding error, in units of 2⁻⁵³.
 fn values_with_bounds(program: &Program, load: impl Fn(Source) -> f64) -> Vec<(f64, f64)> {
     let mut values: Vec<(f64, f64)> = vec![];
     for operation in program.operations() {
@@ -131,7 +131,7 @@ fn values_with_bounds(program: &Program, load: impl Fn(Source) -> f64) -> Vec<(f
                 let decided = at(a).0.abs() > 1e-15 * at(a).1;
                 (Function::Sign.apply(at(a).0), if decided { 0.0 } else { UNDECIDED })
             }
-            // No other has a slope beyond 1.
+            // The slopes of all other functions are at most 1.
             Operation::Call(function, a) => (function.apply(at(a).0), at(a).1),
         };
         values.push((value, bound + value.abs()));
@@ -139,7 +139,7 @@ fn values_with_bounds(program: &Program, load: impl Fn(Source) -> f64) -> Vec<(f
     program.results().iter().map(|value| values[value.index()]).collect()
 }
 
-/// Both programs at random loads, as pairs of values with the bound of the first.
+/// Evaluates both programs at random loads; returns pairs of values with the bound of the first.
 fn compare(program: &Program, other: &Program, seed: u64) -> Vec<(f64, f64, f64)> {
     let mut random = Random::new(seed ^ 0x5eed);
     let table: Vec<f64> = (0..16).map(|_| real(&mut random)).collect();
@@ -157,13 +157,13 @@ fn compare(program: &Program, other: &Program, seed: u64) -> Vec<(f64, f64, f64)
     pairs.map(|((a, bound), (b, other))| (a, b, bound.max(other))).collect()
 }
 
-/// A pass that may reassociate: the values stay up to rounding.
+/// Checks a pass that may reassociate: the values stay the same up to rounding.
 pub(super) fn assert_same_values(name: &str, pass: impl Fn(&Program) -> Program) {
     let mut finite = 0;
     for seed in 0..2 * SEEDS {
         let program = if seed < SEEDS { random_program(seed) } else { random_polynomials(seed) };
         for (expected, found, bound) in compare(&program, &pass(&program), seed) {
-            // Quotients by values that canceled to nothing compare nothing.
+            // Divisors that canceled to almost nothing make a comparison meaningless.
             if !bound.is_finite() || bound > 1e9 {
                 continue;
             }
@@ -178,7 +178,7 @@ pub(super) fn assert_same_values(name: &str, pass: impl Fn(&Program) -> Program)
     assert!(finite > 2 * SEEDS, "{finite} results compared");
 }
 
-/// A pass that does not reassociate: the bits stay.
+/// Checks a pass that does not reassociate: the bits stay the same.
 pub(super) fn assert_same_bits(name: &str, pass: impl Fn(&Program) -> Program) {
     for seed in 0..SEEDS {
         let program = random_program(seed);

@@ -2,7 +2,7 @@
 
 use crate::program::{Builder, Program, Value};
 
-/// Rebuilds the program so that each operation is there once. No bits of a finite result change.
+/// Rebuilds the program so that each operation occurs once. No bits of a finite result change.
 #[must_use]
 pub(super) fn run(program: &Program) -> Program {
     let mut builder = Builder::new();

@@ -1,10 +1,10 @@
-//! Arrival times of values: cycles from the start of a call, with room for everything at once.
+//! Arrival times of values: cycles from the start of a call, on a processor without limits of throughput.
 
 use super::latency::{FUSED, PRODUCT, QUOTIENT, SUM, latency, of_call};
 use super::nary::{Id, Nary, Node, Term};
 use crate::program::Program;
 
-/// Cycles from the start of a program to the last of its results.
+/// Returns the cycles from the start of a program to the last of its results.
 pub(super) fn longest_chain(program: &Program) -> u32 {
     let mut known: Vec<u32> = Vec::with_capacity(program.operations().len());
     for operation in program.operations() {
@@ -14,7 +14,7 @@ pub(super) fn longest_chain(program: &Program) -> u32 {
     program.results().iter().map(|value| known[value.index()]).max().unwrap_or(0)
 }
 
-/// A program as sums and products, and when the nodes settled so far are known.
+/// A program as sums and products, with the arrival times of the nodes that are settled so far.
 pub(super) struct Waiting {
     pub(super) view: Nary,
     uses: Vec<u32>,
@@ -23,14 +23,15 @@ pub(super) struct Waiting {
 }
 
 impl Waiting {
-    /// Nothing is settled; `fused` says whether products will become part of multiply-adds.
+    /// Makes the view of a program, in which no node is settled; `fused` says whether products will become part of
+    /// multiply-adds.
     pub(super) fn new(program: &Program, fused: bool) -> Waiting {
         let view = Nary::new(program);
         let (uses, known) = (view.uses(), vec![0; view.len()]);
         Waiting { view, uses, fused, known }
     }
 
-    /// All nodes of the program, operands before what uses them.
+    /// The nodes of the program, operands before the nodes that use them.
     pub(super) fn ids(&self) -> std::ops::Range<Id> {
         0..self.known.len() as Id
     }
@@ -40,24 +41,24 @@ impl Waiting {
         self.known[id as usize]
     }
 
-    /// The cycle at which the first term of a sum is known, which fuses with nothing.
+    /// The cycle at which a node is known if it is the first term of a sum, where it is not fused.
     pub(super) fn known_first(&self, id: Id) -> u32 {
         self.known(id) + if self.fuses(id) { PRODUCT } else { 0 }
     }
 
-    /// Whether a node is a product that becomes part of a multiply-add if something precedes it in
+    /// Whether a node is a product that becomes part of a multiply-add if it is not the first term of
     /// the one sum that uses it.
     pub(super) fn fuses(&self, id: Id) -> bool {
         let own = self.fused && self.uses[id as usize] == 1 && !self.view.is_early(id);
         own && matches!(self.view.node(id), Node::Product(factors) if factors.len() > 1)
     }
 
-    /// Cycles that a term adds to the sum of those before it.
+    /// The cycles that it takes to add a term to the terms before it.
     pub(super) fn added_by(&self, term: &Term) -> u32 {
         if self.fuses(term.node) { FUSED } else { SUM }
     }
 
-    /// The cycle at which a sum is known that takes its terms in this order.
+    /// The cycle at which a sum is known if it adds its terms in this order.
     pub(super) fn sum(&self, terms: &[Term]) -> u32 {
         let Some((first, rest)) = terms.split_first() else { return 0 };
         rest.iter().fold(self.known_first(first.node), |sum, term| {
@@ -65,7 +66,8 @@ impl Waiting {
         })
     }
 
-    /// Settles when a node is known, whose operands are settled. What needs no inputs is known at once.
+    /// Computes the arrival time of a node whose operands are settled. A node that needs no inputs is known at the
+    /// start.
     pub(super) fn settle(&mut self, id: Id) {
         if self.view.is_early(id) {
             return;
@@ -82,7 +84,7 @@ impl Waiting {
         };
     }
 
-    /// The cycle at which the last multiplication of a product can start, which takes its factors in this order.
+    /// The cycle at which the last multiplication of a product can start if it multiplies its factors in this order.
     fn product(&self, factors: &[Id]) -> u32 {
         let Some((first, rest)) = factors.split_first() else { return 0 };
         let mut ready = self.known(*first);
@@ -109,8 +111,8 @@ mod tests {
         results.map(|term| waiting.known(term.node)).max().unwrap()
     }
 
-    /// What the view says of a program before it is one, the chain of its operations confirms. What is
-    /// computed by the constructor is left out of both.
+    /// The arrival times of the view agree with the longest chain of operations in the program. Both exclude
+    /// the operations of the constructor.
     #[test]
     fn the_last_result_is_known_at_the_end_of_the_longest_chain() {
         for seed in 0..200 {
@@ -120,7 +122,7 @@ mod tests {
         }
     }
 
-    /// The cycle at which each result is known, for a program that `build` makes of inputs.
+    /// The cycle at which the result of a program that `build` makes from inputs is known.
     fn known(fused: bool, build: impl Fn(&mut Builder, [Value; 5]) -> Value) -> u32 {
         let mut b = Builder::new();
         let loads = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
@@ -173,7 +175,7 @@ mod tests {
             b.add(sum, v)
         });
         assert_eq!((one, two, three), (FUSED, PRODUCT + FUSED, SUM + FUSED));
-        // A value used by two sums is multiplied by itself.
+        // A product used by two sums is a multiplication of its own.
         let shared = known(true, |b, [x, y, z, u, _]| {
             let product = b.mul(x, y);
             let (first, second) = (b.add(product, z), b.add(product, u));

@@ -1,14 +1,14 @@
-//! Building programs, each value once.
+//! A builder of programs in which each value occurs once.
 
 use robot_symbolic::Function;
 use rustc_hash::FxHashMap;
 
 use super::{Constant, Operation, Program, Source, Value};
 
-/// Builds a [`Program`], giving equal operations one value.
+/// Builds a [`Program`] in which equal operations are one value.
 ///
-/// The rules it applies change no bits of any finite result but the sign of a zero: constants fold,
-/// 0 and ±1 vanish, signs move outward, and of a − b and b − a only the first is computed.
+/// Its rules change no bits of a finite result except the signs of zeros: operations on constants are evaluated,
+/// 0 and ±1 vanish, signs move outward, and of a − b and b − a only the first to occur is computed.
 #[derive(Debug, Default)]
 pub struct Builder {
     operations: Vec<Operation>,
@@ -16,7 +16,7 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// A builder of an empty program.
+    /// Makes a builder with an empty program.
     #[must_use]
     pub fn new() -> Builder {
         Builder::default()
@@ -28,13 +28,13 @@ impl Builder {
         self.operations[value.index()]
     }
 
-    /// The program with the given results.
+    /// Returns the program with these results.
     #[must_use]
     pub fn finish(self, results: Vec<Value>) -> Program {
         Program::new(self.operations, results)
     }
 
-    /// The value of an operation without simplification; the earlier value if there is one.
+    /// Adds an operation without simplification; returns the earlier value if the operation already exists.
     pub fn push(&mut self, operation: Operation) -> Value {
         let next = Value(self.operations.len() as u32);
         let value = *self.index.entry(operation).or_insert(next);
@@ -44,7 +44,7 @@ impl Builder {
         value
     }
 
-    /// The value of an operation, by the rules.
+    /// Adds an operation and applies the rules.
     pub fn apply(&mut self, operation: Operation) -> Value {
         match operation {
             Operation::Constant(value) => self.constant(value.get()),
@@ -59,17 +59,17 @@ impl Builder {
         }
     }
 
-    /// A constant.
+    /// Adds a constant.
     pub fn constant(&mut self, value: f64) -> Value {
         self.push(Operation::Constant(Constant::new(value)))
     }
 
-    /// A load.
+    /// Adds a load.
     pub fn load(&mut self, source: Source) -> Value {
         self.push(Operation::Load(source))
     }
 
-    /// a + b
+    /// Adds a + b.
     pub fn add(&mut self, a: Value, b: Value) -> Value {
         match (self.positive(a), self.positive(b)) {
             (Signed(x, true), Signed(y, true)) => {
@@ -88,7 +88,7 @@ impl Builder {
         }
     }
 
-    /// a − b
+    /// Adds a − b.
     pub fn sub(&mut self, a: Value, b: Value) -> Value {
         match (self.positive(a), self.positive(b)) {
             (_, Signed(y, true)) => return self.add(a, y),
@@ -110,7 +110,7 @@ impl Builder {
         }
     }
 
-    /// a b
+    /// Adds a b.
     pub fn mul(&mut self, a: Value, b: Value) -> Value {
         let (Signed(x, minus_a), Signed(y, minus_b)) = (self.positive(a), self.positive(b));
         if minus_a || minus_b {
@@ -127,7 +127,7 @@ impl Builder {
         }
     }
 
-    /// a / b
+    /// Adds a / b.
     pub fn div(&mut self, a: Value, b: Value) -> Value {
         let (Signed(x, minus_a), Signed(y, minus_b)) = (self.positive(a), self.positive(b));
         if minus_a || minus_b {
@@ -142,7 +142,7 @@ impl Builder {
         }
     }
 
-    /// −a
+    /// Adds −a.
     pub fn neg(&mut self, a: Value) -> Value {
         match self.operation(a) {
             Operation::Neg(x) => x,
@@ -151,7 +151,7 @@ impl Builder {
         }
     }
 
-    /// A function of a value.
+    /// Adds a function of a value.
     pub fn call(&mut self, function: Function, a: Value) -> Value {
         let Signed(x, minus) = self.positive(a);
         match function {
@@ -161,7 +161,7 @@ impl Builder {
                 self.neg(value)
             }
             _ => match self.number(a) {
-                // Rounded once by definition, on every machine; the others are not.
+                // These functions are exactly defined on every machine; the others are not.
                 Some(x)
                     if matches!(
                         function,
@@ -175,7 +175,7 @@ impl Builder {
         }
     }
 
-    /// The constant that a value is.
+    /// Returns the number of a value that is a constant.
     fn number(&self, value: Value) -> Option<f64> {
         match self.operation(value) {
             Operation::Constant(constant) => Some(constant.get()),
@@ -183,7 +183,7 @@ impl Builder {
         }
     }
 
-    /// The value without its sign: of −x and of a constant below 0.
+    /// Splits off the sign of −x or of a negative constant.
     fn positive(&mut self, value: Value) -> Signed {
         match self.operation(value) {
             Operation::Neg(x) => Signed(x, true),
@@ -199,7 +199,7 @@ impl Builder {
     }
 }
 
-/// A value, and whether its negative is meant.
+/// A value and its sign: `true` stands for the negative of the value.
 #[derive(Clone, Copy)]
 struct Signed(Value, bool);
 
@@ -220,7 +220,7 @@ mod tests {
         assert_ne!(b.div(x, y), b.div(y, x));
     }
 
-    /// The rules are about bits: what is built is what the functions give, of either sign.
+    /// The rules keep the bits: the built programs have the values of the functions, for arguments of either sign.
     #[test]
     fn functions_of_negatives_keep_their_values() {
         for function in

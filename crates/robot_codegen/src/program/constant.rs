@@ -1,20 +1,20 @@
 //! Constants with irrational parts, such as √3/2 or cos 0.3, in twice the precision of `f64`.
 //!
-//! Rounding once at the end gives the nearest `f64` but for one case in some 10¹⁵, and the same bits
-//! on every machine, whatever its mathematical library.
+//! Rounding once at the end gives the nearest `f64`, except in about one of 10¹⁵ cases, and the same bits
+//! on every machine, independent of its mathematical library.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use robot_symbolic::{Function, Number, Rational};
 
-/// π/2 in three parts, each the nearest `f64` to what the ones before leave.
+/// π/2 in three parts; each is the nearest `f64` to the remainder after the parts before it.
 const HALF_PI: [f64; 3] =
     [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_183_3e-33];
 
-/// Angles beyond this are not reduced exactly; no robot file has one.
+/// The largest angle that can be reduced exactly, in rad. Robot files do not have larger ones.
 const LARGEST_ANGLE: f64 = 1e9;
 
-/// An unevaluated sum of two floats, the first the rounding of the whole.
+/// An unevaluated sum of two floats, of which the first is the rounded sum.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DoubleDouble {
     high: f64,
@@ -95,7 +95,7 @@ impl DoubleDouble {
         DoubleDouble::fast(root, rest.high / (2.0 * root))
     }
 
-    /// The sine of the angle and so many quarter turns.
+    /// Returns the sine of the angle plus a number of quarter turns.
     fn circular(self, quarters: i64) -> DoubleDouble {
         if self.high.is_nan() || self.high.abs() > LARGEST_ANGLE {
             return DoubleDouble::exact(f64::NAN);
@@ -122,7 +122,7 @@ impl DoubleDouble {
         sum
     }
 
-    /// Halved to below 1/2, then doubled by tanh 2x = 2 t / (1 + t²).
+    /// Computes tanh of the argument halved to below 1/2, then doubles it by tanh 2x = 2 t / (1 + t²).
     fn tanh(self) -> DoubleDouble {
         if self.high.is_nan() || self.high.abs() > 40.0 {
             return DoubleDouble::exact(self.high.tanh());
@@ -203,7 +203,7 @@ mod tests {
         DoubleDouble::from_number(&Rational::from_decimal(text).unwrap().into())
     }
 
-    /// Values to 40 digits, from the literature of mathematical tables.
+    /// Compares with a value of 40 digits from mathematical tables.
     #[track_caller]
     fn assert_close(value: DoubleDouble, digits: &str) {
         let error = value - decimal(digits);
@@ -227,8 +227,8 @@ mod tests {
 
     #[test]
     fn near_a_quarter_turn_the_remainder_is_exact() {
-        // π/2 − 1.57079632679 to 40 digits, less its cube over 6. The argument has 107 bits after
-        // the point, and so has the difference.
+        // π/2 − 1.57079632679 to 40 digits, minus a sixth of its cube. The argument has 107 bits after
+        // the point, and so does the difference.
         let cosine = decimal("1.57079632679").apply(Function::Cos);
         let error = cosine - decimal("4.896619231321691639751422530698e-12");
         assert!(error.high.abs() < 1e-32, "{error:?}");

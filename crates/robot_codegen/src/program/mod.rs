@@ -1,8 +1,8 @@
 //! Straight-line programs in static single assignment.
 //!
-//! A [`Program`] is a list of operations, each on the values of earlier ones, and the list of those
-//! values that are its results. There are no loops and no conditionals. Constants and loads are
-//! operations too, but cost nothing and print as operands.
+//! A [`Program`] is a list of operations, each on the values of earlier ones, and a list of the values that
+//! are its results. There are no loops and no conditionals. Constants and loads are operations too, but they
+//! cost nothing and are printed as operands.
 
 mod builder;
 mod constant;
@@ -31,7 +31,7 @@ impl Value {
 pub struct Constant(u64);
 
 impl Constant {
-    /// The constant with the value; both zeros are the positive one.
+    /// The constant with this value; −0 becomes +0.
     #[must_use]
     pub fn new(value: f64) -> Constant {
         Constant(if value == 0.0 { 0 } else { value.to_bits() })
@@ -44,14 +44,14 @@ impl Constant {
     }
 }
 
-/// The place that a load reads.
+/// The place from which a load reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Source {
     /// A parameter of the module, by its index.
     Parameter(u32),
-    /// A field of the model: what the constructor computed.
+    /// A field of the model, which the constructor computed, by its index.
     Field(u32),
-    /// An entry of an input of the function, counted through all its inputs.
+    /// An entry of an input of the function, by an index that runs over all its inputs.
     Input(u32),
     /// The sine of an angle of the function.
     Sin(u32),
@@ -76,7 +76,7 @@ pub enum Operation {
     Div(Value, Value),
     /// −a
     Neg(Value),
-    /// a b + c, with one rounding if the target has the instruction and two elsewhere.
+    /// a b + c, with one rounding if the target has the instruction, otherwise with two.
     MulAdd(Value, Value, Value),
     /// A function of one argument.
     Call(Function, Value),
@@ -97,7 +97,7 @@ impl Operation {
         operands.into_iter().flatten()
     }
 
-    /// The operation on other operands.
+    /// The same operation with other operands.
     #[must_use]
     pub fn map(self, mut operand: impl FnMut(Value) -> Value) -> Operation {
         match self {
@@ -112,7 +112,7 @@ impl Operation {
         }
     }
 
-    /// Whether the operation is an operand only: a constant or a load.
+    /// Whether the operation is a constant or a load, which are only operands.
     #[must_use]
     pub fn is_leaf(self) -> bool {
         matches!(self, Operation::Constant(_) | Operation::Load(_))
@@ -122,11 +122,11 @@ impl Operation {
 /// The stage at which a value is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
-    /// At generation.
+    /// At code generation.
     Constant,
     /// When the parameters are known.
     Parameters,
-    /// At the call.
+    /// At a call.
     Call,
 }
 
@@ -138,7 +138,7 @@ pub struct Program {
 }
 
 impl Program {
-    /// A program of operations and results, taken as given. Operands must be earlier operations.
+    /// Makes a program of these operations and results without changing them. Operands must be earlier operations.
     pub(crate) fn new(operations: Vec<Operation>, results: Vec<Value>) -> Program {
         debug_assert!(operations.iter().enumerate().all(|(index, operation)| {
             operation.operands().all(|operand| operand.index() < index)
@@ -147,7 +147,7 @@ impl Program {
         Program { operations, results }
     }
 
-    /// The operations, operands before results.
+    /// The operations, each after its operands.
     #[must_use]
     pub fn operations(&self) -> &[Operation] {
         &self.operations
@@ -165,7 +165,7 @@ impl Program {
         self.operations[value.index()]
     }
 
-    /// The values that are the program's results; one value may be several.
+    /// The values that are the program's results; a value can occur several times.
     #[must_use]
     pub fn results(&self) -> &[Value] {
         &self.results
@@ -182,7 +182,7 @@ impl Program {
         uses
     }
 
-    /// For each value, when it is known.
+    /// For each value, the stage at which it is known.
     #[must_use]
     pub fn stages(&self) -> Vec<Stage> {
         let mut stages: Vec<Stage> = Vec::with_capacity(self.operations.len());
@@ -201,7 +201,7 @@ impl Program {
         stages
     }
 
-    /// The sources that the program reads, in the order of sources, each once.
+    /// The sources that the program reads, sorted, each once.
     #[must_use]
     pub fn sources(&self) -> Vec<Source> {
         let loads = self.operations.iter().filter_map(|operation| match operation {

@@ -1,7 +1,7 @@
 //! The text form of a program.
 //!
-//! A line for each value, in order: `v4 = v0 * v3`. A load names its source, counted from 0, a constant is given by its
-//! digits. A value that is known before the call is followed by its stage; the last line has the results.
+//! Each value has a line, in order: `v4 = v0 * v3`. A load is printed as its source with an index from 0, a constant as
+//! its digits. A value that is known before the call is followed by its stage; the last line has the results.
 
 use std::fmt::{Display, Formatter, Result};
 

@@ -1,22 +1,22 @@
-//! The statements of a program as text: which values have names, and where long programs are cut into blocks and functions.
+//! The statements of a printed program: which values have names, and where long programs are cut into blocks and
+//! functions.
 //!
-//! A backend prints each named value as a statement and every other value inside the one expression
-//! that uses it. Compilers do not take thousands of statements in one block well, so statements are grouped
-//! in blocks that export only the values used later; very long programs are cut
-//! into functions in the same way.
+//! A backend prints each named value as a statement and every other value within the one expression
+//! that uses it. Compilers do not handle thousands of statements in one block well, so statements are grouped
+//! into blocks that export only the values used later; very long programs are cut into functions in the same way.
 
 use super::{Operation, Program, Source, Value};
 
-/// Limits of the text; what they are is for each language to say.
+/// Limits of the printed code; each language sets its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Operations in one expression, at most; 1 names every value.
+    /// The most operations in one expression; if it is 1, every value has a name.
     pub expression: usize,
-    /// Statements in one block, at most.
+    /// The most statements in one block.
     pub block: usize,
-    /// Statements in one function, at most, before the program is cut into several.
+    /// The most statements in one function; longer programs are cut into several functions.
     pub function: usize,
-    /// Statements in each of those several, at most.
+    /// The most statements in each of these several functions.
     pub part: usize,
 }
 
@@ -25,7 +25,7 @@ pub struct Limits {
 pub struct Block {
     /// The named values that the block computes, in order.
     pub statements: Vec<Value>,
-    /// Those of its values that later blocks or the results use.
+    /// The values of the block that later blocks or the results use.
     pub leaving: Vec<Value>,
     /// The named values of earlier blocks that the block uses.
     pub entering: Vec<Value>,
@@ -36,7 +36,7 @@ pub struct Block {
 pub struct Part {
     /// The blocks in order. A single block needs no nesting.
     pub blocks: Vec<Block>,
-    /// Those values of the part that later parts or the results use.
+    /// The values of the part that later parts or the results use.
     pub leaving: Vec<Value>,
     /// The named values of earlier parts that the part uses.
     pub entering: Vec<Value>,
@@ -45,13 +45,13 @@ pub struct Part {
 /// The statements of a program, in blocks and parts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Statements {
-    /// The parts in order; one but for very long programs. A program without statements has none.
+    /// The parts in order. There is one, except for very long programs; a program without statements has none.
     pub parts: Vec<Part>,
     named: Vec<bool>,
 }
 
 impl Statements {
-    /// Names the values of a program and groups its statements.
+    /// Decides which values of a program have names, and groups its statements.
     #[must_use]
     pub fn new(program: &Program, limits: &Limits) -> Statements {
         let named = name_values(program, limits.expression.max(1));
@@ -71,13 +71,13 @@ impl Statements {
         Statements { parts: parts.collect(), named }
     }
 
-    /// Whether a value is a statement of its own; others print inside the expression that uses them.
+    /// Whether a value is a statement of its own; others are printed within the expression that uses them.
     #[must_use]
     pub fn is_named(&self, value: Value) -> bool {
         self.named[value.index()]
     }
 
-    /// The sources that the statements of a part read, each once, in the order of sources.
+    /// The sources that the statements of a part read, sorted, each once.
     #[must_use]
     pub fn sources(&self, program: &Program, part: &Part) -> Vec<Source> {
         let statements = part.blocks.iter().flat_map(|block| &block.statements);
@@ -103,18 +103,18 @@ impl Statements {
     }
 }
 
-/// Values used once stay inside their user's expression while that has room; results that nothing
-/// else uses print where they leave.
+/// Decides which values have names. Values used once stay within the expression that uses them while it has room;
+/// results that nothing else uses are printed where they are returned.
 fn name_values(program: &Program, limit: usize) -> Vec<bool> {
     let uses = program.uses();
     let mut named = vec![false; uses.len()];
-    // The operations that print with a value, itself included, when it is not named.
+    // The number of operations that are printed with an unnamed value, including its own.
     let mut size = vec![0_usize; uses.len()];
     for (value, operation) in program.values() {
         if operation.is_leaf() {
             continue;
         }
-        // Too many: name the largest operands until the rest fits.
+        // If there are too many, name the largest operands until the rest fits.
         let mut operands: Vec<Value> = operation.operands().collect();
         operands.sort_by_key(|operand| std::cmp::Reverse(size[operand.index()]));
         let mut total = 1 + operands.iter().map(|a| size[a.index()]).sum::<usize>();
@@ -136,19 +136,19 @@ fn name_values(program: &Program, limit: usize) -> Vec<bool> {
     named
 }
 
-/// −x of an operand costs no statement.
+/// Whether an operation is −x of a constant or load, which needs no statement.
 fn is_signed_leaf(program: &Program, operation: Operation) -> bool {
     matches!(operation, Operation::Neg(a) if program.operation(a).is_leaf())
 }
 
-/// For each named value, the last named value whose statement uses it; itself if nothing does,
+/// For each named value, the index of the last named value whose statement uses it; its own index if nothing uses it,
 /// and `usize::MAX` if the results use it.
 fn last_uses(program: &Program, named: &[bool]) -> Vec<usize> {
     let mut last: Vec<usize> = (0..named.len()).collect();
     for value in program.results() {
         last[value.index()] = usize::MAX;
     }
-    // From the end, so that a value printed inside its user is used where its user is.
+    // From the end, because a value printed within another is used where that one is.
     for (value, operation) in program.values().rev() {
         let index = value.index();
         let place = if named[index] { index } else { last[index] };
@@ -160,8 +160,8 @@ fn last_uses(program: &Program, named: &[bool]) -> Vec<usize> {
     last
 }
 
-/// The ends of blocks, as positions in `statements`: of the later half of each block, the place over
-/// which the fewest values live.
+/// Returns the ends of blocks, as positions in `statements`: in the later half of each block, the position
+/// at which the fewest values are alive.
 fn cut(statements: &[Value], last_use: &[usize], limit: usize) -> Vec<usize> {
     let live = live_after(statements, last_use);
     let mut cuts = vec![];

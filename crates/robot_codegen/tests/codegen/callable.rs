@@ -1,4 +1,4 @@
-//! Functions that are looked up once, at one state and at many, against the interface of names.
+//! Functions that are looked up once, at one state and at many, compared with calls by name.
 
 use robot_codegen::{Callable, Error, Interpreter, Module, Options, Trigonometry};
 use robot_symbolic::{Graph, Random};
@@ -6,12 +6,12 @@ use robot_symbolic::{Graph, Random};
 use crate::support;
 use crate::support::random::{ENTRIES, real};
 
-/// Rows of entries, as columns.
+/// Converts rows of entries to columns.
 fn columns(rows: &[Vec<f64>], entries: usize) -> Vec<Vec<f64>> {
     (0..entries).map(|entry| rows.iter().map(|row| row[entry]).collect()).collect()
 }
 
-/// Computes all states by columns, as rows.
+/// Computes all states in columns; returns the results as rows.
 fn by_columns(callable: Callable<'_>, inputs: &[Vec<f64>], states: usize) -> Vec<Vec<f64>> {
     let inputs: Vec<&[f64]> = inputs.iter().map(Vec::as_slice).collect();
     let mut found = vec![vec![0.0; states]; callable.output_size()];
@@ -24,7 +24,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| value.to_bits()).collect()
 }
 
-/// `compiled.rs` holds the interface of names against compiled code.
+/// `compiled.rs` compares calls by name with compiled code.
 #[test]
 fn many_states_have_the_bits_of_calls_by_name() {
     for seed in 0..40 {
@@ -37,7 +37,7 @@ fn many_states_have_the_bits_of_calls_by_name() {
         let interpreter = interpreter.with_trigonometry(sources[seed as usize % 2]);
         let callable = interpreter.function("f").unwrap();
         assert_eq!((callable.input_size(), callable.name()), (2 * ENTRIES, "f"));
-        // Around the length of a block.
+        // Numbers of states near the length of a block.
         for states in [0, 1, 15, 16, 17, 50] {
             let mut rows = || -> Vec<Vec<f64>> {
                 let row = |_| (0..ENTRIES).map(|_| real(&mut random)).collect();
@@ -90,7 +90,7 @@ fn wrong_columns_and_states_are_told() {
     assert!(matches!(found[..], [Error::InputLength { expected: 2, found: 3, .. }]));
 }
 
-/// `cargo test -p robot_codegen --test codegen speed -- --nocapture` prints how long a log of states takes.
+/// `cargo test -p robot_codegen --test codegen speed -- --nocapture` prints the time for a log of states.
 #[test]
 fn speed_of_a_log_of_states() {
     let mut random = Random::new(3);

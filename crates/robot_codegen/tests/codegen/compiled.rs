@@ -1,4 +1,4 @@
-//! Generated Rust, compiled and run, against the interpreter of the same program.
+//! Generated Rust, compiled and run, compared with the interpreter of the same program.
 
 use std::fmt::Write;
 
@@ -38,7 +38,7 @@ fn states(random: &mut Random) -> Vec<[f64; 2 * ENTRIES]> {
     (0..STATES).map(|_| std::array::from_fn(|_| real(random))).collect()
 }
 
-/// Holds the bits that a program printed against those that the interpreter gives, which it returns.
+/// Compares the bits that a program printed with the results of the interpreter, and returns these.
 #[track_caller]
 fn hold(label: &str, module: &Module, states: &[[f64; 2 * ENTRIES]], printed: &str) -> Vec<f64> {
     hold_with(Trigonometry::default(), label, module, states, printed)
@@ -98,7 +98,7 @@ fn a_program_of_twenty_thousand_statements_compiles_in_the_dev_profile() {
     let graph = Graph::new();
     let spec = support::random::module(&graph, &mut random, 30_000);
     let module = Module::compile(&spec, &Options::default()).unwrap();
-    // A name for each operation: the most statements that the program can have.
+    // Each operation has a name, which gives the most statements that the program can have.
     let limits = Limits { expression: 1, ..LANGUAGE.limits };
     assert!(Statements::new(&module.functions[0].core, &limits).count() > 20_000);
     let states = states(&mut random);
@@ -130,8 +130,8 @@ fn nothing_generated_is_unused() {
     }
 }
 
-/// Without feature `fma` of the target a multiply-add is a product and a sum, as in the interpreter; where the
-/// processor is asked, it rounds once if there is an instruction for it.
+/// If the target does not have the feature `fma`, a multiply-add is a product and a sum, as in the interpreter. Code
+/// that is dispatched by the processor rounds once if the processor has the instruction.
 #[test]
 fn fused_code_gives_the_bits_of_the_interpreter() {
     let mut random = Random::new(11);
@@ -185,7 +185,7 @@ fn single_precision_is_near_to_double() {
     let expected = interpreter.call("inverse_dynamics", &given).unwrap()[0].values.clone();
     assert_eq!(found.len(), expected.len());
     for (entry, (found, expected)) in found.iter().zip(&expected).enumerate() {
-        // A few roundings of single precision, of terms of some tens.
+        // A few rounding errors of single precision, of terms of a few tens.
         assert!((found - expected).abs() < 1e-5 * 40.0, "tau[{entry}] is {found}, not {expected}");
         assert_ne!(found, expected);
     }
@@ -219,7 +219,8 @@ fn a_module_without_parameters_has_functions_of_its_own() {
     assert_eq!(bits, expected.into_iter().map(f64::to_bits).collect::<Vec<_>>());
 }
 
-/// Of a parameter, computed once, as of an input: at angles where the two sources differ.
+/// The sine of a parameter, computed once, has the same source as the sine of an input; checked at angles at which the
+/// two sources differ.
 #[test]
 fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
     let graph = Graph::new();
@@ -243,7 +244,7 @@ fn sines_of_the_constructor_come_from_where_those_of_calls_come_from() {
     assert!(differing > 0);
 }
 
-/// In both number types and with both sources of sines, that of the parameter among them.
+/// In both number types and with both sources of sines, including the sine of the parameter.
 #[test]
 fn each_lane_has_the_bits_of_a_call_with_its_parameters() {
     let graph = Graph::new();
@@ -279,7 +280,7 @@ fn each_lane_has_the_bits_of_a_call_with_its_parameters() {
     support::rustc::output_of("lanes-of-models", &text, &["-O"]);
 }
 
-/// A sine of a parameter times an input, and the sine of that input.
+/// A module with the sine of a parameter times an input, and the sine of this input.
 fn tilted(graph: &Graph) -> Module {
     let (p, q1) = (graph.symbol("p"), graph.symbol("q1"));
     let tilt =

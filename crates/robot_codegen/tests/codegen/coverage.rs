@@ -1,4 +1,4 @@
-//! Every operation of the programs as Rust prints it, in each of its ways.
+//! Every operation of programs as Rust code, in all forms in which it can be printed.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -13,7 +13,7 @@ use robot_symbolic::Function as Call;
 use crate::golden::hold;
 use crate::support;
 
-/// How many operations [`number`] tells apart.
+/// The number of different operations that [`number`] distinguishes.
 const OPERATIONS: usize = 19;
 
 /// The number of an operation. A new one is added here, and then to [`every`].
@@ -45,7 +45,7 @@ fn number(operation: Operation) -> usize {
     }
 }
 
-/// All operations on two values, besides the loads of `sources` and a constant.
+/// A program with all operations on two values, the loads of `sources` and a constant.
 fn every(sources: &[Source]) -> Program {
     let mut b = Builder::new();
     let loads: Vec<Value> = sources.iter().map(|source| b.load(*source)).collect();
@@ -63,7 +63,7 @@ fn every(sources: &[Source]) -> Program {
     let calls = functions.map(|function| Operation::Call(function, x));
     let mut results: Vec<Value> = loads.iter().map(|load| b.mul(*load, third)).collect();
     results.extend(operations.into_iter().chain(calls).map(|operation| b.push(operation)));
-    // One that hangs together, so that blocks and parts hand values on.
+    // One result depends on all others, so that blocks and parts pass on values.
     let sum = results.clone().into_iter().reduce(|sum, value| b.add(sum, value));
     results.extend(sum);
     b.finish(results)
@@ -95,7 +95,7 @@ fn function(name: &str, angles: Program, core: Program) -> Function {
     }
 }
 
-/// A constructor, a function of plain angles and one of an angle that is computed.
+/// A module with a constructor, a function of angles that are entries of an input, and one of a computed angle.
 pub(crate) fn module(name: &str) -> Module {
     let parameters = ["p", "r"].map(|name| ParameterSpec {
         name: name.into(),
@@ -132,7 +132,7 @@ fn printings() -> [(&'static str, RustOptions); 5] {
     };
     let standard = RustOptions { trigonometry: Trigonometry::Standard, ..options.clone() };
     let single = RustOptions { scalar: Scalar::F32, ..options.clone() };
-    // Statements of one operation, in blocks, in functions.
+    // Statements of one operation each, in blocks and in several functions.
     let limits = Limits { expression: 1, block: 4, function: 12, part: 10 };
     [
         ("double", RustOptions { batch: Some(4), ..options.clone() }),
@@ -149,11 +149,11 @@ fn every_operation_is_in_the_programs() {
     let programs = module.functions.iter().flat_map(|function| [&function.angles, &function.core]);
     let shown: BTreeSet<usize> = programs.chain([&module.constructor]).flat_map(used).collect();
     assert_eq!(shown, (0..OPERATIONS).collect());
-    // The constructor has all but the loads of calls.
+    // The constructor has all operations except the loads of calls.
     assert_eq!(used(&module.constructor).len(), OPERATIONS - 4);
 }
 
-/// The operations of a program that its results need: the others are not printed.
+/// The operations of a program that its results need; others are not printed.
 fn used(program: &Program) -> BTreeSet<usize> {
     let uses = program.uses();
     let values = program.values().filter(|(value, _)| uses[value.index()] > 0);
@@ -168,7 +168,7 @@ fn every_operation_is_printed_as_committed() {
     }
 }
 
-/// What is shown compiles without a warning and computes what the interpreter computes.
+/// The golden files compile without warnings and compute the same results as the interpreter.
 #[test]
 fn every_operation_computes_what_the_interpreter_computes() {
     assert_ne!(printings()[4].1.limits, LANGUAGE.limits);

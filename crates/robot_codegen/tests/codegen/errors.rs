@@ -1,4 +1,4 @@
-//! Every error of the crate, by its name, from the outside.
+//! Every error of the crate, caused through its public interface.
 
 use robot_codegen::backend::rust::{RustOptions, generate};
 use robot_codegen::spec::*;
@@ -7,7 +7,7 @@ use robot_symbolic::{Expr, Graph};
 
 use crate::support::arm::{joints, vector};
 
-/// A module of one parameter `p` and one function `f` of `q1`, `q2`.
+/// A module with one parameter `p` and one function `f` of `q1`, `q2`.
 fn module<'g>(value: Expr<'g>) -> ModuleSpec<'g> {
     let parameter =
         ParameterSpec { name: "p".into(), doc: String::new(), unit: String::new(), nominal: None };
@@ -29,7 +29,7 @@ fn compiled(spec: &ModuleSpec<'_>) -> Result<Module, Errors> {
     Module::compile(spec, &Options::default())
 }
 
-/// The one error, whose text names each part.
+/// Returns the single error of a result; checks that its text contains each of `parts`.
 fn one<T: std::fmt::Debug>(result: Result<T, Errors>, parts: &[&str]) -> Error {
     let errors = result.unwrap_err();
     let [error] = errors.as_slice() else { panic!("{errors}") };
@@ -123,7 +123,7 @@ fn constants_that_single_precision_rounds_to_nothing_are_refused() {
         let module = compiled(&module(graph.integer(10).powi(power) * graph.symbol("q1"))).unwrap();
         generate(&module, &RustOptions { scalar, ..RustOptions::default() }).map(|_| ())
     };
-    // 0 in single precision, and a number of few digits.
+    // Rounds to 0 in single precision, or to a number of few digits.
     for power in [-50, -40] {
         let found =
             one(generated(power, Scalar::F32), &[&format!("1e{power}"), "function `f`", "f64"]);

@@ -1,7 +1,7 @@
-//! Committed generated files are what the generator gives today.
+//! Committed generated files equal the current output of the generator.
 //!
-//! `UPDATE_GOLDENS=1 cargo test -p robot_codegen --test codegen golden` writes them anew; what they
-//! compute is tested in `tests/goldens`.
+//! `UPDATE_GOLDENS=1 cargo test -p robot_codegen --test codegen golden` writes them again. Their results
+//! are tested in `tests/goldens`.
 
 use std::path::Path;
 
@@ -44,7 +44,7 @@ fn the_planar_arm_is_generated_as_committed() {
     hold("planar_arm.rs", &text);
 }
 
-/// The text form of programs: the constructor's and those of functions with and without accelerations.
+/// The text form of programs: that of the constructor and those of functions with and without accelerations.
 #[test]
 fn programs_of_the_planar_arm_are_as_committed() {
     let module = compiled(&Graph::new());
@@ -54,7 +54,7 @@ fn programs_of_the_planar_arm_are_as_committed() {
     }
 }
 
-/// Holds a text against the committed file of that name.
+/// Compares a text with the committed file with this name.
 #[track_caller]
 pub(crate) fn hold(name: &str, text: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens").join(name);

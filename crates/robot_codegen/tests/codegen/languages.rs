@@ -1,5 +1,5 @@
-//! Every operation of the programs as each language prints it. That they compute the same is tested in the crate
-//! `robot_languages`, which runs them.
+//! Every operation of programs as printed in each language. The crate `robot_languages` runs the code and tests its
+//! results.
 
 use robot_codegen::backend::Target;
 use robot_codegen::backend::c::{C, Cpp, Cuda, casadi};

@@ -1,6 +1,6 @@
-//! Tests of the whole: from expressions to programs, numbers and compiled code.
+//! Tests of the whole crate: from expressions to programs, numbers and compiled code.
 
-// Helpers of tests fail as tests do.
+// Helpers of tests may panic, as tests do.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod callable;

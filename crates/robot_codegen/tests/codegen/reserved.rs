@@ -1,5 +1,5 @@
-//! Names that Rust reserves, or that the printed module has for itself, and names beside them that the adapted
-//! ones could be taken for.
+//! Names that are reserved in Rust or used by the printed module itself, together with names that equal possible
+//! adapted forms of these.
 
 use std::fmt::Write;
 
@@ -11,7 +11,8 @@ use robot_symbolic::{Expr, Graph};
 
 use crate::support::{self, arm::vector};
 
-/// Each is one parameter; `_2` and `_` could be what another becomes. Of several underscores one is left.
+/// The names of the parameters. Names with `_2` and `_` equal possible adapted forms of others. Several underscores
+/// become one.
 const PARAMETERS: [&str; 20] = [
     "match",
     "match_",
@@ -34,7 +35,7 @@ const PARAMETERS: [&str; 20] = [
     "self_",
     "box",
 ];
-/// The functions: words, forms of other functions, and what a model has.
+/// The names of the functions: reserved words, names of forms of other functions, and names of items of a model.
 const FUNCTIONS: [&str; 9] =
     ["fn", "fn_", "f", "f_sc", "f_batch", "new", "NOMINAL", "model", "with_payload"];
 const INPUTS: [(&str, [&str; 2]); 3] =
@@ -95,7 +96,7 @@ fn setter() -> Setter {
     }
 }
 
-/// Names that can stand are as they are, the others beside them.
+/// Valid names stay as they are; the others are adapted to differ from them.
 #[test]
 fn names_that_can_stand_stand() {
     let graph = Graph::new();

@@ -1,5 +1,5 @@
-//! Modules in WebAssembly are valid and keep to the limits of engines. That they compute the bits of the interpreter is
-//! shown in node by `robot_languages`.
+//! WebAssembly modules are valid and stay within the limits of engines. `robot_languages` runs them in Node.js and
+//! compares their bits with the interpreter.
 
 use std::collections::BTreeSet;
 
@@ -16,7 +16,8 @@ fn bytes(module: &Module, scalar: Scalar, batch: bool) -> Vec<u8> {
     Wasm { options, batch }.bytes(module).unwrap()
 }
 
-/// Valid with what the second edition of the standard has: several results, and lanes of 128 bits.
+/// Checks that a module is valid in the second edition of the standard, which has several results and lanes of 128
+/// bits.
 fn validate(bytes: &[u8]) {
     Validator::new_with_features(WasmFeatures::WASM2).validate_all(bytes).unwrap();
 }
@@ -35,7 +36,7 @@ fn exports(bytes: &[u8]) -> BTreeSet<String> {
     names
 }
 
-/// The locals and the bytes of each function.
+/// The number of locals and the bytes of each function.
 fn sizes(bytes: &[u8]) -> Vec<(u32, usize)> {
     let mut sizes = vec![];
     for payload in Parser::new(0).parse_all(bytes) {
@@ -66,7 +67,7 @@ fn every_operation_is_valid_in_both_types() {
     }
 }
 
-/// A program of so many statements, whose values live to the end.
+/// A program of a number of statements, whose values are alive to the end.
 fn long(statements: usize) -> Program {
     let mut b = Builder::new();
     let x = b.load(Source::Input(0));

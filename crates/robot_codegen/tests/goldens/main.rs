@@ -1,8 +1,8 @@
-//! What committed generated files compute.
+//! Tests of the results of committed generated files.
 //!
-//! Whether they are what the generator gives today is tested in `tests/codegen`.
+//! `tests/codegen` tests that they equal the current output of the generator.
 
-// Helpers of tests fail as tests do.
+// Helpers of tests may panic, as tests do.
 #![allow(clippy::unwrap_used)]
 
 #[path = "../support/arm.rs"]
@@ -12,14 +12,14 @@ use robot_codegen::{Interpreter, Module, Options, Trigonometry};
 use robot_runtime::{F64x4, lanes_from_states, states_from_lanes};
 use robot_symbolic::Graph;
 
-// As users do it with a build script.
+// Included as users of a build script do it.
 include!("planar_arm.rs");
 
 fn compiled(graph: &Graph) -> Module {
     Module::compile(&arm::planar_arm(graph), &Options::default()).unwrap()
 }
 
-/// States far from each other, by the multiples of irrational numbers.
+/// States far from each other, made from multiples of irrational numbers.
 fn states() -> Vec<[[f64; 2]; 3]> {
     let entry = |state: usize, input: usize, joint: usize| {
         let turns = (state + 1) as f64 * f64::sqrt([2.0, 3.0, 5.0][input]) * [1.0, 0.7][joint];
@@ -81,14 +81,14 @@ fn it_computes_the_closed_form() {
     let parameters = planar_arm::Parameters::NOMINAL;
     let (l1, l2, m1, m2, g) =
         (parameters.l1, parameters.l2, parameters.m1, parameters.m2, parameters.g);
-    // Straight out and at rest, gravity alone: the moments of the two weights.
+    // Stretched out and at rest, with gravity only, the torques are the moments of the two weights.
     let tau = planar_arm::Model::NOMINAL.inverse_dynamics(&[0.0; 2], &[0.0; 2], &[0.0; 2]);
     let expected = [m1 * g * l1 + m2 * g * (l1 + l2), m2 * g * l2];
     assert!((tau[0] - expected[0]).abs() < 1e-14 && (tau[1] - expected[1]).abs() < 1e-14);
     assert_eq!((planar_arm::DOF, planar_arm::COORDINATES), (2, ["q1", "q2"]));
 }
 
-/// The models of four robots in the lanes of one, and states in lanes: each lane has the bits of a call.
+/// The models of four robots in the lanes of one model, and states in lanes: each lane has the bits of a call.
 #[test]
 fn lanes_have_parameters_of_their_own() {
     let nominal = planar_arm::Parameters::NOMINAL;

@@ -1,4 +1,4 @@
-//! What several tests use.
+//! Code that several tests share.
 
 pub(crate) mod arm;
 pub(crate) mod random;

@@ -3,7 +3,7 @@
 use robot_codegen::spec::*;
 use robot_symbolic::{Expr, Graph, Random, Rational};
 
-/// Between −2 and 2.
+/// A number between −2 and 2.
 pub(crate) fn real(random: &mut Random) -> f64 {
     random.uniform(-2.0, 2.0)
 }
@@ -54,7 +54,7 @@ fn input(name: &str, symbols: Vec<String>) -> Input {
     Input { name: name.into(), doc: String::new(), unit: String::new(), symbols }
 }
 
-/// An operation on values of the pool, rather the latest, that keeps sizes near 1.
+/// An operation on values of the pool, preferably recent ones, whose result keeps a size near 1.
 fn operation<'g>(graph: &'g Graph, random: &mut Random, pool: &[Expr<'g>]) -> Expr<'g> {
     let pick = |random: &mut Random| {
         let recent = pool.len().min(30);

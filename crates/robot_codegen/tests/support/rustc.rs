@@ -1,10 +1,10 @@
-//! Compiling and running generated text with the `rustc` that Cargo uses.
+//! Compiles and runs generated text with the `rustc` that Cargo uses.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-/// A folder of its own for each test.
+/// Creates a separate folder for each test.
 pub(crate) fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     std::fs::create_dir_all(&folder).unwrap();
@@ -25,7 +25,7 @@ fn run(command: &mut Command) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-/// The runtime as a library that generated text can name `::robot_runtime`.
+/// Compiles the runtime as a library, which generated code refers to as `::robot_runtime`.
 fn runtime() -> &'static Path {
     static RUNTIME: OnceLock<PathBuf> = OnceLock::new();
     RUNTIME.get_or_init(|| {
@@ -45,7 +45,7 @@ fn runtime() -> &'static Path {
     })
 }
 
-/// Compiles a text; warnings are failures. With `--test`-less binaries `main` is in the text.
+/// Compiles a text; warnings are failures. For programs without `--test`, the text contains `main`.
 pub(crate) fn compile(test: &str, text: &str, flags: &[&str]) -> PathBuf {
     let folder = folder(test);
     let (source, program) = (folder.join("main.rs"), folder.join("program"));
@@ -55,7 +55,7 @@ pub(crate) fn compile(test: &str, text: &str, flags: &[&str]) -> PathBuf {
     program
 }
 
-/// Compiles a text with a `main`, runs it, and gives what it prints.
+/// Compiles a text with a `main`, runs it, and returns its output.
 pub(crate) fn output_of(test: &str, text: &str, flags: &[&str]) -> String {
     run(&mut Command::new(compile(test, text, flags)))
 }

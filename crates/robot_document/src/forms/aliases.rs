@@ -1,4 +1,4 @@
-//! Coefficients that are equal to an earlier one: they have no equation of their own.
+//! Coefficients that equal an earlier one and therefore have no equation of their own.
 
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Number, Polynomial};
@@ -7,8 +7,8 @@ use super::Writer;
 use super::coefficients::{LIMITS, Section, Shown, Sum};
 use crate::error::Error;
 
-/// Puts the earlier coefficient of a section in the place of each later one that equals it, perhaps with the other
-/// sign: in the joint torques b₂₃₃ (q̇₃ + q̇₄) q̇₃, and no equation b₂₃₄ = b₂₃₃.
+/// Replaces each coefficient that equals an earlier one of its section, possibly with the opposite sign, by the earlier
+/// one: the joint torques contain b₂₃₃ (q̇₃ + q̇₄) q̇₃, and there is no equation b₂₃₄ = b₂₃₃.
 ///
 /// Coefficients of one or two printed symbols, such as a mass, keep their equations.
 pub(super) fn replace<'g>(
@@ -37,7 +37,7 @@ pub(super) fn replace<'g>(
     }
 }
 
-/// Puts the symbol in the place of each coefficient that is only a symbol: Q₁ = q̈₁ β₁, and no equation Y₁₁ = q̈₁.
+/// Replaces each coefficient that is only a symbol by the symbol: Q₁ = q̈₁ β₁, and there is no equation Y₁₁ = q̈₁.
 pub(super) fn replace_symbols<'g>(
     section: Option<&Section<'g>>,
     shown: Option<&mut Vec<Shown<'g>>>,
@@ -72,8 +72,8 @@ fn rename(sums: &mut [Sum<'_>], from: &str, to: &str, is_opposite: bool) {
     }
 }
 
-/// The terms of a sum of coefficients times factors, in the order of the coefficients: one that occurs several times stands
-/// once, before the sum of its factors.
+/// The terms of a sum of coefficients times factors, in the order of the coefficients. A coefficient that occurs
+/// several times is written once, before the sum of its factors.
 pub(super) fn terms<'g>(
     writer: &Writer<'_, 'g>,
     sum: &[(String, Expr<'g>)],
@@ -97,7 +97,7 @@ pub(super) fn terms<'g>(
     Ok(terms)
 }
 
-/// The term with a factor before all others.
+/// Moves a factor of a term before all others.
 fn led<'g>(mut term: ArrangedTerm<'g>, first: Expr<'g>) -> ArrangedTerm<'g> {
     let is_first = |(factor, _): &(ArrangedFactor<'g>, i32)| matches!(factor, ArrangedFactor::Atom(atom) if *atom == first);
     if let Some(place) = term.factors.iter().position(is_first) {

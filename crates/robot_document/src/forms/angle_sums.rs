@@ -1,4 +1,4 @@
-//! Sines and cosines of sums of angles, where the recursion has them by the addition theorems.
+//! Sines and cosines of sums of angles, which the recursion expands by the addition theorems.
 
 use robot_symbolic::Function::{Cos, Sin};
 use robot_symbolic::{Expr, Function, Graph, Id, View, walk};
@@ -7,12 +7,11 @@ use rustc_hash::FxHashMap;
 /// The sine or the cosine of an angle.
 type Circular<'g> = (Function, Expr<'g>);
 
-/// Values in which sin a cos b + cos a sin b is sin(a + b), and cos a cos b − sin a sin b is
-/// cos(a + b).
+/// Replaces sin a cos b + cos a sin b by sin(a + b), and cos a cos b − sin a sin b by cos(a + b).
 pub(super) fn joined<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     let mut known: FxHashMap<Id, Circular<'g>> = FxHashMap::default();
     let mut sums: FxHashMap<Id, Expr<'g>> = FxHashMap::default();
-    // Operands come before results, so that sums of several angles are found by their parts.
+    // Operands come before results, so sums of several angles are found from their parts.
     for expr in walk::reachable(values) {
         if let View::Call(function @ (Sin | Cos), angle) = expr.view() {
             known.insert(expr.id(), (function, angle));
@@ -44,7 +43,7 @@ fn of_sum<'g>(expr: Expr<'g>, known: &FxHashMap<Id, Circular<'g>>) -> Option<Cir
         (Cos, Cos, Cos, Sin, Sin) => ((a, b), (d, c)),
         _ => return None,
     };
-    // sin a · cos b beside cos a · sin b.
+    // The terms must be sin a · cos b and cos a · sin b.
     let ((x, y), (u, v)) = ((one.0.1, one.1.1), (other.0.1, other.1.1));
     (x == u && y == v).then(|| (function, x + y))
 }

@@ -1,7 +1,8 @@
-//! Expressions as sums of products in the order of the robot's symbols, as they are built: nothing is multiplied out.
+//! Expressions as sums of products in the order of the robot's symbols, in the structure in which they were built:
+//! nothing is multiplied out.
 //!
-//! Powers are collected, factors sorted, like terms merged, sums within sums flattened. Each step leaves no more
-//! operations than there were.
+//! Powers are collected, factors are sorted, like terms are merged, and sums within sums are flattened. No step
+//! increases the number of operations.
 
 use std::cmp::Reverse;
 
@@ -14,10 +15,10 @@ use crate::layout::{BRACKETS, Order, Rank};
 type Terms<'h> = Vec<ArrangedTerm<'h>>;
 type Power<'h> = (ArrangedFactor<'h>, i32);
 
-/// The terms of an expression.
+/// The terms of an expression, in order.
 pub(super) fn terms<'h>(expr: Expr<'h>, order: &Order<'_>) -> Terms<'h> {
     let mut known: FxHashMap<robot_symbolic::Id, Terms<'h>> = FxHashMap::default();
-    // Operands come before results, so that no walk is deep.
+    // Operands come before results, so no recursion is needed.
     for part in walk::reachable(&[expr]) {
         let of = |operand: Expr<'h>| known.get(&operand.id()).cloned().unwrap_or_default();
         let terms = match part.view() {
@@ -39,7 +40,7 @@ pub(super) fn terms<'h>(expr: Expr<'h>, order: &Order<'_>) -> Terms<'h> {
     sorted(known.remove(&expr.id()).unwrap_or_default(), order)
 }
 
-/// The terms of a sum in the order of their factors, numbers last.
+/// Sorts the terms of a sum by their factors, with numbers last.
 fn sorted<'h>(mut terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     terms.sort_by_cached_key(|term| {
         let factor = |(factor, exponent): &Power<'h>| (rank(factor, order), Reverse(*exponent));
@@ -52,7 +53,8 @@ fn rank(factor: &ArrangedFactor<'_>, order: &Order<'_>) -> Rank {
     factor.as_atom().map_or(BRACKETS, |atom| order.rank(atom))
 }
 
-/// The operations of a sum of terms, each factor of a power counted; sines and cosines and their angles apart.
+/// Counts the operations of a sum of terms, with every factor of a power. Sines and cosines and their angles do not
+/// count.
 pub(super) fn operations(terms: &[ArrangedTerm<'_>]) -> usize {
     let factor = |(factor, exponent): &Power<'_>| {
         let within = match factor {
@@ -68,11 +70,11 @@ pub(super) fn operations(terms: &[ArrangedTerm<'_>]) -> usize {
     terms.len().saturating_sub(1) + terms.iter().map(term).sum::<usize>()
 }
 
-/// Sums of more terms are left as they are.
+/// The largest number of terms of a sum in which terms are joined.
 const MAX_FACTORED: usize = 200;
 
-/// A sum in which two terms that differ in one factor alone are one term, `l_4 x_2 + x_2 q_4` is `(l_4 + q_4) x_2`: one product
-/// less, and no symbol more.
+/// Joins terms that differ in only one factor: `l_4 x_2 + x_2 q_4` becomes `(l_4 + q_4) x_2`, which has one product
+/// less and no additional symbol.
 pub(super) fn factored<'h>(terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     let inside = |(factor, exponent): Power<'h>| match factor {
         ArrangedFactor::Sum(terms) => (ArrangedFactor::Sum(factored(terms, order)), exponent),
@@ -94,7 +96,7 @@ pub(super) fn factored<'h>(terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     sorted(terms, order)
 }
 
-/// The two terms that differ in one factor alone and have most factors in common.
+/// The places of the two terms that differ in only one factor and have the most factors in common.
 fn alike(terms: &[ArrangedTerm<'_>]) -> Option<(usize, usize)> {
     let mut best: Option<(usize, usize, usize)> = None;
     for (first, one) in terms.iter().enumerate() {
@@ -113,7 +115,7 @@ fn alike(terms: &[ArrangedTerm<'_>]) -> Option<(usize, usize)> {
     best.map(|(_, first, second)| (first, second))
 }
 
-/// The sum of two terms that differ in one factor alone.
+/// Joins two terms that differ in only one factor.
 fn joined<'h>(
     one: &ArrangedTerm<'h>,
     other: &ArrangedTerm<'h>,
@@ -152,7 +154,7 @@ fn negated(mut terms: Terms<'_>) -> Terms<'_> {
     terms
 }
 
-/// The sum of two sums: terms with the same factors are one.
+/// The sum of two sums, in which terms with the same factors are merged.
 fn merged<'h>(mut terms: Terms<'h>, more: Terms<'h>) -> Terms<'h> {
     let signed = |term: &ArrangedTerm<'h>| match term.negative {
         true => -&term.coefficient,
@@ -171,7 +173,7 @@ fn merged<'h>(mut terms: Terms<'h>, more: Terms<'h>) -> Terms<'h> {
     terms
 }
 
-/// The product of two sums, or their quotient; of a sum of several terms a factor in brackets.
+/// The product or, with the power −1, the quotient of two sums. A sum of several terms becomes a factor in brackets.
 fn times<'h>(a: Terms<'h>, b: Terms<'h>, power: i32, order: &Order<'_>) -> ArrangedTerm<'h> {
     let (a, b) = (one_term(sorted(a, order)), one_term(sorted(b, order)));
     let mut factors = a.factors;
@@ -191,7 +193,7 @@ fn times<'h>(a: Terms<'h>, b: Terms<'h>, power: i32, order: &Order<'_>) -> Arran
     ArrangedTerm { negative: a.negative != b.negative, coefficient, factors }
 }
 
-/// A sum as one term; 0 if it has none.
+/// A sum as one term, which is 0 for an empty sum.
 fn one_term(mut terms: Terms<'_>) -> ArrangedTerm<'_> {
     match (terms.len(), terms.pop()) {
         (_, None) => ArrangedTerm { coefficient: Number::integer(0), ..of_factors(vec![]) },
@@ -236,7 +238,7 @@ mod tests {
         }
     }
 
-    /// The operations of an expression as a tree, arguments of functions apart.
+    /// Counts the operations of an expression as a tree, without those in arguments of functions.
     fn operations_of(expr: Expr<'_>) -> usize {
         let both = |a, b| operations_of(a) + operations_of(b);
         match expr.view() {

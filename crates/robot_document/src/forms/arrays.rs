@@ -1,73 +1,73 @@
-//! Matrices and columns made of the equations of a group, if they fit.
+//! Matrices and columns that replace the equations of a group if they fit.
 
 use super::{Equation, Equations, Group, Relation};
 use crate::breaking::broken;
 use crate::math::Math;
 use crate::width::width;
 
-/// A matrix or a column.
+/// A matrix or a column, with the symbol that it is equal to.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Array {
-    /// Its name in text: `M`, `F_l5`.
+    /// The name in text, such as `M` or `F_l5`.
     pub name: String,
-    /// Its look, on the left side.
+    /// The layout of the symbol on the left side.
     pub left: Math,
-    /// The rows of its entries.
+    /// The entries, row by row.
     pub rows: Vec<Vec<Cell>>,
 }
 
 /// An entry of a matrix or a column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Cell {
-    /// The name of the entry in text: `M_1_2`, `F_l5.x`. Entries that are equal have the same one.
+    /// The name of the entry in text, such as `M_1_2` or `F_l5.x`. Equal entries have the same name.
     pub name: String,
-    /// The look of the entry's symbol.
+    /// The layout of the entry's symbol.
     pub look: Math,
-    /// The entry written out, unless that is too long.
+    /// The entry written out; `None` if that is too long.
     pub whole: Option<Written>,
-    /// The entry by symbols that other equations of its group define.
+    /// The entry in symbols that other equations of its group define.
     pub parts: Option<Written>,
-    /// Whether the entry is 0, or known by another name.
+    /// Whether the entry is 0 or another name of something.
     pub is_plain: bool,
 }
 
 /// A value as text and as layout.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// Infix text.
+    /// The infix text.
     pub text: String,
     /// The layout.
     pub math: Math,
 }
 
-/// The room that an array has with its left side.
+/// The space for an array with its left side.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Room {
-    /// In print, in points of 10 pt type.
+    /// In print: the width in points, with 10 pt type.
     Points(f64),
-    /// In text, in characters.
+    /// In text: the number of characters.
     Characters(usize),
 }
 
-/// An equals sign with its spaces and the error of estimates, pt.
+/// The width of an equals sign with its spaces, and of the error of estimates, in pt.
 const EQUALS: f64 = 18.0;
-/// The brackets of a column with the spaces within, pt.
+/// The width of the brackets of a column with the spaces inside them, in pt.
 const BRACKETS: f64 = 20.0;
-/// The spaces around the sign that a line starts with, pt.
+/// The spaces around the sign at the beginning of a line, in pt.
 const SIGN: f64 = 4.5;
-/// The columns that a `bmatrix` has at most.
+/// The largest number of columns of a `bmatrix`.
 const MAX_COLUMNS: usize = 10;
-/// The lines of a column, and of one of its entries: a column is never on two pages.
+/// The largest number of lines of a column, which is never broken across pages, and of one of its entries.
 const MAX_LINES: usize = 16;
 const MAX_ENTRY: usize = 6;
 
 impl Equations {
-    /// The equations with those that are entries of matrices and columns replaced by these, if they fit: groups
-    /// that are left without equations are dropped.
+    /// Replaces the equations that are entries of matrices and columns by these arrays, if they fit. Groups without
+    /// remaining equations are dropped.
     ///
-    /// An entry that is too long is printed by its name, or by symbols, that equations after the matrix define. What
-    /// does not fit even so is a list of entries. Entries of columns that are 0, or only another name of something,
-    /// have no equation of their own.
+    /// An entry that is too long is printed by its name or by other symbols, which are defined in equations after the
+    /// matrix. An array that does not fit even then is printed as a list of entries. Entries of columns that are 0 or
+    /// only another name of something have no equation of their own.
     #[must_use]
     pub fn arranged(&self, room: Room) -> Equations {
         let groups = self.groups.iter().map(|group| group.arranged(room));
@@ -91,7 +91,8 @@ impl Group {
         group
     }
 
-    /// The equations, each relation before the first that it yields: in print, for relations are not infix text.
+    /// Inserts each relation before the first equation that it yields. This is only for print, because relations are
+    /// not infix text.
     fn with_relations(&self, equations: Vec<Equation>) -> Vec<Equation> {
         let mut all = Vec::with_capacity(equations.len() + self.relations.len());
         let mut rest: Vec<&Relation> = self.relations.iter().collect();
@@ -110,7 +111,7 @@ impl Group {
         let mut rest = self.equations.iter().peekable();
         let is_entry = |equation: &Equation| arrays.iter().any(|array| array.has(&equation.name));
         for array in arrays {
-            // Quantities that are not entries stay where they are.
+            // Equations of quantities that are not entries keep their places.
             while let Some(equation) = rest.next_if(|equation| !array.has(&equation.name)) {
                 if !self.definitions && !is_entry(equation) {
                     list.shown.push(equation.clone());
@@ -126,7 +127,7 @@ impl Group {
         list.shown
     }
 
-    /// The room that the widest left side leaves.
+    /// The space beside the widest left side.
     fn beside_left_sides(&self, arrays: &[Array], room: Room) -> Room {
         let cells = || arrays.iter().flat_map(|array| array.rows.iter().flatten());
         match room {
@@ -146,17 +147,17 @@ impl Group {
     }
 }
 
-/// The equations that are shown of a group.
+/// The equations of a group that are shown.
 struct List<'a> {
     shown: Vec<Equation>,
-    /// The names of the entries that are shown.
+    /// The names of the entries that are written out.
     known: Vec<&'a str>,
-    /// The names that entries without an equation are shown by.
+    /// The names of entries that are shown in place of an equation.
     used: Vec<&'a str>,
 }
 
 impl<'a> List<'a> {
-    /// Adds an array, or its entries.
+    /// Adds an array, or its entries if it does not fit.
     fn add(&mut self, array: &'a Array, room: Room) {
         let cells = array.rows.iter().flatten();
         if let Some((equation, by_parts)) = array.fitted(room) {
@@ -176,7 +177,7 @@ impl<'a> List<'a> {
         }
     }
 
-    /// Adds the equations that define what is used, in their order.
+    /// Adds the equations that define symbols used so far, in their order.
     fn add_definitions(&mut self, equations: &[Equation]) {
         let others = equations.iter().filter(|one| !self.known.contains(&one.name.as_str()));
         let others: Vec<&Equation> = others.collect();
@@ -206,7 +207,8 @@ impl Array {
         self.rows.iter().flatten().any(|cell| cell.name == name)
     }
 
-    /// The array as an equation, the longest entries by parts as far as that is needed, and the names of these.
+    /// The array as an equation, and the names of the entries that are written by parts. The longest entries are
+    /// written by parts until the array fits; `None` if it never does.
     fn fitted(&self, room: Room) -> Option<(Equation, Vec<&str>)> {
         let mut by_parts: Vec<&str> = vec![];
         loop {
@@ -231,7 +233,7 @@ impl Array {
         }
     }
 
-    /// The entries by their names, or as they are if they are short, row by row.
+    /// The names of the entries or, if they are short, the entries themselves, row by row.
     #[must_use]
     pub fn names(&self) -> Vec<Vec<&str>> {
         self.rows.iter().map(|row| row.iter().map(Cell::short).collect()).collect()
@@ -239,7 +241,7 @@ impl Array {
 }
 
 impl Cell {
-    /// The entry as an equation, unless others define it: by parts, long sums are defined by short ones.
+    /// The entry as an equation, unless other equations define it. It is written by parts: short sums define long ones.
     fn equation(&self) -> Option<Equation> {
         let Written { text, math } = self.parts.as_ref().or(self.whole.as_ref())?.clone();
         let (name, left) = (self.name.clone(), self.look.clone());
@@ -264,7 +266,7 @@ impl Room {
     }
 }
 
-/// The matrix of these entries, if it fits.
+/// The matrix of these entries if it fits.
 fn set(rows: &[Vec<Written>], room: Room) -> Option<Math> {
     let entries = |row: &Vec<Written>| row.iter().map(|one| one.math.clone()).collect();
     let matrix: Vec<Vec<Math>> = rows.iter().map(entries).collect();
@@ -285,7 +287,7 @@ fn set(rows: &[Vec<Written>], room: Room) -> Option<Math> {
     }
 }
 
-/// A column whose entries may take several lines.
+/// A column whose entries can take several lines, if it fits.
 fn column(rows: &[Vec<Math>], available: f64) -> Option<Math> {
     let mut column = vec![];
     let mut all = 0;
@@ -301,7 +303,7 @@ fn column(rows: &[Vec<Math>], available: f64) -> Option<Math> {
     Some(Math::Matrix(column))
 }
 
-/// The rows as text, one a line, the entries below each other.
+/// The rows as text, one per line, with the entries aligned in columns.
 fn text(rows: &[Vec<Written>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or_default();
     let length = |column: usize| {
@@ -311,7 +313,7 @@ fn text(rows: &[Vec<Written>]) -> String {
     let lengths: Vec<usize> = (0..columns).map(length).collect();
     let one = |row: &Vec<Written>| {
         let cells = row.iter().zip(&lengths).map(|(cell, length)| {
-            // By hand: a width of `format!` is at most 65,535, and entries can be longer.
+            // Pads without `format!`, whose width is limited to 65,535, because entries can be longer.
             let padding = length.saturating_sub(cell.text.len());
             format!("{}{}", cell.text, " ".repeat(padding))
         });

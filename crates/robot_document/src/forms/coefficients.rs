@@ -12,32 +12,31 @@ use super::{Equation, Group, Writer, aliases, generalized_force, letters, refere
 use crate::error::Error;
 use crate::math::Math;
 
-/// A coefficient is written out if its expansion takes no more than this; else what it has in common with others
-/// gets names.
+/// The limits within which a coefficient is expanded to be written out; beyond them, it is written by named parts.
 pub(super) const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 200_000 };
-/// The most terms of an expansion that is collected.
+/// The largest number of terms of an expansion that is collected.
 pub(super) const MAX_TERMS: usize = 160;
-/// The most printed symbols of an entry of a matrix, some six lines.
+/// The largest number of printed symbols of an entry of a matrix, about six lines.
 pub(super) const MAX_LENGTH: usize = 200;
-/// The most printed symbols of a coefficient that is written out where others need named parts: the limit by which the
-/// coefficients and the named parts of the longer ones are shortest together.
+/// The possible limits for the printed symbols of a coefficient that is written out, if others need named parts. The
+/// one that makes the coefficients and the named parts shortest in total is used.
 const LENGTHS: [usize; 4] = [300, 200, 130, 80];
 /// Limits that leave few coefficients written out: only if with the one above all is longer than with parts for every
 /// coefficient by more than a tenth.
 const SHORTER: [usize; 2] = [50, 30];
-/// The printed symbols of the shortest coefficient that is written by another one.
+/// The smallest number of printed symbols of a coefficient that is written by another one.
 pub(super) const MIN_LENGTH: usize = 3;
 
-/// Coefficients of a kind.
+/// The coefficients of one kind.
 pub(super) struct Section<'g> {
     pub(super) title: &'static str,
-    /// Whether the coefficients are by defined symbols, and short.
+    /// Whether the coefficients are short expressions in defined symbols.
     pub(super) by_symbols: bool,
     pub(super) coefficients: Vec<Coefficient<'g>>,
 }
 
-/// A coefficient: its name, its look and its value.
+/// A coefficient with its name, layout and value.
 pub(super) struct Coefficient<'g> {
     pub(super) name: String,
     pub(super) shape: Math,
@@ -55,29 +54,29 @@ impl<'g> Coefficient<'g> {
     }
 }
 
-/// How a coefficient is printed.
+/// The way in which a coefficient is printed.
 #[derive(Clone)]
 pub(super) enum Shown<'g> {
-    /// Not at all: what is 0 only once it is expanded is left out as well.
+    /// It is not printed because it is 0, possibly only after expansion.
     Zero,
-    /// By terms that are equal to its value.
+    /// It is printed as terms that are equal to its value.
     Short {
         /// The value.
         value: Polynomial<'g>,
         /// The terms.
         terms: Vec<ArrangedTerm<'g>>,
     },
-    /// By names of parts.
+    /// It is printed by names of its parts.
     Long {
-        /// The value; `None` if its expansion is too long.
+        /// The value; `None` if the expansion is too long.
         value: Option<Polynomial<'g>>,
     },
-    /// Not at all: an earlier coefficient of its section stands in its place.
+    /// It is not printed because an earlier coefficient of its section replaces it.
     Earlier,
 }
 
 impl<'g> Shown<'g> {
-    /// The value of a coefficient that is printed, if it is worth to be compared with others.
+    /// The value of a printed coefficient if it is long enough to be compared with others.
     pub(super) fn comparable(&self) -> Option<&Polynomial<'g>> {
         match self {
             Shown::Short { value, terms } => (length(terms) >= MIN_LENGTH).then_some(value),
@@ -87,7 +86,7 @@ impl<'g> Shown<'g> {
     }
 }
 
-/// How the coefficients are printed, by section.
+/// The ways in which the coefficients are printed, section by section.
 pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Vec<Shown<'g>>> {
     let coefficient =
         |coefficient: &Coefficient<'g>| match Polynomial::of(coefficient.value, &LIMITS) {
@@ -104,8 +103,8 @@ pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Ve
     sections.iter().map(|section| section.coefficients.iter().map(coefficient).collect()).collect()
 }
 
-/// Leaves coefficients to named parts from the length on by which all is shortest; none where no coefficient needs
-/// such parts.
+/// Chooses the length above which coefficients are written by named parts so that everything is shortest in total. Does
+/// nothing if no coefficient needs named parts.
 pub(super) fn limit<'g>(
     writer: &Writer<'_, 'g>,
     sections: &[Section<'g>],
@@ -114,7 +113,7 @@ pub(super) fn limit<'g>(
     if !shown.iter().flatten().any(|shown| matches!(shown, Shown::Long { .. })) {
         return;
     }
-    // As they will be printed, by earlier ones.
+    // The lengths are those with references to earlier coefficients.
     let mut printed = shown.to_vec();
     if writer.options.references {
         references::refer(writer, sections, &mut printed);
@@ -144,8 +143,8 @@ pub(super) fn limit<'g>(
     }
 }
 
-/// The joint torques as sums of products of coefficients that have names, and the coefficients: written out if
-/// they are short, else what they have in common gets names too.
+/// The joint torques as sums of products of named coefficients, and the definitions of these. Short coefficients are
+/// written out; common parts of long ones are named too.
 pub(super) fn by_name<'g>(
     writer: &mut Writer<'_, 'g>,
     title: &str,
@@ -164,7 +163,7 @@ pub(super) fn by_name<'g>(
     Ok(groups)
 }
 
-/// Defines the coefficients but those that are 0. Gives the names of these.
+/// Defines all coefficients that are not 0 and returns the names of those that are.
 pub(super) fn define_all(
     writer: &mut Writer<'_, '_>,
     sections: &[Section<'_>],
@@ -181,7 +180,7 @@ pub(super) fn define_all(
     Ok(zeros)
 }
 
-/// The summands of a joint torque: a coefficient's name and its multiplier.
+/// The summands of a joint torque: the names of coefficients and their factors.
 pub(super) type Sum<'g> = Vec<(String, Expr<'g>)>;
 
 fn generalized_forces<'g>(
@@ -200,7 +199,7 @@ fn generalized_forces<'g>(
     Ok(equations)
 }
 
-/// The symbols of a variable of the joints.
+/// The symbols of a joint variable for all coordinates.
 pub(super) fn motions<'g>(writer: &Writer<'_, 'g>, variable: JointVariable) -> Vec<Expr<'g>> {
     let symbols = writer.robot.symbols(variable);
     symbols.iter().map(|symbol| writer.graph.symbol(symbol)).collect()
@@ -210,7 +209,7 @@ fn all<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = &'s Coeffici
     sections.iter().flat_map(|section| &section.coefficients)
 }
 
-/// The definitions of coefficients, and of the names that the long ones need.
+/// The definitions of the coefficients and of the names that long ones need.
 pub(super) fn definitions_of<'g>(
     writer: &mut Writer<'_, 'g>,
     sections: &[Section<'g>],

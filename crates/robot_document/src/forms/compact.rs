@@ -1,4 +1,4 @@
-//! The compact form: what is used again has a name.
+//! The compact form, in which expressions that occur several times have names.
 
 use robot_dynamics::quantity::Symbol;
 use robot_symbolic::collected::{Collector, length};
@@ -48,8 +48,8 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(groups)
 }
 
-/// Definitions of what `roots` use again: combinations of parameters, then expressions of the state. A root that is part
-/// of others is defined among them under its own name, which is known to the writer.
+/// Defines the common parts of `roots`: first combinations of parameters, then expressions of the state. A root that is
+/// part of others is defined among them under its own name, which the writer must already know.
 pub(super) fn definitions<'h>(
     writer: &mut Writer<'_, '_>,
     roots: Vec<Root<'_>>,
@@ -62,11 +62,11 @@ pub(super) fn definitions<'h>(
     Ok((groups, list.named))
 }
 
-/// Sums of more terms are not multiplied out to be collected.
+/// The largest number of terms of a sum that is multiplied out to be collected.
 const MAX_TERMS: usize = 60;
 
-/// An equation whose right side has its powers collected and its factors sorted; with common factors in front of
-/// brackets if that takes no more operations.
+/// An equation whose right side has collected powers and sorted factors. Common factors are taken out of brackets if
+/// this needs no more operations.
 pub(super) fn tidy(
     writer: &Writer<'_, '_>,
     name: String,
@@ -77,32 +77,33 @@ pub(super) fn tidy(
     writer.of_terms(name, left, &terms)
 }
 
-/// The terms of an expression as it is built, or collected if that is shorter and takes no more operations.
+/// The terms of an expression in the structure in which it was built or, if that is shorter and needs no more
+/// operations, collected.
 pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
     let built = arranged::factored(arranged::terms(value, &writer.order), &writer.order);
     let limits =
         PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
-    // Sums of angles stay as they are.
+    // An expression with functions of sums keeps its structure.
     if walk::reachable(&[value]).iter().any(|part| is_of_sum(*part)) {
         return built;
     }
     let Ok(polynomial) = Polynomial::of(value, &limits) else { return built };
     let collector = Collector { angles: &[], factors: true };
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
-    // Of forms that are equally long the collector may leave one with a product more.
+    // Among equally long forms, the collector can choose one with an additional product.
     let collected = arranged::factored(collected, &writer.order);
     let is_shorter = length(&collected) < length(&built)
         && arranged::operations(&collected) <= arranged::operations(&built);
     if is_shorter { collected } else { built }
 }
 
-/// Whether an expression is a function of a sum.
+/// Whether an expression is a function of something other than a symbol or a number.
 fn is_of_sum(expr: Expr<'_>) -> bool {
     matches!(expr.view(), View::Call(_, argument) if !is_leaf(argument))
 }
 
-/// The expressions with each part that has parameters alone in its shortest form: sums of pseudo-inertias become the
-/// moments of inertia that they stand for.
+/// Writes each part of the expressions that contains only parameters in its shortest form: sums of pseudo-inertias
+/// become the moments of inertia that they stand for.
 fn with_short_parameters<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let moving = moving(roots);
     walk::rebuild_above(roots, writer.graph, |part| {

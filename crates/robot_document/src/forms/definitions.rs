@@ -1,4 +1,4 @@
-//! The definitions of what several equations have in common.
+//! Definitions of common parts of several equations.
 
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
@@ -7,68 +7,65 @@ use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::compact::{moving, short_terms, tidy};
+use super::letters::candidates;
 use super::naming::{Named, Worthy, worth_naming};
 use super::{Equation, Group, Writer, shapes};
 use crate::error::Error;
 use crate::math::{Math, Script};
 
-/// Letters for combinations of parameters, and for expressions of the state.
-const PARAMETER_LETTERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
-const STATE_LETTERS: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
-
-/// The title of joint torques before definitions that use them.
+/// The title of joint torques that stand before definitions that use them.
 const TORQUES: &str = "Joint torques in these expressions";
 
-/// What several equations have in common, with names.
+/// The named common parts of several equations.
 pub(super) struct Definitions<'g, 'h> {
-    /// What has names.
+    /// The expressions that have names.
     pub(super) named: Named<'h>,
-    /// Whether parts of long expressions are named only if the whole does not become shorter without, as it does if
-    /// terms cancel.
+    /// Whether parts of long expressions are named only if the whole does not become shorter without these names, as it
+    /// does if terms cancel.
     pub(super) is_economical: bool,
     roots: Vec<Expr<'g>>,
     worthy: Vec<Worthy<'g>>,
     moving: FxHashSet<Id>,
-    /// Parts that may need no name.
+    /// Parts that possibly need no name.
     pending: Vec<Expr<'g>>,
     /// The quantities that are parts of others.
     own: Vec<Own<'g>>,
-    /// The places of those that are defined, in order.
+    /// The places of the defined ones in `own`, in the order of their definition.
     defined: Vec<usize>,
-    /// Roots with names, which are defined among the others if they are parts of these.
+    /// Roots with names; those that are parts of other expressions are defined among them.
     pub(super) entries: Vec<Root<'g>>,
 }
 
-/// A root with a name.
+/// An expression with the name under which it is defined.
 pub(super) struct Root<'g> {
     pub(super) name: String,
     pub(super) look: Math,
     pub(super) value: Expr<'g>,
 }
 
-/// A quantity that is known by its own name.
+/// A quantity that is used under its own name.
 struct Own<'g> {
     value: Expr<'g>,
-    /// The value, but for its sign.
+    /// The value without its sign.
     part: Expr<'g>,
     symbol: Symbol,
     name: String,
     look: Math,
-    /// Its equation, once it is defined.
+    /// The equation, once the quantity is defined.
     equation: Option<Equation>,
-    /// Whether the equation stands before definitions that use it.
+    /// Whether the equation stands before definitions that use the quantity.
     is_placed: bool,
 }
 
-/// The definitions with one letter.
+/// The definitions that share a letter.
 struct Section {
     letter: &'static str,
     title: &'static str,
-    /// How many there are.
+    /// The number of definitions.
     count: usize,
-    /// The last ones.
+    /// The definitions since the last group was closed.
     equations: Vec<Equation>,
-    /// Those before, and joint torques that the last ones use.
+    /// The groups before them, including joint torques that the definitions use.
     groups: Vec<Group>,
 }
 
@@ -82,7 +79,8 @@ impl Section {
 }
 
 impl<'g, 'h> Definitions<'g, 'h> {
-    /// What the roots have in common, with names in another graph; numbers are printed with so many digits.
+    /// Finds the common parts of the roots, which get names in the graph `target`; numbers are printed with `digits`
+    /// significant digits.
     pub(super) fn new(
         target: &'h Graph,
         roots: &[Expr<'g>],
@@ -101,7 +99,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         }
     }
 
-    /// Joint torques that other quantities or definitions contain are known by their own names: `Q2`, not `x_1` with
+    /// Gives joint torques that are parts of other quantities or definitions their own names: `Q2`, and not `x_1` with
     /// `Q2 = x_1`.
     pub(super) fn own_names(&mut self, writer: &Writer<'_, '_>, quantities: &[Quantity<'g>]) {
         for quantity in quantities {
@@ -127,13 +125,13 @@ impl<'g, 'h> Definitions<'g, 'h> {
         }
     }
 
-    /// The equation of a quantity that is known by its own name.
+    /// The equation of a quantity that is used under its own name, once it is defined.
     pub(super) fn own_equation(&self, symbol: Symbol) -> Option<Equation> {
         self.own.iter().find(|own| own.symbol == symbol)?.equation.clone()
     }
 
-    /// The equations of quantities without those that stand before definitions, and with joint torques before those that
-    /// contain them.
+    /// The equations of quantities that do not already stand before definitions. Joint torques come before the torques
+    /// that contain them.
     pub(super) fn remaining(&self, symbols: &[Symbol], equations: Vec<Equation>) -> Vec<Equation> {
         let own = |symbol: Symbol| self.own.iter().position(|own| own.symbol == symbol);
         let all = symbols.iter().copied().zip(equations);
@@ -156,12 +154,12 @@ impl<'g, 'h> Definitions<'g, 'h> {
         first.into_iter().chain(last).map(|(_, equation)| equation).collect()
     }
 
-    /// The groups of definitions.
+    /// Defines everything that needs a name and returns the groups of definitions.
     pub(super) fn define(&mut self, writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         let mut groups = vec![];
         for (letters, of_state, title) in [
-            (PARAMETER_LETTERS, false, "Combinations of parameters"),
-            (STATE_LETTERS, true, "Expressions of the state"),
+            (candidates::OF_PARAMETERS, false, "Combinations of parameters"),
+            (candidates::OF_STATE, true, "Expressions of the state"),
         ] {
             let letter = writer.symbols.free_letter(&letters);
             let mut section =
@@ -199,7 +197,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         Ok(())
     }
 
-    /// Names the pending parts of an expression, unless it is shorter by a tenth without.
+    /// Names the pending parts of an expression, unless the expression is shorter by a tenth without the names.
     fn settle(
         &mut self,
         expr: Expr<'g>,
@@ -214,7 +212,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             return Ok(());
         }
         let whole = length(&short_terms(writer, self.named.rewritten(expr)));
-        // Names for a trial, in the order in which they are given below.
+        // The trial names are assigned in the same order as the final ones below.
         let mut trial = self.named.clone();
         let mut apart = 0;
         for (place, part) in parts.iter().enumerate() {
@@ -230,7 +228,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         Ok(())
     }
 
-    /// Defines an expression.
+    /// Defines an expression: names it and adds its equation.
     fn emit(
         &mut self,
         expr: Expr<'g>,
@@ -280,7 +278,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         Ok(())
     }
 
-    /// Whether an expression has the name of a joint torque that has no place yet.
+    /// Whether an expression contains the name of a joint torque whose equation has no place yet.
     fn uses_own(&self, value: Expr<'_>) -> bool {
         let names = walk::symbols(&[value]);
         let names: Vec<String> =
@@ -289,7 +287,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         defined.filter(|own| !own.is_placed).any(|own| names.contains(&own.name))
     }
 
-    /// The equations of the joint torques that are defined and have no place yet.
+    /// The equations of the defined joint torques that have no place yet; they get their place now.
     fn placed(&mut self) -> Vec<Equation> {
         let mut equations = vec![];
         for place in &self.defined {
@@ -302,7 +300,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
     }
 }
 
-/// An expression without a minus sign before it.
+/// Returns the expression without minus signs before it.
 fn positive(mut expr: Expr<'_>) -> Expr<'_> {
     while let View::Neg(inside) = expr.view() {
         expr = inside;
@@ -310,7 +308,8 @@ fn positive(mut expr: Expr<'_>) -> Expr<'_> {
     expr
 }
 
-/// What needs no name because its terms cancel: 0, or what has a name already, perhaps with the other sign.
+/// Returns the value of terms that need no name: 0, or a symbol that is defined already, possibly with the opposite
+/// sign.
 fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> {
     match terms {
         [] => Some(target.zero()),

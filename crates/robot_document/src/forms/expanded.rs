@@ -1,5 +1,5 @@
-//! The expanded form: products multiplied out, s² replaced by 1 − c², like terms merged. And the collected one:
-//! the same sums with their common factors in front of brackets.
+//! The expanded form, in which products are multiplied out, s² is replaced by 1 − c² and like terms are merged; and the
+//! collected form, in which common factors of the same sums are taken out of brackets.
 
 use robot_dynamics::quantity::{Kind, Quantity};
 use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
@@ -9,13 +9,13 @@ use super::loads::{friction_contributions, whole};
 use super::{Equation, Form, Group, Writer, of_generalized_force, paper, vectors};
 use crate::error::Error;
 
-/// The limits of an expansion: under a second, and more terms than anybody reads.
+/// The limits of an expansion: it takes less than a second, and nobody could read more terms.
 pub(super) const LIMITS: PolynomialOptions = PolynomialOptions {
     angle_sums: AngleSums::Expand,
     max_terms: 250_000,
     max_products: 2_000_000,
 };
-/// The terms of all equations together.
+/// The largest number of terms of all equations together.
 const MAX_TERMS: usize = 20_000;
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
@@ -81,8 +81,8 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(vec![Group { arrays, relations, ..group }, Group::of_definitions("Joint wrenches", forces)])
 }
 
-/// Adds friction to the joint torques. The forces in the joints that dry friction needs are defined under
-/// its root by names, for no line holds them expanded.
+/// Adds friction to the joint torques. The joint forces that dry friction needs get names, because no line is long
+/// enough for their expansion under a root.
 fn with_friction<'g>(
     writer: &mut Writer<'_, 'g>,
     quantities: &mut [Quantity<'g>],

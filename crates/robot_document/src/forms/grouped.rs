@@ -1,29 +1,26 @@
-//! The grouped form: Q = M(q) q̈ + C(q, q̇) q̇ + g(q), a function for each coefficient.
+//! The grouped form Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
 use super::coefficients::{Coefficient, Section, Shown, Sum, by_name, limit, motions, shown};
+use super::letters::candidates;
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
 use super::{Group, Writer, aliases};
 use crate::error::Error;
 
-/// The most coordinates: the coefficients grow with their third power, and each with the chain.
+/// The largest number of coordinates. The number of coefficients grows with its third power, and each becomes longer
+/// too.
 const MAX_COORDINATES: usize = 12;
 
-/// Letters of the mass matrix, of the coefficients of velocities, of Christoffel symbols, of gravity
-/// and of the wrenches' contributions.
-const MASS: [&str; 6] = ["M", "H", "A", "D", "B", "W"];
-const VELOCITY: [&str; 5] = ["b", "h", "v", "n", "B"];
-const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let coordinates = writer.robot.degrees_of_freedom();
     if coordinates > MAX_COORDINATES {
         return Err(Error::TooMany { coordinates, limit: MAX_COORDINATES });
     }
     let forces = writer.economical_forces(false);
-    // Per joint torque: its coefficients with what they are multiplied by.
+    // For each joint torque, its coefficients and their factors.
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
     let mut sections = vec![
         masses(writer, &forces, &mut sums),
@@ -48,8 +45,8 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(groups)
 }
 
-/// The sections that are terms of the joint torques: those of friction end with its contributions, after the forces
-/// that these need.
+/// The sections that are terms of the joint torques. Among those of friction, this is only the last one, which has the
+/// contributions; the joint forces that these need come before it.
 fn terms<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = (Term, &'s Section<'g>)> {
     let terms = [Term::Accelerations, Term::Velocities, Term::Positions, Term::Other];
     let last = sections.get(terms.len()..).and_then(<[_]>::last).map(|last| (Term::Other, last));
@@ -74,9 +71,9 @@ fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
     )
 }
 
-/// The entries of the mass matrix on and above its diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
+/// The entries of the mass matrix on and above the diagonal, row by row: Mᵢⱼ = ∂Qᵢ/∂q̈ⱼ.
 fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]) -> Section<'g> {
-    let letter = writer.letter(writer.options.letters.mass.as_deref(), &MASS);
+    let letter = writer.letter(writer.options.letters.mass.as_deref(), &candidates::MASS_MATRIX);
     let rates = motions(writer, JointVariable::Acceleration);
     let columns: Vec<_> = rates.iter().map(|rate| walk::derivatives(forces, *rate)).collect();
     let mut coefficients = vec![];
@@ -97,8 +94,8 @@ fn masses<'g>(writer: &Writer<'_, 'g>, forces: &[Expr<'g>], sums: &mut [Sum<'g>]
     Section { title: "Mass matrix", by_symbols: false, coefficients }
 }
 
-/// The coefficients of q̇ⱼ q̇ₖ, j ≤ k: of the joint torque i it is ∂²Qᵢ/∂q̇ⱼ∂q̇ₖ, half of that where
-/// j = k. The Christoffel symbol is half of the derivative in either case.
+/// The coefficients of q̇ⱼ q̇ₖ, j ≤ k, in the joint torque i: ∂²Qᵢ/∂q̇ⱼ∂q̇ₖ, or half of it if j = k. The Christoffel
+/// symbol is half of this derivative in both cases.
 fn velocities<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -106,8 +103,8 @@ fn velocities<'g>(
 ) -> Section<'g> {
     let christoffel = writer.options.christoffel;
     let (letters, title) = match christoffel {
-        true => (&CHRISTOFFEL, "Christoffel symbols"),
-        false => (&VELOCITY, "Coriolis and centrifugal coefficients"),
+        true => (&candidates::CHRISTOFFEL, "Christoffel symbols"),
+        false => (&candidates::VELOCITY, "Coriolis and centrifugal coefficients"),
     };
     let letter = writer.letter(writer.options.letters.velocity.as_deref(), letters);
     let graph = writer.graph;

@@ -1,4 +1,4 @@
-//! The letters of joint torques and of what the grouped form defines.
+//! The letters of joint torques and of everything that the forms define.
 
 use robot_dynamics::quantity::Kind;
 use robot_model::signs;
@@ -6,6 +6,27 @@ use robot_model::variable::JointVariable;
 
 use super::{Equation, Writer};
 use crate::math::{Math, Script};
+
+/// Letters of what the forms define, the preferred one first: the first that no symbol of the robot has is taken.
+pub(super) mod candidates {
+    pub(in crate::forms) const MASS_MATRIX: [&str; 6] = ["M", "H", "A", "D", "B", "W"];
+    /// Coefficients of products of two velocities.
+    pub(in crate::forms) const VELOCITY: [&str; 5] = ["b", "h", "v", "n", "B"];
+    pub(in crate::forms) const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];
+    /// The column of the velocity terms, and their matrix.
+    pub(in crate::forms) const VELOCITY_COLUMN: [&str; 5] = ["h", "n", "v", "u", "V"];
+    pub(in crate::forms) const VELOCITY_MATRIX: [&str; 5] = ["C", "K", "N", "Z", "V"];
+    pub(in crate::forms) const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
+    /// Contributions of the tips' wrenches.
+    pub(in crate::forms) const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
+    /// Coefficients of the base parameters.
+    pub(in crate::forms) const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
+    /// Masses of links that are more than a number or a symbol.
+    pub(in crate::forms) const LINK_MASS: [&str; 4] = ["m", "M", "A", "B"];
+    /// Combinations of parameters, and expressions of the state.
+    pub(in crate::forms) const OF_PARAMETERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
+    pub(in crate::forms) const OF_STATE: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
+}
 
 /// Letters, of which some may be given; the others are those that no symbol of the robot has.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -1,5 +1,5 @@
-//! Contributions to the joint torques that are not products with velocities or accelerations: gravity, the
-//! wrenches of the tips, friction.
+//! Contributions to the joint torques that are not products with velocities or accelerations: gravity, the wrenches of
+//! the tips, and friction.
 
 use robot_dynamics::mechanism::MechanismFriction;
 use robot_dynamics::newton_euler::{LinkWrench, friction};
@@ -10,14 +10,11 @@ use robot_symbolic::{Expr, walk};
 
 use super::Writer;
 use super::coefficients::{Coefficient, Section, Sum};
+use super::letters::candidates;
 use crate::layout::is_rate;
 use crate::math::Math;
 
-/// Letters of the contributions of gravity and of the wrenches.
-const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
-const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
-
-/// The joint torques at rest, without wrenches.
+/// The gravity terms: the joint torques at rest and without wrenches.
 pub(super) fn gravity<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -25,11 +22,11 @@ pub(super) fn gravity<'g>(
 ) -> Section<'g> {
     let wrenches = wrench_names(writer);
     let values = at_rest(writer, forces, &|name| wrenches.iter().any(|known| known == name));
-    let letter = writer.letter(writer.options.letters.gravity.as_deref(), &GRAVITY);
+    let letter = writer.letter(writer.options.letters.gravity.as_deref(), &candidates::GRAVITY);
     single(writer, "Gravity", &letter, values, sums)
 }
 
-/// The contributions of the wrenches of the tips, Jᵀ times the wrench.
+/// The contributions of the wrenches of the tips: Jᵀ times the wrench.
 pub(super) fn wrenches<'g>(
     writer: &Writer<'_, 'g>,
     forces: &[Expr<'g>],
@@ -43,10 +40,16 @@ pub(super) fn wrenches<'g>(
             *value += slope * component;
         }
     }
-    single(writer, "Wrenches of the tips", writer.symbols.free_letter(&WRENCH), values, sums)
+    single(
+        writer,
+        "Wrenches of the tips",
+        writer.symbols.free_letter(&candidates::WRENCH),
+        values,
+        sums,
+    )
 }
 
-/// A coefficient for each joint torque.
+/// One coefficient for each joint torque.
 fn single<'g>(
     writer: &Writer<'_, 'g>,
     title: &'static str,
@@ -65,13 +68,12 @@ fn single<'g>(
     Section { title, by_symbols: false, coefficients }
 }
 
-/// The friction parameters as the file has them.
+/// All friction parameters, as in the robot file.
 pub(super) fn whole<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
     friction.clone()
 }
 
-/// The friction of the joints by the parameters that `part` selects, and the joint forces that dry
-/// friction asks for.
+/// The friction of the joints with the parameters that `part` selects, and the joint forces that dry friction needs.
 pub(super) fn frictions<'g>(
     writer: &Writer<'_, 'g>,
     title: &'static str,
@@ -97,8 +99,8 @@ pub(super) fn frictions<'g>(
     vec![joints, contributions]
 }
 
-/// The contributions of friction to the joint torques, by symbols for the joint forces that dry friction
-/// needs, and these.
+/// The joint forces that dry friction needs, and the contributions of friction to the joint torques in symbols for
+/// these forces.
 pub(super) fn friction_contributions<'g>(
     writer: &Writer<'_, 'g>,
     part: fn(&MechanismFriction<'g>) -> MechanismFriction<'g>,
@@ -121,7 +123,7 @@ pub(super) fn friction_contributions<'g>(
     (joints, values)
 }
 
-/// Symbols for the components of a joint force; components that are 0 stay so.
+/// Names the components of a joint force; components that are 0 stay 0.
 fn joint_force<'g>(
     writer: &Writer<'_, 'g>,
     index: usize,
@@ -136,7 +138,7 @@ fn joint_force<'g>(
         if value.is_zero() {
             return value;
         }
-        // Without the dot of a quantity, so that text reads back.
+        // The dot in the name of a quantity is replaced, so that the text can be parsed.
         let name = symbol.to_string().replace('.', "_");
         let shape = Math::quantity(symbol);
         let named = writer.graph.symbol(&name);
@@ -152,7 +154,7 @@ fn wrench_names(writer: &Writer<'_, '_>) -> Vec<String> {
     writer.robot.tips().flat_map(names).collect()
 }
 
-/// Values with all velocities and accelerations 0, and further symbols of choice.
+/// The values with all velocities, all accelerations and the symbols that `zero` selects set to 0.
 fn at_rest<'g>(
     writer: &Writer<'_, 'g>,
     values: &[Expr<'g>],

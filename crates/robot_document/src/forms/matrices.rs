@@ -7,28 +7,25 @@ use robot_symbolic::{Expr, Polynomial, Rational, walk};
 use rustc_hash::FxHashMap;
 
 use super::coefficients::{LIMITS, MAX_LENGTH, MAX_TERMS, Section, Shown, Sum, motions};
+use super::letters::candidates;
 use super::{Array, Cell, Equation, Group, Writer, Written, aliases, letters, shapes};
 use crate::error::Error;
 use crate::math::{Fence, Math};
 
-/// Letters of the column of the velocity terms, and of their matrix.
-const COLUMN: [&str; 5] = ["h", "n", "v", "u", "V"];
-const MATRIX: [&str; 5] = ["C", "K", "N", "Z", "V"];
-
-/// A section as one term of the joint torques.
+/// The kind of term that a section is in the joint torques.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Term {
-    /// A matrix times the accelerations.
+    /// A matrix times the joint accelerations.
     Accelerations,
-    /// A column that depends on positions and velocities, or a matrix times the velocities.
+    /// A column that depends on joint positions and velocities, or a matrix times the velocities.
     Velocities,
-    /// A column that depends on the positions.
+    /// A column that depends on joint positions.
     Positions,
     /// Another column.
     Other,
 }
 
-/// The coefficients written out, by name.
+/// The values of the coefficients by their names.
 pub(super) struct Known<'g> {
     values: FxHashMap<String, (Written, Expr<'g>)>,
     zeros: Vec<String>,
@@ -36,7 +33,7 @@ pub(super) struct Known<'g> {
 }
 
 impl<'g> Known<'g> {
-    /// What is known of the coefficients before some are written by others.
+    /// Stores the coefficients as they are before some are written by others.
     pub(super) fn new(
         writer: &Writer<'_, 'g>,
         sections: &[Section<'g>],
@@ -64,7 +61,7 @@ impl<'g> Known<'g> {
         section.coefficients.iter().all(|one| self.zeros.contains(&one.name))
     }
 
-    /// The summands of a joint torque that are of a section.
+    /// The summands of a joint torque that belong to a section.
     fn row(&self, section: &Section<'g>, row: usize) -> Sum<'g> {
         let is_own = |name: &str| section.coefficients.iter().any(|one| one.name == *name);
         let sum = self.sums.get(row).into_iter().flatten();
@@ -72,7 +69,7 @@ impl<'g> Known<'g> {
         own.cloned().collect()
     }
 
-    /// A sum of coefficients times factors as an entry.
+    /// A sum of coefficients times factors, as an entry of an array.
     fn entry(
         &self,
         writer: &mut Writer<'_, 'g>,
@@ -109,7 +106,7 @@ impl<'g> Known<'g> {
         Ok(Cell { name, look, whole, parts: Some(parts), is_plain })
     }
 
-    /// A sum of coefficients times factors written out, unless that is too long.
+    /// A sum of coefficients times factors, written out; `None` if that is too long.
     fn whole(&self, writer: &Writer<'_, 'g>, sum: &Sum<'g>) -> Result<Option<Written>, Error> {
         let value = sum.iter().try_fold(writer.graph.zero(), |all, (name, factor)| {
             self.values.get(name).map(|(_, value)| all + *value * *factor)
@@ -128,7 +125,7 @@ impl<'g> Known<'g> {
     }
 }
 
-/// Adds the matrices and columns to the groups of the sections, and the joint torques as a sum of them.
+/// Adds the matrices and columns to the groups of the sections, and the joint torques as the sum of these.
 pub(super) fn attach<'g>(
     writer: &mut Writer<'_, 'g>,
     groups: &mut [Group],
@@ -163,7 +160,7 @@ pub(super) fn attach<'g>(
     Ok(())
 }
 
-/// The mass matrix, and its product with the accelerations.
+/// The mass matrix and its product with the joint accelerations.
 fn masses<'g>(
     writer: &mut Writer<'_, 'g>,
     section: &Section<'g>,
@@ -196,14 +193,15 @@ fn masses<'g>(
     Ok((Array { name: name.clone(), left, rows }, product))
 }
 
-/// The matrix of the velocity terms, Cᵢⱼ = Σ cᵢⱼₖ q̇ₖ, half of the derivatives of the velocity terms by the velocities:
-/// with it Ṁ − 2C is skew-symmetric. And its product with the velocities.
+/// The matrix of the velocity terms and its product with the joint velocities. Its entries Cᵢⱼ = Σ cᵢⱼₖ q̇ₖ are half of
+/// the derivatives of the velocity terms with respect to the velocities, so Ṁ − 2C is skew-symmetric.
 fn christoffel<'g>(
     writer: &mut Writer<'_, 'g>,
     section: &Section<'g>,
     known: &Known<'g>,
 ) -> Result<(Array, Written), Error> {
-    let letter = writer.letter(writer.options.letters.velocity.as_deref(), &MATRIX);
+    let letter =
+        writer.letter(writer.options.letters.velocity.as_deref(), &candidates::VELOCITY_MATRIX);
     let rates = motions(writer, JointVariable::Velocity);
     let half = writer.graph.number(Rational::new(1, 2).unwrap_or(Rational::ONE));
     let mut rows = vec![];
@@ -225,7 +223,7 @@ fn christoffel<'g>(
     Ok((Array { name, left, rows }, product))
 }
 
-/// The column of what a section adds to the joint torques.
+/// The column of the contributions of a section to the joint torques.
 fn column<'g>(
     writer: &mut Writer<'_, 'g>,
     term: Term,
@@ -233,7 +231,8 @@ fn column<'g>(
     known: &Known<'g>,
 ) -> Result<(Array, Written), Error> {
     let given = writer.options.letters.velocity.as_deref();
-    let letter = writer.letter(given.filter(|_| term == Term::Velocities), &COLUMN);
+    let letter =
+        writer.letter(given.filter(|_| term == Term::Velocities), &candidates::VELOCITY_COLUMN);
     let mut rows = vec![];
     for row in 0..known.sums.len() {
         rows.push(vec![indexed(writer, known, &letter, &[row + 1], &known.row(section, row))?]);
@@ -247,7 +246,7 @@ fn column<'g>(
     Ok((Array { name, left, rows }, summand))
 }
 
-/// An entry with a symbol of its own, unless it is one coefficient or 0.
+/// An entry with its own symbol, unless it is a single coefficient or 0.
 fn indexed<'g>(
     writer: &mut Writer<'_, 'g>,
     known: &Known<'g>,
@@ -272,12 +271,12 @@ fn written(equation: Equation) -> Written {
     Written { text: equation.text, math: equation.right }
 }
 
-/// A letter by its name, and as it looks.
+/// A letter as text and as layout.
 fn sign(letter: &str) -> (&str, Math) {
     (letter, Math::Letter(letters::character(letter)))
 }
 
-/// The letter of a section's coefficients, with the index that is not a number, by its name and as it looks.
+/// The letter of a section's coefficients with its index that is not a number, as text and as layout.
 fn base<'s>(section: &'s Section<'_>) -> (&'s str, Math) {
     let Some(first) = section.coefficients.first() else { return Default::default() };
     let name = first.name.trim_end_matches(|c: char| c.is_ascii_digit() || c == '_');
@@ -291,7 +290,7 @@ fn base<'s>(section: &'s Section<'_>) -> (&'s str, Math) {
     (name, look)
 }
 
-/// A symbol of an array with what it depends on, in text and in print.
+/// The symbol of an array with its arguments, as text and as layout.
 fn called((name, base): &(&str, Math), arguments: &[(&str, Math)]) -> (String, Math) {
     let mut name = (*name).to_owned();
     let names: Vec<&str> = arguments.iter().map(|(name, _)| *name).collect();
@@ -308,12 +307,12 @@ fn positions() -> (&'static str, Math) {
     state(JointVariable::Position)
 }
 
-/// The column of a variable of the joints.
+/// The column of a joint variable.
 fn state(variable: JointVariable) -> (&'static str, Math) {
     (variable.name(), Math::spelled(variable.name()))
 }
 
-/// The product of a matrix with a column.
+/// The product of a matrix and a column.
 fn times(name: &str, left: &Math, variable: JointVariable) -> Written {
     let (rate, look) = state(variable);
     let math = Math::Row(left.pieces().iter().cloned().chain([look]).collect());

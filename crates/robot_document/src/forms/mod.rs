@@ -48,58 +48,60 @@ pub use published::{TermOrder, Unlike};
 pub use arrays::{Array, Cell, Room, Written};
 pub use paper::Relation;
 
-/// The equations of a robot in some form.
+/// The equations of a robot in one form.
 #[derive(Clone, Debug)]
 pub struct Equations {
-    /// The equations, in groups in the order in which they are read.
+    /// The groups of equations, in the order in which they are read.
     pub groups: Vec<Group>,
-    /// The look of all symbols.
+    /// The layouts of all symbols.
     pub symbols: SymbolTable,
     /// Whether decimals were rounded to [`EquationOptions::digits`].
     pub rounded: bool,
-    /// The published equations, [`EquationOptions::order`], that are unlike these.
+    /// The published equations in [`EquationOptions::order`] that have nothing in common with these.
     pub unlike: Unlike,
 }
 
 /// Equations that belong together.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// Its title.
+    /// The title.
     pub title: String,
-    /// The remarks before them, in plain text.
+    /// Remarks before the equations, in plain text.
     pub introduction: String,
-    /// Whether they define symbols that other equations use.
+    /// Whether the equations define symbols that other equations use.
     pub definitions: bool,
-    /// Whether definitions after it use the quantities that its equations are about.
+    /// Whether later definitions use the quantities of these equations.
     pub used: bool,
     /// The equations.
     pub equations: Vec<Equation>,
-    /// The equations as one of vectors.
+    /// The same equations as one equation of vectors.
     pub vector: Option<Equation>,
-    /// The matrices and columns with entries that the equations define; `None` if the group has none. Vectors that
-    /// are only other names of what is defined before are not among them.
+    /// The matrices and columns whose entries the equations define; `None` if the group has none. Vectors that are only
+    /// other names of earlier ones are not included.
     pub arrays: Option<Vec<Array>>,
-    /// The relations of vectors from which quantities follow, shown before these where vectors are columns.
+    /// The vector relations from which quantities follow; they are shown before these quantities if vectors are
+    /// columns.
     pub relations: Vec<Relation>,
-    /// The numbers that a published text gives to equations, by their names; empty if equations have running numbers.
+    /// The numbers of equations in a published text, by the names of the equations; empty if equations are numbered
+    /// consecutively.
     pub numbers: BTreeMap<String, String>,
 }
 
-/// An equation: a quantity or a defined symbol, and what it is.
+/// An equation: a quantity or a defined symbol on the left side, and its value on the right side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Equation {
-    /// The left side in text, `F_l5.x`.
+    /// The left side as text, such as `F_l5.x`.
     pub name: String,
-    /// The right side as infix text that reads back.
+    /// The right side as infix text that can be parsed again.
     pub text: String,
     /// The left side.
     pub left: Math,
-    /// The right side: a sum; empty if the left side is all that is shown.
+    /// The right side, which is a sum; empty if only the left side is shown.
     pub right: Math,
 }
 
 impl Group {
-    /// Writes the numbers of right sides as people do; says whether any was rounded.
+    /// Writes the numbers of the right sides as people do and returns whether any was rounded.
     fn tidy(&mut self, digits: Option<usize>) -> bool {
         let mut is_rounded = false;
         let cells = self.arrays.iter_mut().flatten().flat_map(Array::cells_mut);
@@ -113,7 +115,7 @@ impl Group {
         is_rounded
     }
 
-    /// Definitions of symbols that other equations use.
+    /// Creates a group of definitions of symbols that other equations use.
     pub(crate) fn of_definitions(title: &str, equations: Vec<Equation>) -> Group {
         let (title, introduction) = (title.to_owned(), String::new());
         Group {
@@ -129,7 +131,7 @@ impl Group {
         }
     }
 
-    /// An equation of the group with its number if it has a label; none if the published text gives it none.
+    /// The equation with its label and number. If a published text numbers equations but not this one, it has neither.
     #[must_use]
     pub fn numbered(&self, equation: &Equation, label: Option<String>) -> NumberedEquation {
         let number = label.as_ref().and_then(|_| self.numbers.get(&equation.name)).cloned();
@@ -137,7 +139,7 @@ impl Group {
         NumberedEquation { label, number, equation: equation.clone() }
     }
 
-    /// Quantities of the robot.
+    /// Creates a group of quantities of the robot.
     pub(crate) fn of_quantities(
         title: &str,
         introduction: String,
@@ -148,13 +150,13 @@ impl Group {
 }
 
 impl Equation {
-    /// Whether it is a name alone, without a right side.
+    /// Whether the equation is only a name, without a right side.
     pub(crate) fn is_name(&self) -> bool {
         self.right.pieces().is_empty()
     }
 
-    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component; of a
-    /// matrix without what it depends on.
+    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component. The name
+    /// of a matrix is used without its arguments.
     #[must_use]
     pub fn label(&self) -> String {
         let name = self.name.split_once('(').map_or(self.name.as_str(), |(name, _)| name);
@@ -168,8 +170,8 @@ impl Equations {
         self.groups.iter().filter(|group| !group.definitions).flat_map(|group| &group.equations)
     }
 
-    /// The equations with texts for readers, which are not exact: decimals are rounded to so many significant digits, or
-    /// to those of a double.
+    /// The equations with texts for readers, which are not exact: decimals are rounded to `digits` significant digits
+    /// or, without a number of digits, to those of a double.
     #[must_use]
     pub fn readable(&self, digits: Option<usize>) -> Equations {
         let mut equations = self.clone();
@@ -185,31 +187,31 @@ impl Equations {
         equations
     }
 
-    /// The matrices and columns, in order.
+    /// The matrices and columns, in the order of their groups.
     pub fn arrays(&self) -> impl Iterator<Item = &Array> {
         self.groups.iter().filter_map(|group| group.arrays.as_ref()).flatten()
     }
 
-    /// The definitions that the other equations use, each before it is used by another one, and among them the quantities
-    /// that definitions use.
+    /// The definitions that other equations use, each before its first use by another definition, with the quantities
+    /// that definitions use among them.
     pub fn definitions(&self) -> impl Iterator<Item = &Equation> {
         let groups = self.groups.iter().filter(|group| group.definitions || group.used);
         groups.flat_map(|group| &group.equations)
     }
 }
 
-/// Equations of more expressions than this are not derived to the end: those of arms have some thousands.
+/// The largest number of expressions for which equations are derived; the equations of arms need some thousands.
 pub(crate) const MAX_NODES: usize = 300_000;
 
-/// Sums of more terms are collected by their coefficients of accelerations and velocities: the whole of the joint
-/// torque of a 6-joint arm has thousands.
+/// The largest number of terms of a sum that is collected as a whole; longer sums are collected by their coefficients
+/// of accelerations and velocities. A joint torque of a 6-joint arm has thousands of terms.
 const MAX_WHOLE: usize = 200;
 
-/// The equations of a robot.
+/// Derives the equations of a robot.
 ///
 /// # Errors
 ///
-/// Equations that are too long, with the forms to use instead; symbols that would look alike.
+/// If the equations are too long, with the forms to use instead, or if two symbols would look the same.
 pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, Error> {
     options.snap.map(snap::check).transpose()?;
     let graph = Graph::limited(MAX_NODES);
@@ -247,16 +249,16 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     Ok(Equations { groups, symbols: writer.symbols, rounded, unlike: writer.unlike })
 }
 
-/// The state that the forms have in common.
+/// The state that all forms share.
 struct Writer<'r, 'g> {
     robot: &'r Robot,
     options: &'r EquationOptions,
     graph: &'g Graph,
     symbols: SymbolTable,
     order: Order<'r>,
-    /// The groups of joints whose sums of angles are written.
+    /// The groups of parallel joints, whose sums of angles are written.
     parallel: Vec<ParallelAngles<'g>>,
-    /// The published equations that are unlike the derived ones.
+    /// The published equations that have nothing in common with the derived ones.
     unlike: Unlike,
 }
 
@@ -265,7 +267,7 @@ impl<'g> Writer<'_, 'g> {
         MechanismOptions::EXACT.with_snap(self.options.snap, self.robot)
     }
 
-    /// The paper's iterations.
+    /// The iterations of the paper.
     fn iterations(&self, effects: Effects) -> NewtonEuler<'g> {
         let derivation = self.derivation();
         newton_euler(&derivation.mechanism, effects)
@@ -275,7 +277,7 @@ impl<'g> Writer<'_, 'g> {
         Derivation::new(self.robot, self.graph, &self.mechanism_options(), None)
     }
 
-    /// Whether sines and cosines of sums of angles are written.
+    /// Whether sines and cosines of sums of angles are written or expanded.
     fn angle_sums(&self) -> AngleSums {
         self.options.angle_sums.unwrap_or(match self.options.form {
             Form::Expanded => AngleSums::Expand,
@@ -283,7 +285,7 @@ impl<'g> Writer<'_, 'g> {
         })
     }
 
-    /// The joint torques by the economical recursion, the wrenches of the tips included.
+    /// The joint torques from the economical recursion, including the wrenches of the tips.
     fn economical_forces(&self, friction: bool) -> Vec<Expr<'g>> {
         let kind = match friction {
             true => FunctionKind::InverseDynamics(Effects::BOTH),
@@ -294,14 +296,14 @@ impl<'g> Writer<'_, 'g> {
         outputs.flat_map(|output| output.values).collect()
     }
 
-    /// The quantities that are asked for, with friction or without.
+    /// The requested quantities, with or without friction.
     fn quantities(&self, friction: bool) -> Vec<Quantity<'g>> {
         let effects = Effects { wrench: true, friction };
         let iterations = self.iterations(effects);
         let of_kind = |kind: &Kind| {
             let mut quantities = iterations.quantities(*kind);
             if self.options.paper && matches!(kind, Kind::LinkForce | Kind::LinkMoment) {
-                // The sort is stable: components stay in order.
+                // The sort is stable, so components keep their order.
                 quantities.sort_by_key(|quantity| std::cmp::Reverse(quantity.symbol.number));
             }
             quantities
@@ -309,7 +311,7 @@ impl<'g> Writer<'_, 'g> {
         self.options.kinds.iter().flat_map(of_kind).collect()
     }
 
-    /// The look of a quantity on the left side.
+    /// The layout of a quantity on the left side.
     fn look(&self, symbol: Symbol) -> Math {
         match self.options.paper {
             true => Math::in_paper(symbol),
@@ -329,7 +331,7 @@ impl<'g> Writer<'_, 'g> {
         self.symbols.define(name, shape)
     }
 
-    /// An equation whose right side is a polynomial.
+    /// An equation whose right side is a polynomial, multiplied out.
     fn of_polynomial(
         &self,
         name: String,
@@ -341,7 +343,7 @@ impl<'g> Writer<'_, 'g> {
         Ok(Equation { name, text, left, right })
     }
 
-    /// An equation whose right side is a polynomial as the form writes it.
+    /// An equation whose right side is a polynomial, written as the form requires.
     fn of_collected(
         &self,
         name: String,
@@ -351,10 +353,10 @@ impl<'g> Writer<'_, 'g> {
         self.of_terms(name, left, &self.collected(value))
     }
 
-    /// The terms of a polynomial as the form writes it: collected, or multiplied out, in either case with the sums of
+    /// The terms of a polynomial as the form requires: collected or multiplied out, in both cases with the sums of
     /// angles that make it shortest.
     ///
-    /// In the form [`Form::Collected`] the parts of whole quantities are collected apart.
+    /// In the form [`Form::Collected`], the parts of whole quantities are collected separately.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
         let factors = !self.options.expand && self.options.form != Form::Expanded;
         if !factors && self.parallel.is_empty() {
@@ -377,7 +379,7 @@ impl<'g> Writer<'_, 'g> {
         }
     }
 
-    /// A long sum by its coefficients of accelerations and of products of velocities, each collected.
+    /// A long sum by its coefficients of accelerations and of products of velocities, which are collected separately.
     fn by_rates(
         &self,
         value: &Polynomial<'g>,
@@ -414,7 +416,7 @@ impl<'g> Writer<'_, 'g> {
         Ok(Equation { name, text, left, right })
     }
 
-    /// An equation whose right side is an expression as it is built.
+    /// An equation whose right side is an expression in the structure in which it was built.
     fn of_expression(&self, name: String, left: Math, value: Expr<'_>) -> Result<Equation, Error> {
         let text = robot_symbolic::print::to_text(value)?;
         let right = self.symbols.expression(value)?;
@@ -427,7 +429,7 @@ fn generalized_force(index: usize) -> Symbol {
     Symbol { kind: Kind::GeneralizedForce, number: index + 1, component: None }
 }
 
-/// The value of the coordinate that a joint torque moves; of other quantities none.
+/// The value for the coordinate of a joint torque; `None` for other quantities.
 fn of_generalized_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
     let place = quantity.symbol.number.checked_sub(1)?;
     values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::GeneralizedForce)

@@ -1,23 +1,23 @@
-//! Names for expressions that are used again.
+//! Names for expressions that occur several times.
 
 use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::layout::tidied_text;
 
-/// Expressions of one graph that have names in another one.
+/// The names of expressions of one graph, as symbols of another graph.
 #[derive(Clone)]
 pub(super) struct Named<'h> {
-    /// The graph of the right sides.
+    /// The graph that contains the symbols and the right sides.
     pub(super) graph: &'h Graph,
     symbols: FxHashMap<Id, Expr<'h>>,
 }
 
-/// Expressions that print shorter than this many operations get no name for being used twice.
+/// The smallest number of printed operations of an expression that gets a name because it is used twice.
 const SHORT: usize = 2;
-/// Expressions that print longer are cut into parts.
+/// The largest number of printed operations of an expression that is not divided into parts.
 const LONG: usize = 24;
-/// Constants of more bytes of text get names.
+/// The number of bytes of text above which a constant gets a name.
 const LONG_CONSTANT: usize = 9;
 
 impl<'h> Named<'h> {
@@ -25,13 +25,13 @@ impl<'h> Named<'h> {
         Named { graph, symbols: FxHashMap::default() }
     }
 
-    /// Names an expression, unless it has a name already; what it is but for its sign is then known by
-    /// the name as well.
+    /// Names an expression, unless it has a name already. The negative of the expression is then written with the name
+    /// too.
     pub(super) fn name(&mut self, expr: Expr<'_>, name: &str) {
         self.replace(expr, self.graph.symbol(name));
     }
 
-    /// What stands for an expression wherever it is used.
+    /// Sets the expression that replaces another one wherever it is used.
     pub(super) fn replace(&mut self, expr: Expr<'_>, value: Expr<'h>) {
         let (mut value, mut expr) = (value, expr);
         while let View::Neg(inside) = expr.view() {
@@ -40,7 +40,7 @@ impl<'h> Named<'h> {
         self.symbols.entry(expr.id()).or_insert(value);
     }
 
-    /// The expression by what has names.
+    /// Rewrites an expression with the names of its parts.
     pub(super) fn rewritten(&self, expr: Expr<'_>) -> Expr<'h> {
         let replace = |part: Expr<'_>| self.symbols.get(&part.id()).copied();
         let rewritten = walk::rebuild_above(&[expr], self.graph, replace);
@@ -48,7 +48,7 @@ impl<'h> Named<'h> {
     }
 }
 
-/// Numbers, symbols, and these with another sign: what needs no name.
+/// Whether an expression is a number, a symbol or the negative of one, and so needs no name.
 pub(super) fn is_leaf(expr: Expr<'_>) -> bool {
     match expr.view() {
         View::Number(_) | View::Pi | View::Symbol(_) => true,
@@ -57,29 +57,29 @@ pub(super) fn is_leaf(expr: Expr<'_>) -> bool {
     }
 }
 
-/// Whether a constant is long enough for a name if it is printed with so many significant digits.
+/// Whether a constant is long enough for a name if it is printed with `digits` significant digits.
 pub(super) fn is_long_constant(expr: Expr<'_>, digits: Option<usize>) -> bool {
     let shown = || robot_symbolic::print::to_text(expr).map(|text| tidied_text(&text, digits));
     matches!(expr.view(), View::Number(_)) && shown().is_ok_and(|text| text.len() > LONG_CONSTANT)
 }
 
-/// An expression that deserves a name.
+/// An expression that should have a name.
 #[derive(Clone, Copy)]
 pub(super) struct Worthy<'g> {
     pub(super) expr: Expr<'g>,
-    /// Whether it is used in one place, and has a name because what it is part of would be too long.
+    /// Whether it is used only once and has a name because the expression that contains it would be too long.
     pub(super) is_cut: bool,
 }
 
-/// The parts of `roots` that deserve a name, operands before results: those used in several
-/// places and long, and parts of what would be too long to print. Sines and cosines never are. Constants are long if they are
-/// so with that many significant digits.
+/// Returns the parts of `roots` that should have a name, operands before results: long parts that are used several
+/// times, and parts of expressions that would be too long to print. Sines and cosines get no names. A constant gets one
+/// if it is long when it is printed with `digits` significant digits.
 pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec<Worthy<'g>> {
     let all = walk::reachable(roots);
     let angles = angles(&all);
     let mut users: FxHashMap<Id, usize> = FxHashMap::default();
     for expr in &all {
-        // The base of a square counts twice.
+        // The base of a square is counted twice.
         for operand in expr.operands() {
             *users.entry(operand.id()).or_default() += 1;
         }
@@ -99,7 +99,7 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec
         };
         let used = users.get(&expr.id()).copied().unwrap_or_default();
         let long = (used > 1 && size >= SHORT && !is_leaf(expr)) || size > LONG;
-        // What is a quantity, and no part of another, has a name.
+        // A quantity that is not part of another one already has a name.
         let is_quantity = used == 1 && is_root(&expr);
         let is_negative = matches!(expr.view(), View::Neg(_));
         let is_constant = is_long_constant(expr, digits);
@@ -113,11 +113,11 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec
     worthy
 }
 
-/// About how many symbols `roots` take in print with the parts that deserve a name, before like terms are merged.
+/// Estimates how many symbols are printed for `roots` and their named parts, before like terms are merged.
 pub(super) fn named_length(roots: &[Expr<'_>], digits: Option<usize>) -> usize {
     let named: FxHashSet<Id> =
         worth_naming(roots, digits).iter().map(|worthy| worthy.expr.id()).collect();
-    // The length of each part, and whether it is a sum, which takes brackets as a factor.
+    // The length of each part, and whether it is a sum, which needs brackets as a factor.
     let mut known: FxHashMap<Id, (usize, bool)> = FxHashMap::default();
     let mut total = 0;
     for expr in walk::reachable(roots) {
@@ -143,7 +143,7 @@ fn operand_sizes(expr: Expr<'_>, sizes: &FxHashMap<Id, usize>) -> usize {
     expr.operands().iter().map(size).sum()
 }
 
-/// Sines, cosines, and their arguments.
+/// The sines and cosines and their arguments.
 fn angles(all: &[Expr<'_>]) -> FxHashSet<Id> {
     use robot_symbolic::Function::{Cos, Sin};
     let is_circular = |expr: &&Expr<'_>| matches!(expr.view(), View::Call(Sin | Cos, _));

@@ -1,4 +1,4 @@
-//! Which equations, and how they are put.
+//! The options of equations: which quantities, and in which form.
 
 use robot_dynamics::quantity::Kind;
 use robot_symbolic::AngleSums;
@@ -9,18 +9,18 @@ use crate::layout::Trigonometry;
 /// The form of the equations.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Form {
-    /// Sums of products, like terms merged: the paper's.
+    /// Sums of products with like terms merged, as in the paper.
     #[default]
     Expanded,
-    /// As people write: common factors in front of brackets, complete squares, sums of angles.
+    /// As people write equations: with common factors in front of brackets, complete squares and sums of angles.
     Collected,
-    /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Joint torques only.
+    /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Only for joint torques.
     Grouped,
-    /// The iterations link by link, each quantity by those before it. Joint torques only.
+    /// The recursion link by link, with each quantity in terms of earlier ones. Only for joint torques.
     Recursive,
-    /// As the economical recursion has them, expressions that are used again under names.
+    /// The economical recursion, with names for expressions that occur several times.
     Compact,
-    /// By base parameters, in which the joint torques are linear. Joint torques only.
+    /// Linear in the base parameters. Only for joint torques.
     Regrouped,
 }
 
@@ -35,7 +35,7 @@ impl Form {
         Form::Regrouped,
     ];
 
-    /// The name, as the command has it.
+    /// The name of the form in the command.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -49,45 +49,46 @@ impl Form {
     }
 }
 
-/// Which equations, and how they are put.
+/// The options of equations: which quantities, and in which form.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EquationOptions {
     /// The form.
     pub form: Form,
-    /// The quantities, in the order in which they are wanted. The forms [`Form::Grouped`],
-    /// [`Form::Recursive`] and [`Form::Regrouped`] are about the joint torques whatever is chosen.
+    /// The quantities, in the order of the equations. The forms [`Form::Grouped`], [`Form::Recursive`] and
+    /// [`Form::Regrouped`] always give the joint torques.
     pub kinds: Vec<Kind>,
-    /// Whether the joint torques include friction, equations (4)-(5).
+    /// Whether the joint torques include friction, equations (4) and (5) of the paper.
     pub friction: bool,
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None`
-    /// for what the robot file says, or 10⁻⁹.
+    /// The tolerance in rad within which constant angles are rounded to a multiple of π/2; `None` for the value in the
+    /// robot file or, if it has none, 10⁻⁹.
     pub snap: Option<f64>,
     /// The notation of sines and cosines.
     pub trigonometry: Trigonometry,
-    /// Whether sines and cosines of sums of angles of parallel joints are written, in all forms but
-    /// [`Form::Recursive`]; `None` for all but [`Form::Expanded`].
+    /// How sines and cosines of sums of angles of parallel joints are written: kept or expanded. If it is `None`, only
+    /// [`Form::Expanded`] expands them. [`Form::Recursive`] ignores this option.
     pub angle_sums: Option<AngleSums>,
-    /// Whether the coefficients of the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out rather
-    /// than collected.
+    /// Whether the coefficients in the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out instead of
+    /// collected.
     pub expand: bool,
-    /// Whether a coefficient of the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a rest, if
+    /// Whether a coefficient in the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a rest, if
     /// that is at most two thirds as long.
     pub references: bool,
-    /// Whether the grouped form has Christoffel symbols in place of the coefficients of velocities.
+    /// Whether the grouped form has Christoffel symbols instead of the coefficients of products of velocities.
     pub christoffel: bool,
-    /// Whether quantities are in the order, the shape and under the signs of the paper: forces and moments in the joints
-    /// from the last link to the first, vectors with the number of their link below as well, Q with the index m, terms and
-    /// factors as the paper's relations yield them, masses in front of brackets, relations before what they yield.
+    /// Whether quantities are printed as in the paper: forces and moments in the joints from the last link to the
+    /// first, vectors with the number of their link as the lower index too, Q with the index m, terms and factors in
+    /// the order in which the paper's relations yield them, masses in front of brackets, and relations before the
+    /// quantities that they yield.
     pub paper: bool,
-    /// The order of terms and factors in the form [`Form::Expanded`], for the quantities that it has.
+    /// The order of terms and factors in the form [`Form::Expanded`], for the quantities that it contains.
     pub order: TermOrder,
-    /// The letters of joint torques and of what the grouped form defines.
+    /// The letters of joint torques and of the symbols that the grouped form defines.
     pub letters: Letters,
-    /// The most significant digits of decimals, but in the text of equations, which is exact.
+    /// The largest number of significant digits of printed decimals; the text of equations stays exact.
     pub digits: Option<usize>,
 }
 
-/// The joint torques, expanded, without friction.
+/// The default options: the joint torques, expanded, without friction.
 impl Default for EquationOptions {
     fn default() -> EquationOptions {
         EquationOptions {

@@ -1,4 +1,4 @@
-//! The parts of a joint torque that are collected apart: of inertia and gravity, of friction, of external wrenches.
+//! The parts of a joint torque that are collected separately: inertia and gravity, friction, and external wrenches.
 
 use robot_symbolic::{Expr, Graph, Monomial, View};
 
@@ -7,15 +7,15 @@ use crate::layout::Order;
 /// The physical origin of a term.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Part {
-    /// Of inertia and gravity.
+    /// From inertia or gravity.
     Motion,
-    /// With one velocity, or with functions other than sines and cosines.
+    /// From friction: with exactly one velocity, or with a function other than a sine or cosine.
     Friction,
-    /// With a component of a tip's wrench.
+    /// From an external wrench: with a component of the wrench of a tip.
     External,
 }
 
-/// The part that a term belongs to.
+/// The part to which a term belongs.
 pub(super) fn of(monomial: &Monomial, order: &Order<'_>, graph: &Graph) -> Part {
     let mut rates = 0;
     let mut part = None;

@@ -1,4 +1,4 @@
-//! Terms in the order of a published text.
+//! Terms in the order of published equations.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,30 +7,31 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Formula, Graph, Id};
 use rustc_hash::FxHashMap;
 
-/// The terms that a published text has for quantities, in its order, each with its factors in the text's order.
+/// The terms of quantities in a published text, in the order of the text, with the factors of each in the text's order.
 ///
-/// Derived terms that the text does not have, for it has a mistake, stand where it has the term that they resemble most.
+/// A derived term that the text lacks because of a mistake takes the place of the text's term that is most similar to
+/// it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TermOrder {
     terms: BTreeMap<String, Vec<Formula>>,
     numbers: BTreeMap<String, String>,
-    /// Quantities of which the text has nothing to order.
+    /// The quantities for which the text has no terms to order.
     named: BTreeSet<String>,
 }
 
-/// How many equations of a published text are unlike the derived ones.
+/// The number of published equations that have nothing in common with the derived ones.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Unlike {
-    /// Those without a single term in common with the derived ones.
+    /// The number of equations without any term in common with the derived ones.
     pub foreign: usize,
-    /// All of the text's, each quantity once.
+    /// The number of all equations of the text, with each quantity counted once.
     pub all: usize,
 }
 
-/// Atoms with their exponents, in the order of writing.
+/// Atoms with their exponents, in the order in which they are written.
 type Product<'g> = Vec<(Expr<'g>, i32)>;
 
-/// Of one quantity no more pairs of terms are compared: that takes less than a second.
+/// The largest number of pairs of terms that are compared for one quantity, which takes less than a second.
 const MAX_PAIRS: usize = 1_000_000;
 
 impl TermOrder {
@@ -39,8 +40,8 @@ impl TermOrder {
         self.terms.insert(quantity.to_owned(), terms);
     }
 
-    /// Sets the number that the text gives to the equation of a quantity, without parentheses. One that is not of ASCII letters,
-    /// digits, points and hyphens is not kept.
+    /// Sets the number of a quantity's equation in the text, without parentheses. A number with other characters than
+    /// ASCII letters, digits, points and hyphens is ignored.
     pub fn set_number(&mut self, quantity: &str, number: &str) {
         let is_plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '-');
         if !number.is_empty() && number.chars().all(is_plain) {
@@ -48,18 +49,19 @@ impl TermOrder {
         }
     }
 
-    /// Says that the text has a quantity with nothing to order.
+    /// Records that the text has an equation for a quantity without terms to order.
     pub fn insert_name(&mut self, quantity: &str) {
         self.named.insert(quantity.to_owned());
     }
 
-    /// Whether it has no quantity.
+    /// Whether there are no quantities with terms.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.terms.is_empty()
     }
 
-    /// The numbers of the text by the names of equations: of components, and of columns whose components have one number.
+    /// The numbers in the text by the names of equations: those of components, and those of columns whose components
+    /// all have the same number.
     pub(super) fn numbers(&self) -> BTreeMap<String, String> {
         let mut columns: BTreeMap<String, Option<&String>> = BTreeMap::new();
         for (quantity, number) in &self.numbers {
@@ -73,7 +75,7 @@ impl TermOrder {
         self.numbers.clone().into_iter().chain(columns).collect()
     }
 
-    /// Counts an equation of the robot, if the text has it.
+    /// Counts an equation of the robot if the text has it.
     pub(super) fn count<'g>(
         &self,
         unlike: &mut Unlike,
@@ -87,7 +89,7 @@ impl TermOrder {
         };
         unlike.all += 1;
         let printed = printed.iter().map(|term| product(term, graph));
-        // What has brackets is not compared.
+        // Equations with brackets are not compared.
         if let (Some(printed), Some(own)) = (printed.collect::<Option<Vec<_>>>(), products(terms)) {
             let printed: BTreeSet<_> = printed.iter().map(key).collect();
             let is_shared = own.iter().any(|term| printed.contains(&key(term)));
@@ -95,8 +97,8 @@ impl TermOrder {
         }
     }
 
-    /// The terms of a quantity in the order of the text; `None` if the text does not have the quantity, or either has
-    /// brackets.
+    /// The terms of a quantity in the order of the text; `None` if the text does not have the quantity, or if the text
+    /// or the terms have brackets.
     pub(super) fn arranged<'g>(
         &self,
         quantity: &str,
@@ -108,7 +110,7 @@ impl TermOrder {
         let own = products(terms)?;
         let places = places(&own, &printed);
         let mut order: Vec<usize> = (0..own.len()).collect();
-        // The sort is stable: terms without a place follow in their own order.
+        // The sort is stable, so terms without a place follow in their own order.
         order.sort_by_key(|index| places.get(*index).copied().flatten().unwrap_or(usize::MAX));
         let one = |index: usize| {
             let (term, factors) = (terms.get(index)?, own.get(index)?);
@@ -124,7 +126,7 @@ impl TermOrder {
     }
 }
 
-/// The factors of terms, numbers left out; `None` if one has brackets.
+/// The factors of terms, without numbers; `None` if a term has brackets.
 fn products<'g>(terms: &[ArrangedTerm<'g>]) -> Option<Vec<Product<'g>>> {
     let of_atoms = |term: &ArrangedTerm<'g>| {
         let factors = term.factors.iter();
@@ -133,7 +135,7 @@ fn products<'g>(terms: &[ArrangedTerm<'g>]) -> Option<Vec<Product<'g>>> {
     terms.iter().map(of_atoms).collect()
 }
 
-/// The factors of a term without brackets, numbers left out.
+/// The factors of a term, without numbers; `None` if it has brackets.
 fn product<'g>(term: &Formula, graph: &'g Graph) -> Option<Product<'g>> {
     let of = |atom: Expr<'g>| (Some(vec![(atom, 1)]), atom);
     let (factors, _) = term.fold(|step: Step<'_, (Option<Product<'g>>, Expr<'g>)>| {
@@ -156,7 +158,7 @@ fn product<'g>(term: &Formula, graph: &'g Graph) -> Option<Product<'g>> {
     factors
 }
 
-/// The factors of a product with a power; equal ones at the place of the first.
+/// The factors of a product times those of a power; equal ones are combined at the place of the first.
 fn joined<'g>(
     one: Option<Product<'g>>,
     other: Option<Product<'g>>,
@@ -173,8 +175,8 @@ fn joined<'g>(
     Some(all)
 }
 
-/// For each term, the place of the printed term with the same factors, or else of the one that it resembles most of those that
-/// have no counterpart.
+/// For each term, the place of the printed term with the same factors, or else of the most similar printed term that
+/// has no counterpart.
 fn places(own: &[Product<'_>], printed: &[Product<'_>]) -> Vec<Option<usize>> {
     let mut free: FxHashMap<Vec<(Id, i32)>, Vec<usize>> = FxHashMap::default();
     for (place, term) in printed.iter().enumerate().rev() {
@@ -223,14 +225,15 @@ fn exponent(term: &Product<'_>, atom: Expr<'_>) -> i32 {
     term.iter().find(|(known, _)| known.id() == atom.id()).map_or(0, |(_, exponent)| *exponent)
 }
 
-/// The number of factors that differ, powers counted as often as they say.
+/// The number of factors that differ, with every factor of a power counted.
 fn distance(one: &Product<'_>, other: &Product<'_>) -> u32 {
     let beyond = |(atom, own): &(Expr<'_>, i32)| own.abs_diff(exponent(other, *atom));
     let missing = other.iter().filter(|(atom, _)| exponent(one, *atom) == 0);
     one.iter().map(beyond).chain(missing.map(|(_, own)| own.unsigned_abs())).sum()
 }
 
-/// The factors of a term in the order of another; those that the other does not have in the places of those that it has alone.
+/// The factors of a term in the order of another term. Factors that the other does not have take the places of those
+/// that only the other has.
 fn ordered<'g>(term: &Product<'g>, like: &Product<'g>) -> Product<'g> {
     let mut others = term.iter().filter(|(atom, _)| exponent(like, *atom) == 0);
     let mut all: Product<'g> = vec![];
@@ -251,7 +254,7 @@ mod tests {
 
     use super::*;
 
-    /// The sum in the order of the terms.
+    /// The sum in the order of the published terms.
     fn shown(sum: &str, published: &[&str]) -> Option<String> {
         let graph = Graph::new();
         let sum = graph.parse(sum).unwrap();
@@ -266,7 +269,7 @@ mod tests {
     fn terms_and_factors_have_the_order_of_the_text() {
         let of = |published: &[&str]| shown("m*g*cos(q) + 2*m*l^2*v - f", published);
         assert_eq!(of(&["-f", "l^2*2*v*m", "cos(q)*m*g"]).unwrap(), "-f + 2*l^2*v*m + cos(q)*m*g");
-        // A sum that is printed apart is merged at the place of its first part.
+        // Parts of a sum that are printed separately are merged at the place of the first.
         assert_eq!(of(&["l*v*l*m", "-f", "m*l^2*v"]).unwrap(), "2*l^2*v*m - f + m*g*cos(q)");
         assert_eq!(of(&["f*(m + g)"]), None);
         assert_eq!(TermOrder::default().arranged("Q1", &[], &Graph::new()), None);
@@ -303,7 +306,7 @@ mod tests {
         let mut unlike = Unlike::default();
         order.count(&mut unlike, "Q1", &terms("a*k - 3*b*k"), &graph);
         assert_eq!(unlike, Unlike { foreign: 1, all: 1 });
-        // One term in common, of another coefficient; only named; and not in the text.
+        // Q2 has one term in common, with another coefficient; Q3 is only named, and Q4 is not in the text.
         order.count(&mut unlike, "Q2", &terms("7*f + k"), &graph);
         order.count(&mut unlike, "Q3", &terms("k"), &graph);
         order.count(&mut unlike, "Q4", &terms("f"), &graph);
@@ -313,7 +316,7 @@ mod tests {
     #[test]
     fn what_the_text_has_wrong_stands_where_it_has_it() {
         let of = |published: &[&str]| shown("m*g*cos(q) + 2*m*l^2*v - f", published);
-        // A wrong index and a wrong sign; a missing term is at the end.
+        // The text has a wrong index and a wrong sign; a term that it lacks is at the end.
         assert_eq!(of(&["v*l^2*k", "f"]).unwrap(), "2*v*l^2*m - f + m*g*cos(q)");
         assert_eq!(of(&["cos(p)*m*g", "f", "l*v"]).unwrap(), "cos(q)*m*g - f + 2*l^2*v*m");
     }

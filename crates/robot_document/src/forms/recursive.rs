@@ -1,4 +1,4 @@
-//! The recursive form: the paper's iterations, link by link, each quantity by those before it.
+//! The recursive form: the paper's iterations link by link, with each quantity in terms of earlier ones.
 
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
@@ -8,6 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::compact::{definitions, tidy};
 use super::definitions::Root;
+use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
 use super::{Cell, Equation, Group, Writer, generalized_force, shapes};
@@ -51,13 +52,14 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(groups)
 }
 
-/// Masses, centers of mass and tensors of the links that are more than a number or a symbol.
+/// Defines the masses, centers of mass and inertia tensors of the links whose values are more than a number or a
+/// symbol.
 fn link_values<'h>(
     writer: &mut Writer<'_, '_>,
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
     let mechanism = writer.derivation().mechanism;
-    let letter = writer.symbols.free_letter(&["m", "M", "A", "B"]);
+    let letter = writer.symbols.free_letter(&candidates::LINK_MASS);
     let mut link_values: Vec<(String, Math, Expr<'_>)> = vec![];
     for (link, number) in mechanism.links.iter().zip(1..) {
         let shape = shapes::indexed(letter.chars().next().unwrap_or('m'), &[number]);
@@ -127,11 +129,11 @@ impl Vectors {
         Vectors(Group { arrays: Some(vec![]), ..group })
     }
 
-    /// Adds the equations of the components of a vector; those that are no more than a number or a symbol are
-    /// printed but get no name, so that their value is put where they are used.
+    /// Adds the equations of the components of a vector. Components that are only a number or a symbol are printed but
+    /// get no name, so their value is used directly in later equations.
     ///
-    /// A vector of numbers and symbols has no column if one of these is another name, if it is 0, or if it is one of
-    /// those `printed` before.
+    /// A vector of numbers and symbols gets no column if a component is only another name, if the vector is 0, or if
+    /// the same vector was `printed` before.
     fn add(
         &mut self,
         writer: &mut Writer<'_, '_>,
@@ -169,12 +171,12 @@ impl Vectors {
     }
 }
 
-/// Whether a component is another one.
+/// Whether a component is only another name, and not 0.
 fn is_name(cell: &Cell) -> bool {
     cell.is_plain && cell.whole.as_ref().is_some_and(|whole| whole.text != "0")
 }
 
-/// Whether a value is 0 or what another name stands for, perhaps with another sign.
+/// Whether a value is 0 or a defined symbol, possibly with the opposite sign.
 fn is_known(writer: &Writer<'_, '_>, value: Expr<'_>) -> bool {
     match value.view() {
         View::Neg(inside) => is_known(writer, inside),
@@ -197,7 +199,7 @@ fn generalized_forces(
     Ok(Group::of_quantities("Joint torques", String::new(), equations))
 }
 
-/// The equation as a sum of products if that is short, else as the expression is built.
+/// The equation with a short sum of products or, if the sum is long, with the expression as it was built.
 fn sum(
     writer: &Writer<'_, '_>,
     name: String,

@@ -1,4 +1,4 @@
-//! Coefficients by earlier ones: b₁₂₂ = ½ b₁₁₂.
+//! Coefficients that are written by earlier ones: b₁₂₂ = ½ b₁₁₂.
 
 use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
@@ -8,16 +8,16 @@ use rustc_hash::FxHashMap;
 use super::Writer;
 use super::coefficients::{MAX_TERMS, MIN_LENGTH, Section, Shown};
 
-/// The factors of an earlier coefficient, as numerator and denominator.
+/// The possible factors of an earlier coefficient, as numerator and denominator.
 const FACTORS: [(i64, i64); 6] = [(1, 1), (-1, 1), (2, 1), (-2, 1), (1, 2), (-1, 2)];
 
-/// The most names that a reader follows from a coefficient to one that is written out.
+/// The largest number of names that a reader must follow from a coefficient to one that is written out.
 const MAX_DEPTH: usize = 2;
 
-/// The differences from earlier coefficients that are written out to find the shortest.
+/// The number of differences from earlier coefficients that are written out to find the shortest.
 const MAX_TRIED: usize = 3;
 
-/// A coefficient that others may be written by.
+/// A coefficient by which others can be written.
 struct Earlier<'g> {
     name: String,
     value: Polynomial<'g>,
@@ -25,18 +25,18 @@ struct Earlier<'g> {
     depth: usize,
 }
 
-/// A way to write a coefficient: the place of the earlier one, its factor, and the number of terms that are left.
+/// A way to write a coefficient: the place of an earlier one, its factor, and the number of terms that remain.
 struct Way {
     place: usize,
     factor: Rational,
     left: usize,
 }
 
-/// The most printed symbols of a coefficient that is written by an earlier one and not by named parts.
+/// The largest number of printed symbols of a coefficient that is written by an earlier one instead of named parts.
 const MAX_BY_EARLIER: usize = 60;
 
-/// Writes a coefficient as a multiple of an earlier one of its section, plus a rest: if that is at most two thirds as
-/// long, or short where the coefficient would need named parts.
+/// Writes coefficients as a multiple of an earlier one of their section, plus a rest, if that is at most two thirds as
+/// long, or if it is short and the coefficient would otherwise need named parts.
 pub(super) fn refer<'g>(
     writer: &Writer<'_, 'g>,
     sections: &[Section<'g>],
@@ -72,7 +72,7 @@ pub(super) fn refer<'g>(
     }
 }
 
-/// The shortest way to write a value by an earlier one, and the depth of that.
+/// The shortest way to write a value by an earlier one, and the depth of the earlier one.
 fn shortest<'g>(
     writer: &Writer<'_, 'g>,
     value: &Polynomial<'g>,
@@ -107,7 +107,7 @@ fn shortest<'g>(
     written.min_by_key(|(terms, _)| length(terms))
 }
 
-/// The factor that leaves the fewest terms, fewer than the value has.
+/// The factor with which the fewest terms remain; `None` if there are not fewer than the value has.
 fn best_way<'g>(place: usize, value: &Polynomial<'g>, earlier: &Earlier<'g>) -> Option<Way> {
     let (mut common, mut matched) = (0, [0; FACTORS.len()]);
     let factors: Vec<Rational> =

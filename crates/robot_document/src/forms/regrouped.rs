@@ -1,4 +1,4 @@
-//! The regrouped form: Q = Y(q, q̇, q̈) β, linear in the base parameters.
+//! The regrouped form Q = Y(q, q̇, q̈) β, which is linear in the base parameters.
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, StandardParameter};
 use robot_dynamics::mechanism::MechanismFriction;
@@ -10,17 +10,15 @@ use robot_symbolic::{Expr, Number, Polynomial};
 use super::coefficients::{
     Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, limit, shown,
 };
+use super::letters::candidates;
 use super::loads::{frictions, wrenches};
 use super::{Equation, Group, Writer, aliases, generalized_force, shapes};
 use crate::base_parameters::{self as base, Formulas, Written};
 use crate::error::Error;
 use crate::math::Math;
 
-/// The most printed symbols of all coefficients that are written into the joint torques.
+/// The largest number of printed symbols of all coefficients if they are written into the joint torques.
 const MAX_LENGTH: usize = 4000;
-
-/// Letters of the coefficients of base parameters.
-const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let derivation = writer.derivation();
@@ -54,7 +52,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     Ok(groups)
 }
 
-/// The printed symbols of a coefficient; `None` if it needs names.
+/// The number of printed symbols of a coefficient; `None` if it needs names.
 fn length_of(shown: &Shown<'_>) -> Option<usize> {
     match shown {
         Shown::Zero => Some(0),
@@ -74,15 +72,15 @@ fn introduction(found: &BaseParameters<'_>) -> String {
     )
 }
 
-/// The meaning of the names of base parameters if they are moments in other frames.
+/// The explanation of the names of base parameters that are moments in other frames.
 const MOMENTS: &str = "In the names of base parameters, SXX is the second moment ∫ x² dm of a \
     link, SXY is ∫ x y dm and so on, and MX, MY, MZ are the first moments, in Denavit-Hartenberg \
     frames: z is the joint axis, and the origin is the point where the common normal with the \
     parent's joint axis meets it; a D marks a parameter that differs from the file's parameter \
     of the same name.";
 
-/// The definitions of the standard parameters that are regrouped and of the base parameters, and the
-/// symbols of the base parameters by their columns.
+/// The definitions of the base parameters and of the standard parameters in them, and the symbols of the base
+/// parameters by their columns.
 fn definitions<'g>(
     writer: &mut Writer<'_, 'g>,
     found: &BaseParameters<'g>,
@@ -121,8 +119,8 @@ fn definitions<'g>(
     Ok((groups, symbols))
 }
 
-/// The definitions of the standard parameters at `places`, and how each of all is written; `None` for
-/// those that are 0.
+/// The definitions of the standard parameters at `places`, and the way in which each standard parameter is written;
+/// `None` for those that are 0 or not at `places`.
 fn standard<'g>(
     writer: &mut Writer<'_, 'g>,
     found: &BaseParameters<'g>,
@@ -150,7 +148,7 @@ fn standard<'g>(
     Ok((equations, written))
 }
 
-/// The symbol of a base parameter, with its definition unless the file has it as it is.
+/// The symbol of a base parameter. Its definition is added to `equations`, unless the robot file has this symbol.
 fn parameter<'g>(
     writer: &mut Writer<'_, 'g>,
     parameter: &BaseParameter<'g>,
@@ -163,7 +161,7 @@ fn parameter<'g>(
     }
     let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
     let value = formulas.of_polynomial(value)?;
-    // By the file's own symbols the formula would be the value once more.
+    // If all terms are symbols of the file, the formula would only repeat the value.
     let is_defined = |(place, _): &(usize, Expr<'g>)| {
         let written = standard.get(*place).and_then(Option::as_ref);
         written.is_some_and(|written| writer.symbols.is_defined(&written.text))
@@ -173,7 +171,7 @@ fn parameter<'g>(
         false => value.clone(),
     };
     if let Some(known) = standard.iter().flatten().find(|known| known.text == formula.text) {
-        // What it was regrouped with is 0.
+        // The parameters with which it was regrouped are 0.
         return Ok(writer.graph.symbol(&known.text));
     }
     let (mut name, mut look) = (parameter.name(), base::look(parameter));
@@ -181,7 +179,7 @@ fn parameter<'g>(
         if is_itself(parameter, known, standard) {
             return Ok(writer.graph.symbol(&name));
         }
-        // Of a link's moment in another frame and the parameter of the same name in the file's.
+        // The moment of a link in another frame has the same name as the parameter in the file's frame.
         let StandardParameter { link, quantity } = parameter.kept;
         name = format!("{}D_{}", quantity.symbol(), link + 1);
         look = base::shape(quantity, "D", link);
@@ -194,13 +192,13 @@ fn parameter<'g>(
     Ok(symbol)
 }
 
-/// Whether a base parameter is the standard one of its name.
+/// Whether a base parameter is equal to the standard parameter of the same name.
 fn is_itself(parameter: &BaseParameter<'_>, known: &Written, standard: &[Option<Written>]) -> bool {
     let [(place, coefficient)] = parameter.terms.as_slice() else { return false };
     coefficient.is_one() && standard.get(*place).is_some_and(|one| one.as_ref() == Some(known))
 }
 
-/// The symbol that a value is, if it is nothing more.
+/// Returns the symbol if a value is only a symbol.
 fn symbol_of(value: &Polynomial<'_>) -> Option<String> {
     let value = value.to_expr();
     value.as_symbol().map(|symbol| value.graph().symbol_name(symbol))
@@ -211,7 +209,7 @@ fn is_friction(quantity: Quantity) -> bool {
     matches!(quantity, ViscousFriction | ForwardFriction | BackwardFriction | Offset)
 }
 
-/// The part of friction that grows with the force in the joint: no parameter is a factor of it alone.
+/// The part of friction that grows with the joint force; it has no parameter as a single factor.
 fn dry<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
     let zero = friction.viscous.graph().zero();
     MechanismFriction {
@@ -223,14 +221,14 @@ fn dry<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
     }
 }
 
-/// The entries of Y, row by row; those of parameters that are left out are not among them.
+/// The entries of Y, row by row, without the columns of parameters that are left out.
 fn coefficients<'g>(
     writer: &Writer<'_, 'g>,
     columns: &[Expr<'g>],
     parameters: &[Option<Expr<'g>>],
     sums: &mut [Sum<'g>],
 ) -> Section<'g> {
-    let letter = writer.symbols.free_letter(&REGRESSOR);
+    let letter = writer.symbols.free_letter(&candidates::REGRESSOR);
     let mut coefficients = vec![];
     for ((row, values), sum) in (1..).zip(columns.chunks(parameters.len().max(1))).zip(sums) {
         let used =
@@ -249,7 +247,7 @@ fn coefficients<'g>(
     Section { title: "Coefficients of the base parameters", by_symbols: false, coefficients }
 }
 
-/// The joint torques with the coefficients written out, and what else they have under names.
+/// The joint torques with the coefficients written out; their other parts have names.
 fn inline<'g>(
     writer: &mut Writer<'_, 'g>,
     introduction: String,
@@ -288,7 +286,7 @@ fn unit<'g>() -> ArrangedTerm<'g> {
     ArrangedTerm { negative: false, coefficient: Number::integer(1), factors: vec![] }
 }
 
-/// A symbol times its coefficient; a sum in brackets does not start with a minus.
+/// The product of a symbol and its coefficient; a sum in brackets does not begin with a minus sign.
 fn product<'g>(
     writer: &Writer<'_, 'g>,
     symbol: Expr<'g>,

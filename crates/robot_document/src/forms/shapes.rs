@@ -1,15 +1,15 @@
-//! The layout of quantities and defined symbols.
+//! The layouts of quantities and defined symbols.
 
 use crate::math::{Math, Script};
 
-/// `ω_x^2`, `J_{xy}^2`: the link above, as the paper's quantities have it.
+/// A component such as `ω_x^2` or `J_{xy}^2`: the upper index is the link, as in the paper.
 pub(super) fn component(letter: char, number: usize, axes: &[usize]) -> Math {
     let lower = Some(Math::row(axes.iter().map(|place| axis(*place)).collect()));
     let upper = Some(Math::integer(number));
     Math::Script(Box::new(Script { base: Math::Letter(letter), lower, upper }))
 }
 
-/// A letter with numbers below: `M_{12}`, with commas if one has several digits.
+/// A letter with numbers as its lower index: `M_{12}`, with commas if a number has several digits.
 pub(super) fn indexed(letter: char, numbers: &[usize]) -> Math {
     let apart = numbers.iter().any(|number| *number > 9);
     let mut pieces = vec![];
@@ -25,7 +25,7 @@ pub(super) fn indexed(letter: char, numbers: &[usize]) -> Math {
     Math::Letter(letter).with_lower(Math::row(pieces))
 }
 
-/// The name of an indexed symbol in text: `M_1_2`.
+/// The name of an indexed symbol in text, such as `M_1_2`.
 pub(super) fn indexed_name(letter: &str, numbers: &[usize]) -> String {
     let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
     format!("{letter}_{}", numbers.join("_"))
@@ -35,7 +35,7 @@ fn axis(component: usize) -> Math {
     Math::Letter(axis_name(component).chars().next().unwrap_or('z'))
 }
 
-/// `x`, `y` or `z`
+/// The name of an axis: `x`, `y` or `z`.
 pub(super) fn axis_name(component: usize) -> &'static str {
     ["x", "y", "z"].get(component).copied().unwrap_or("z")
 }

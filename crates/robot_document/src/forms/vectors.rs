@@ -1,11 +1,11 @@
-//! Columns of the components of vectors.
+//! Columns with the components of vectors.
 
 use robot_dynamics::quantity::{Quantity, Symbol};
 
 use super::{Array, Cell, Equation, Written};
 use crate::math::Math;
 
-/// The columns of the vectors among quantities; `None` if there are none.
+/// The columns of the vectors among the quantities; `None` if there are none.
 pub(super) fn of_quantities(
     quantities: &[Quantity<'_>],
     equations: &[Equation],
@@ -30,12 +30,12 @@ pub(super) fn of_quantities(
     (!arrays.is_empty()).then_some(arrays)
 }
 
-/// A column of entries.
+/// Makes a column of entries.
 pub(super) fn column(name: String, left: Math, cells: impl Iterator<Item = Cell>) -> Array {
     Array { name, left, rows: cells.map(|cell| vec![cell]).collect() }
 }
 
-/// A component as an entry.
+/// Makes an entry from the equation of a component.
 pub(super) fn cell(equation: &Equation, is_plain: bool) -> Cell {
     let whole = Written { text: equation.text.clone(), math: equation.right.clone() };
     let (name, look) = (equation.name.clone(), equation.left.clone());

@@ -1,8 +1,8 @@
-//! Long formulas on several lines.
+//! Line breaking of long formulas.
 //!
-//! A line is broken before a `+` or `-` outside of fences; if a term alone does not fit, also
-//! between its factors, after a `·`, and at signs within its parentheses. A product
-//! that takes several lines starts on its own one, and goes on further in.
+//! A line is broken before a `+` or `-` outside of fences. If a term alone does not fit, it is also broken between its
+//! factors, after a `·`, and at the signs within its parentheses. A product that takes several lines starts on a line
+//! of its own, and its further lines are indented more.
 
 use super::math::{Fence, Math};
 use super::width::width;
@@ -12,16 +12,15 @@ use crate::forms::Equation;
 /// A piece that cannot be broken further is wider than a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooWide {
-    /// The width that the piece needs, pt.
+    /// The width of the piece, in pt.
     pub needed: f64,
 }
 
-/// The formula on lines no wider than `first`, `rest`: widths in points of the first line and of the
-/// following ones.
+/// Breaks a formula into lines. The first line is at most `first` points wide, and the following ones at most `rest`.
 ///
 /// # Errors
 ///
-/// A piece that does not fit.
+/// If a piece that cannot be broken does not fit on a line.
 pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Math>, TooWide> {
     let mut lines = Lines { first, rest, reserve: 0.0, done: vec![], line: vec![] };
     for term in terms(math.pieces()) {
@@ -31,17 +30,17 @@ pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Math>, TooWide> 
     Ok(lines.done.into_iter().map(Math::row).collect())
 }
 
-/// An equals sign with its spaces, pt.
+/// The width of an equals sign with its spaces, in pt.
 const EQUALS: f64 = 13.4;
-/// The indent of further lines, and the spaces around the sign that they start with, pt.
+/// The indent of further lines, with the spaces around the sign at their beginning, in pt.
 const INDENT: f64 = 14.5;
 
-/// The right side of an equation on lines beside its left side, which leaves them `available`
-/// points; beside the last line are another `number` points for the number of the equation.
+/// Breaks the right side of an equation into lines; `available` is the width beside the left side, in points. The last
+/// line leaves `number` points of it for the number of the equation.
 ///
 /// # Errors
 ///
-/// A piece that does not fit.
+/// If a piece that cannot be broken does not fit on a line.
 pub(crate) fn right_side(
     equation: &Equation,
     available: f64,
@@ -84,24 +83,24 @@ fn beside(mut lines: Vec<Math>, rest: f64) -> Option<Vec<Math>> {
     fits(&moved).then(|| lines.into_iter().chain([Math::row(kept), moved]).collect())
 }
 
-/// The way that a piece is joined to the one before it.
+/// The way in which a piece is joined to the preceding one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Joint {
-    /// By the sign that it starts with.
+    /// By the sign at its beginning.
     Sign,
     /// As a factor.
     Factor,
 }
 
-/// More than a closing parenthesis takes, pt.
+/// An upper bound for the width of a closing parenthesis, in pt.
 const PARENTHESIS: f64 = 6.0;
-/// The further indent of lines within a product, pt.
+/// The additional indent of lines within a product, in pt.
 const DEEPER: f64 = 10.0;
 
 struct Lines {
     first: f64,
     rest: f64,
-    /// The width of the closing parentheses to come.
+    /// The width that is reserved for closing parentheses.
     reserve: f64,
     done: Vec<Vec<Math>>,
     line: Vec<Math>,
@@ -127,7 +126,7 @@ impl Lines {
         }
     }
 
-    /// Adds pieces to the line, or to a new one, or piece by piece.
+    /// Adds pieces to the current line or to a new line, or splits them if neither has enough space.
     fn add(&mut self, pieces: &[Math], joint: Joint) -> Result<(), TooWide> {
         let mut longer = self.line.clone();
         longer.extend_from_slice(pieces);
@@ -159,8 +158,8 @@ impl Lines {
         self.split(pieces, joint, alone)
     }
 
-    /// Takes a parenthesis that has just been opened off the line, with the sign before it or as a factor, if it has room
-    /// before the first pieces of its sum on the next line: a line does not end with `+ (`, nor with `) (`.
+    /// Removes an opening parenthesis from the end of the line, with the sign before it or as a factor, and returns the
+    /// removed pieces. They start the next line if they fit before `next`: a line should not end with `+ (` or `) (`.
     fn opened(&mut self, next: &[Math]) -> Vec<Math> {
         let is_sign = |piece: &Math| matches!(piece, Math::Sign('+' | '-' | '('));
         if self.line.last() != Some(&Math::Sign('(')) {
@@ -196,7 +195,7 @@ impl Lines {
             })
     }
 
-    /// Adds pieces that fit no line as they are.
+    /// Adds pieces that do not fit on one line.
     fn split(&mut self, pieces: &[Math], joint: Joint, needed: f64) -> Result<(), TooWide> {
         if let Some((signs, inside, tail)) = fenced(pieces) {
             let before = (self.done.clone(), self.line.clone(), self.reserve);
@@ -217,7 +216,7 @@ impl Lines {
         for (place, factor) in factors.iter().enumerate() {
             let joint = if place == 0 { joint } else { Joint::Factor };
             let rest = pieces.get(start..).unwrap_or_default();
-            // Short factors behind a sum stay with its last line.
+            // Short factors after a sum stay on the last line of the sum.
             if place > 0 && rest.len() > factor.len() && has_short_tail(rest, self.rest) {
                 let before = (self.done.clone(), self.line.clone(), self.reserve);
                 if self.add(rest, joint).is_ok() {
@@ -231,7 +230,7 @@ impl Lines {
         Ok(())
     }
 
-    /// Adds a sum in parentheses term by term, and what follows it on its last line.
+    /// Adds a sum in parentheses term by term, and the factors after it on its last line.
     fn within(
         &mut self,
         signs: &[Math],
@@ -241,7 +240,7 @@ impl Lines {
     ) -> Result<(), TooWide> {
         let behind = match tail {
             [] => 0.0,
-            // With the space after a parenthesis.
+            // Includes the space after a parenthesis.
             tail => width(&Math::Row(tail.to_vec())) + PARENTHESIS,
         };
         self.reserve += PARENTHESIS;
@@ -260,10 +259,10 @@ impl Lines {
     }
 }
 
-/// Factors behind a sum are short up to this part of a line.
+/// The largest width of short factors after a sum, as a fraction of the line.
 const TAIL: f64 = 0.4;
 
-/// A sum in parentheses, with the signs before it and the factors behind it, none of which is a sum.
+/// Splits pieces into signs, a sum in parentheses and the factors after it, if none of these is in fences.
 fn fenced(pieces: &[Math]) -> Option<(&[Math], &Math, &[Math])> {
     let is_sign = |piece: &Math| matches!(piece, Math::Sign(_));
     let place = pieces.iter().position(|piece| !is_sign(piece))?;
@@ -284,12 +283,12 @@ fn has_short_tail(pieces: &[Math], line: f64) -> bool {
     })
 }
 
-/// Whether a line that starts with these pieces goes on with a product.
+/// Whether a line that starts with these pieces continues a product.
 pub(crate) fn is_within_product(line: &[Math]) -> bool {
     line.starts_with(&[Math::Sign('·')])
 }
 
-/// The terms of a sum, each with its sign; a minus after an equals sign stays with that.
+/// The terms of a sum with their signs. A minus sign after an equals sign does not start a term.
 pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
     let stay = |before: &Math, next: &Math| {
         !matches!(next, Math::Sign('+' | '-' | '=')) || matches!(before, Math::Sign('='))
@@ -297,7 +296,8 @@ pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
     pieces.chunk_by(stay).filter(|term| !term.is_empty())
 }
 
-/// The factors of a term: a sign stays with the first one, a function with its argument, a `×` with what it multiplies.
+/// The factors of a term. A sign belongs to the factor after it, a function to its argument, and a `×` to both of its
+/// operands.
 fn factors(pieces: &[Math]) -> Vec<&[Math]> {
     let stay = |before: &Math, next: &Math| stays_with_next(before) || *next == Math::Sign('×');
     pieces.chunk_by(stay).collect()
@@ -330,7 +330,7 @@ mod tests {
         assert_eq!(lines(sum, 60.0, 60.0), [sum]);
         assert_eq!(lines(sum, 50.0, 50.0), ["a_1 + b_2", "-c_3"]);
         assert_eq!(lines(sum, 20.0, 50.0), ["a_1", "+b_2 - c_3"]);
-        // A sign after an equals sign is the number's.
+        // A sign after an equals sign belongs to the number.
         assert_eq!(lines("a + b = -0.125", 45.0, 60.0), ["a+ b", "= - 0.125"]);
     }
 
@@ -411,7 +411,7 @@ mod tests {
         assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);
     }
 
-    /// The width reserved for closing parentheses is free again behind them.
+    /// The width reserved for closing parentheses is available again after them.
     #[test]
     fn lines_behind_parentheses_are_as_long_as_before() {
         let long = |letter: &str| [1, 2, 3, 4, 5, 6].map(|k| format!("{letter}_{k}")).join(" + ");
@@ -442,7 +442,7 @@ mod tests {
             }
             several += usize::from(lines.len() > 1);
         }
-        // Nor is more left than needed.
+        // The lines also leave no more space than necessary.
         assert!(several > 100 && tight < 1.0, "{several} {tight}");
     }
 
@@ -453,7 +453,7 @@ mod tests {
         assert!(broken(&math("a + b_{1234567890123}"), 50.0, 50.0).is_err());
     }
 
-    /// Nothing is lost, no line is too wide, whatever the width.
+    /// No piece is lost and no line is too wide, for all widths.
     #[test]
     fn lines_fit_and_hold_all() {
         for seed in 1..200_u32 {

@@ -1,30 +1,30 @@
-//! Numbers for readers: fractions that people write, decimals in place of others, and rounding.
+//! Numbers for readers: fractions that people write, decimals instead of long fractions, and rounding.
 
 use robot_symbolic::Rational;
 use robot_symbolic::print::exact_text;
 
 use super::math::{Math, Script};
 
-/// The significant digits of decimals for readers: many more than any parameter is known to, and none of the noise of
-/// doubles such as 1.1550000000000002.
+/// The number of significant digits of decimals for readers: many more than the known digits of any parameter, but
+/// without the rounding errors of doubles, as in 1.1550000000000002.
 pub const DIGITS: usize = 10;
 
-/// Quotients of more digits, above and below together, are printed as decimals.
+/// The largest number of digits of a fraction, above and below together; longer fractions are printed as decimals.
 const MOST_DIGITS: usize = 8;
-/// Exact decimals of more digits are printed with those of the nearest double.
+/// The largest number of digits of exact decimals; longer ones are printed with the digits of the nearest double.
 const DOUBLE: usize = 17;
-/// Decimals that are fractions with these denominators may be printed as such.
+/// The denominators of fractions that can replace decimals.
 const DENOMINATORS: [u64; 2] = [2, 4];
-/// Fractions of π and of roots have no larger denominators, other fractions no larger numerators.
+/// The largest denominator of fractions of π and of roots, and the largest numerator of other fractions.
 const LARGEST: u64 = 12;
-/// Decimals with so many zeros after the point are printed with a power of ten.
+/// The number of zeros after the point from which a decimal is printed with a power of ten.
 const ZEROS: usize = 4;
 
-/// A formula as people write its numbers: `√2/2` for `0.5 √2`, and `1/2` in sums and products if no number in it needs
-/// decimals; or all rounded to so many significant digits.
+/// Writes the numbers of a formula as people do: `√2/2` for `0.5 √2`, and `1/2` in sums and products if all decimals of
+/// the formula are such fractions. With `digits`, numbers are rounded to that many significant digits first.
 pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     let tidy = mapped(math.clone(), &|piece| rounded(piece, digits));
-    // A rounded number is not a fraction.
+    // A number that was rounded is not exactly a fraction.
     let simple = is_simple(math) && (digits.is_none() || tidy == *math);
     let tidy = mapped(tidy, &|piece| fractions(piece, simple));
     mapped(tidy, &|piece| match piece {
@@ -33,7 +33,7 @@ pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     })
 }
 
-/// A number as its digits; a small one, in digits or with an exponent, as a product with a power of ten.
+/// The layout of a number; a small one, or one with an exponent, is a product with a power of ten.
 pub(crate) fn number(text: &str) -> Math {
     let Some((mantissa, exponent)) = power_of_ten(text) else {
         return Math::Number(text.to_owned());
@@ -49,7 +49,7 @@ pub(crate) fn number(text: &str) -> Math {
     }
 }
 
-/// A small decimal as a number from 1 to 10 and its exponent of ten, as one with an exponent has them.
+/// Splits a small decimal, or a number with an exponent, into a mantissa and the exponent of ten.
 fn power_of_ten(text: &str) -> Option<(String, String)> {
     if let Some((mantissa, exponent)) = text.split_once('e') {
         return Some((mantissa.to_owned(), exponent.to_owned()));
@@ -62,7 +62,7 @@ fn power_of_ten(text: &str) -> Option<(String, String)> {
     Some((format!("{first}{point}{others}"), format!("-{}", zeros + 1)))
 }
 
-/// Whether a formula has decimals of more significant digits.
+/// Whether a formula has decimals of more than `digits` significant digits.
 pub(crate) fn has_longer(math: &Math, digits: usize) -> bool {
     let longer = std::cell::Cell::new(false);
     mapped(tidied(math, None), &|piece| {
@@ -77,8 +77,8 @@ pub(crate) fn has_longer(math: &Math, digits: usize) -> bool {
     longer.get()
 }
 
-/// Text with its decimals and long quotients rounded to so many significant digits, or as they are but for quotients
-/// that nobody would write.
+/// Writes the numbers of a text for readers. With `digits`, decimals and long quotients are rounded to that many
+/// significant digits; otherwise only those change that nobody would write.
 pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
     let mut shown = String::new();
     let mut rest = text;
@@ -112,7 +112,7 @@ pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
     shown
 }
 
-/// The digits of a number at the beginning, with its point and exponent.
+/// Splits off the number at the beginning of a text, with its point and exponent.
 fn split_number(text: &str) -> (&str, &str) {
     let is_digit = |c: char| c.is_ascii_digit() || c == '.';
     let mut end = text.find(|c| !is_digit(c)).unwrap_or(text.len());
@@ -130,7 +130,7 @@ fn is_long(above: &str, below: &str) -> bool {
     above.len() + below.len() > MOST_DIGITS
 }
 
-/// The quotient of two numbers as a decimal with the digits of a double.
+/// The quotient of two numbers as a decimal number with the digits of a double.
 fn quotient(above: &str, below: &str) -> String {
     let [above_value, below_value] = [above, below].map(Rational::from_decimal);
     match (above_value, below_value) {
@@ -142,12 +142,12 @@ fn quotient(above: &str, below: &str) -> String {
     }
 }
 
-/// A number in digits, without an exponent.
+/// Writes a number without an exponent.
 fn plain(value: f64) -> String {
     format!("{value}")
 }
 
-/// A number to so many significant digits, or to those of a double if it has more; integers are as they are.
+/// Rounds a decimal to `digits` significant digits, or to those of a double, if it has more; integers stay as they are.
 fn short(number: &str, digits: Option<usize>) -> String {
     let (mantissa, exponent) = number.split_once('e').map_or((number, ""), |(m, e)| (m, e));
     let significant = significant(mantissa);
@@ -162,19 +162,19 @@ fn short(number: &str, digits: Option<usize>) -> String {
     if exponent.is_empty() { text } else { format!("{text}e{exponent}") }
 }
 
-/// The digits of a decimal without zeros before them.
+/// The number of digits of a decimal, without leading zeros.
 fn significant(mantissa: &str) -> usize {
     mantissa.trim_start_matches(['0', '.']).replace('.', "").len()
 }
 
-/// A value to so many significant digits.
+/// Rounds a value to this many significant digits.
 fn significantly(value: f64, digits: usize) -> String {
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
     let rounded = Rational::from_decimal(&scientific);
     rounded.map_or_else(|| plain(value), |rounded| exact_text(&rounded))
 }
 
-/// A piece rounded; an index is not a number.
+/// Rounds a piece if it is a number; indices never get here.
 fn rounded(piece: Math, digits: Option<usize>) -> Math {
     match piece {
         Math::Number(text) => Math::Number(short(&text, digits)),
@@ -182,7 +182,7 @@ fn rounded(piece: Math, digits: Option<usize>) -> Math {
     }
 }
 
-/// A formula with each of its pieces mapped, those within others first; symbols and indices stay.
+/// Maps every piece of a formula, inner pieces first; symbols and indices are not mapped.
 fn mapped(math: Math, map: &dyn Fn(Math) -> Math) -> Math {
     let inside = |math: Math| mapped(math, map);
     let math = match math {
@@ -206,7 +206,7 @@ fn mapped(math: Math, map: &dyn Fn(Math) -> Math) -> Math {
     map(math)
 }
 
-/// Whether no number in a formula needs decimals, for all are halves or quarters, and few.
+/// Whether every decimal of a formula is a multiple of 1/2 or 1/4 with a small numerator.
 fn is_simple(math: &Math) -> bool {
     let simple = std::cell::Cell::new(true);
     mapped(math.clone(), &|piece| {
@@ -222,7 +222,7 @@ fn is_simple(math: &Math) -> bool {
     simple.get()
 }
 
-/// Products with fractions in place of decimals.
+/// Writes fractions instead of decimals in products, and decimals instead of long fractions.
 fn fractions(piece: Math, simple: bool) -> Math {
     match piece {
         Math::Row(pieces) => Math::Row(row(pieces, simple)),
@@ -238,7 +238,7 @@ fn fractions(piece: Math, simple: bool) -> Math {
 
 fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
     let mut tidy: Vec<Math> = vec![];
-    // A number alone, perhaps with a sign, is a value.
+    // A row of only a number, possibly with a sign, is a value and keeps its decimals.
     let is_value = |piece: &Math| matches!(piece, Math::Number(_) | Math::Sign(_));
     let simple = simple && !pieces.iter().all(is_value);
     let mut pieces = pieces.into_iter().peekable();
@@ -268,7 +268,7 @@ fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
     tidy
 }
 
-/// Numerator and denominator of a number that is not an integer.
+/// The numerator and denominator of a number that is not an integer.
 fn parts(piece: &Math) -> Option<[u64; 2]> {
     match piece {
         Math::Number(digits) => fraction(digits),
@@ -283,7 +283,7 @@ fn parts(piece: &Math) -> Option<[u64; 2]> {
     }
 }
 
-/// A decimal as a fraction with a small denominator, if it is one and no integer.
+/// A decimal as a fraction with a denominator up to [`LARGEST`]; `None` if there is none or it is an integer.
 fn fraction(digits: &str) -> Option<[u64; 2]> {
     let (whole, part) = digits.split_once('.')?;
     let below = 10_u64.checked_pow(u32::try_from(part.len()).ok()?)?;

@@ -1,4 +1,5 @@
-//! The layout of expressions as they are built, with the fewest parentheses that keep their value.
+//! The layout of expressions in the structure in which they were built, with the fewest parentheses that keep their
+//! value.
 
 use robot_model::signs::FunctionName;
 use robot_model::variable::JointVariable;
@@ -10,8 +11,8 @@ use super::math::{Fence, Math, Script};
 use super::symbols::SymbolTable;
 use crate::error::Error;
 
-/// Fences, fractions, roots and indices nested deeper than this are refused: the printers walk the
-/// layout recursively.
+/// The deepest nesting of fences, fractions, roots and indices. It is limited because the printers walk the layout
+/// recursively.
 const MAX_DEPTH: usize = 200;
 
 /// The precedence of a part of a formula.
@@ -23,34 +24,34 @@ enum Level {
     Atom,
 }
 
-/// A step of setting an expression.
+/// A step in laying out an expression.
 enum Step<'g> {
-    /// A piece beside those before it.
+    /// A piece to the right of the preceding ones.
     Piece(Math),
     /// An operand, in parentheses if it binds less tightly than the level.
     Operand(Expr<'g>, Level),
-    /// The start of a row of its own.
+    /// The start of an inner row.
     Open,
-    /// The end of that row, which becomes one piece.
+    /// The end of an inner row, which becomes one piece.
     Close(Whole),
-    /// A power of the piece before.
+    /// A power of the preceding piece.
     Raise(u32),
 }
 
-/// The meaning of a row.
+/// What an inner row becomes.
 #[derive(Clone, Copy)]
 enum Whole {
     Fenced(Fence),
     Root,
-    /// The upper part of a fraction, whose lower part is the next row.
+    /// The numerator of a fraction, whose denominator is the next row.
     Numerator,
-    /// A fraction with the piece before above its bar.
+    /// The denominator of a fraction, whose numerator is the preceding piece.
     Denominator,
-    /// The lower index of a letter, whose upper one is a power.
+    /// The lower index of a letter, with an exponent as the upper index.
     IndexOf(char, u32),
 }
 
-/// Sets expressions with the symbols of a table.
+/// Lays out expressions with the symbols of a table.
 #[derive(Clone, Copy)]
 pub(super) struct Expressions<'t>(pub(super) &'t SymbolTable);
 
@@ -61,7 +62,7 @@ impl Expressions<'_> {
         self.set(vec![Step::Operand(expr, Level::Sum)])
     }
 
-    /// The pieces of a power of a function that prints by its name, which takes the exponent.
+    /// The pieces of a power of a function that is printed by its name; the exponent follows the name.
     pub(super) fn named_power(
         self,
         function: Function,
@@ -114,7 +115,7 @@ impl Expressions<'_> {
             View::Pi => (Level::Atom, vec![Step::Piece(Math::Letter('π'))]),
             View::Symbol(symbol) => {
                 let look = self.0.look(&expr.graph().symbol_name(symbol));
-                // An upper index of its own asks for parentheses under another.
+                // A symbol with an upper index needs parentheses if it is raised to a power.
                 let level = if look.has_upper_index() { Level::Power } else { Level::Atom };
                 (level, vec![Step::Piece(look)])
             }
@@ -159,8 +160,8 @@ impl Expressions<'_> {
         (Level::Product, steps)
     }
 
-    /// Whether a factor ends with an angle without parentheses, so that the next factor would seem to
-    /// belong to the angle.
+    /// Whether a factor ends with an angle without parentheses, so that the next factor would look like a part of the
+    /// angle.
     fn ends_open(self, expr: Expr<'_>) -> bool {
         let mut last = expr;
         loop {
@@ -176,7 +177,7 @@ impl Expressions<'_> {
         }
     }
 
-    /// A function of an argument, to a power if it prints by its name.
+    /// Applies a function to an argument; the exponent, if there is one, follows the name of the function.
     fn call<'g>(
         self,
         function: Function,
@@ -232,14 +233,15 @@ impl Expressions<'_> {
                 None => applied(name, angle, exponent),
             };
         }
-        // An upper index on the angle's symbol would read as the function's.
+        // The whole counts as a power, because an upper index after the angle could be read as an exponent of the
+        // function.
         let mut steps = raised_name(name, exponent);
         steps.push(Step::Operand(angle, Level::Sum));
         (Level::Power, steps)
     }
 }
 
-/// The absolute value of a number.
+/// The layout of the absolute value of a number.
 pub(super) fn magnitude_pieces(number: &Number) -> Vec<Math> {
     magnitude(number).1
 }
@@ -262,7 +264,7 @@ fn magnitude(number: &Number) -> (Level, Vec<Math>) {
     }
 }
 
-/// Whether a product begins with a number, which must not follow another factor.
+/// Whether a product begins with a number, which needs a sign between it and a preceding factor.
 fn leads_with_number(expr: Expr<'_>) -> bool {
     let mut first = expr;
     while let View::Mul(a, _) = first.view() {
@@ -279,7 +281,7 @@ fn infix<'g>(a: Expr<'g>, left: Level, between: char, b: Expr<'g>, right: Level)
     vec![Step::Operand(a, left), sign(between), Step::Operand(b, right)]
 }
 
-/// Applies a function, to a power, and the argument in parentheses.
+/// Applies a function with an exponent to an argument in parentheses.
 fn applied(applying: Math, argument: Expr<'_>, exponent: u32) -> (Level, Vec<Step<'_>>) {
     applied_to(applying, vec![Step::Operand(argument, Level::Sum)], exponent)
 }
@@ -296,7 +298,7 @@ fn applied_to<'g>(
     (if exponent == 1 { Level::Atom } else { Level::Power }, steps)
 }
 
-/// The sum of the angles of joints, by number: `q_2 + q_3 + q_4`, in whatever order it was built.
+/// The sum of the angles of joints in the order of the joints, `q_2 + q_3 + q_4`, however it was built.
 fn in_order<'g>(angle: Expr<'g>, joints: &[(bool, u32)]) -> Vec<Step<'g>> {
     let mut steps = vec![];
     for (place, (negative, joint)) in joints.iter().enumerate() {
@@ -320,7 +322,7 @@ fn raised_name<'g>(applying: Math, exponent: u32) -> Vec<Step<'g>> {
     steps
 }
 
-/// `s₂₃`: a letter with the joints of the angle, or the angle itself, below.
+/// A letter such as `s` in `s₂₃`, with the joints of the angle, or the angle itself, as the lower index.
 fn index_of<'g>(letter: char, angle: Expr<'g>, exponent: u32) -> Vec<Step<'g>> {
     let mut steps = vec![Step::Open];
     match joint_numbers(angle) {
@@ -331,7 +333,8 @@ fn index_of<'g>(letter: char, angle: Expr<'g>, exponent: u32) -> Vec<Step<'g>> {
     steps
 }
 
-/// The joints whose angles an angle is the sum of, each with whether it is subtracted: added ones first, by number.
+/// The joints whose angles add up to an angle, and whether each is subtracted; those that are added come first. `None`
+/// for other angles.
 fn joints(angle: Expr<'_>) -> Option<Vec<(bool, u32)>> {
     let mut joints: Vec<(bool, u32)> = vec![];
     let mut pending = vec![(angle, false)];
@@ -356,10 +359,10 @@ fn joints(angle: Expr<'_>) -> Option<Vec<(bool, u32)>> {
     Some(joints)
 }
 
-/// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` if a joint has two digits.
+/// The index for a sum of angles: `23` for q2 + q3, `2-3` for q2 − q3, `2,10` if a joint has two digits.
 fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
     let joints = joints(angle)?;
-    // An index 12 is the sum of q1 and q2.
+    // A single joint number above 9 would be ambiguous: the index 12 means the sum of q1 and q2.
     if let [(_, 10..)] | [(false, 10..), (true, _), ..] = joints.as_slice() {
         return None;
     }
@@ -380,7 +383,7 @@ fn joint_numbers(angle: Expr<'_>) -> Option<Vec<Math>> {
     Some(pieces)
 }
 
-/// Adds what a row becomes to the row around it.
+/// Adds the piece that an inner row becomes to the outer row.
 fn close(row: &mut Vec<Math>, whole: Whole, inside: Math) {
     let piece = match whole {
         Whole::Fenced(fence) => Math::Fenced(fence, Box::new(inside)),
@@ -396,7 +399,7 @@ fn close(row: &mut Vec<Math>, whole: Whole, inside: Math) {
     row.push(piece);
 }
 
-/// Puts an exponent on the last piece.
+/// Raises the last piece to a power.
 pub(super) fn raise(pieces: &mut Vec<Math>, exponent: u32) {
     if let Some(last) = pieces.pop() {
         pieces.push(last.with_upper(Math::Number(exponent.to_string())));

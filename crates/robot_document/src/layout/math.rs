@@ -1,7 +1,7 @@
-//! Formulas as layout: pieces beside, above and below each other, in no notation.
+//! Formulas as layouts that do not depend on a notation: pieces beside, above and below each other.
 //!
-//! The printers, one per notation, walk this tree; line breaking measures and cuts it. A symbol of
-//! the robot keeps its name, so that a printer can say which parameter or coordinate it shows.
+//! The printers, one for each notation, walk this tree; line breaking measures and splits it. A symbol of the robot
+//! keeps its name, so that a printer can tell which parameter or coordinate it shows.
 
 use robot_model::signs::{Accent, Font, FunctionName};
 
@@ -10,7 +10,7 @@ use robot_model::signs::{Accent, Font, FunctionName};
 pub enum Math {
     /// A number as its digits: `0.35`.
     Number(String),
-    /// An italic letter, Greek ones as themselves: `q`, `ω`; also signs of the size of a letter: `∞`.
+    /// An italic letter, Latin or Greek, such as `q` or `ω`; also other symbols of that size, such as `∞`.
     Letter(char),
     /// An upright word.
     Word(String),
@@ -22,45 +22,45 @@ pub enum Math {
     Symbol(Symbol),
     /// Pieces side by side. Neighbors without a sign between them are factors.
     Row(Vec<Math>),
-    /// Indices.
+    /// A piece with indices.
     Script(Box<Script>),
-    /// A sign above or below a piece.
+    /// A piece with an accent above or below it.
     Accent(Accent, Box<Math>),
     /// A piece in another font.
     Styled(Font, Box<Math>),
-    /// Numerator and denominator.
+    /// A fraction: its numerator and denominator.
     Fraction(Box<[Math; 2]>),
     /// A square root.
     Root(Box<Math>),
     /// A piece between fences.
     Fenced(Fence, Box<Math>),
-    /// Rows of entries, in brackets.
+    /// A matrix in brackets, row by row.
     Matrix(Vec<Vec<Math>>),
-    /// The lines of a sum that does not fit one, below each other.
+    /// The lines of a sum that does not fit on one line, one below the other.
     Lines(Vec<Math>),
 }
 
-/// A symbol of the equations, with what it looks like.
+/// A symbol of the equations with its layout.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Symbol {
-    /// The name in text: a parameter, `q2`, `qdd2`, `F_l5.x`.
+    /// The name in text, such as that of a parameter, `q2`, `qdd2` or `F_l5.x`.
     pub name: String,
-    /// Its layout.
+    /// The layout.
     pub shape: Box<Math>,
 }
 
 /// A base with indices.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Script {
-    /// The piece that the indices belong to.
+    /// The piece to which the indices belong.
     pub base: Math,
-    /// Below to the right.
+    /// The lower index.
     pub lower: Option<Math>,
-    /// Above to the right.
+    /// The upper index.
     pub upper: Option<Math>,
 }
 
-/// The enclosing signs of a piece.
+/// The signs that enclose a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Fence {
     /// `( )`
@@ -71,7 +71,7 @@ pub enum Fence {
     Brackets,
 }
 
-/// Nothing.
+/// An empty row.
 impl Default for Math {
     fn default() -> Math {
         Math::Row(vec![])
@@ -79,25 +79,25 @@ impl Default for Math {
 }
 
 impl Math {
-    /// `base_lower`
+    /// Adds a lower index: `base_lower`.
     #[must_use]
     pub fn with_lower(self, lower: Math) -> Math {
         Math::Script(Box::new(Script { base: self, lower: Some(lower), upper: None }))
     }
 
-    /// `base^upper`
+    /// Adds an upper index: `base^upper`.
     #[must_use]
     pub fn with_upper(self, upper: Math) -> Math {
         Math::Script(Box::new(Script { base: self, lower: None, upper: Some(upper) }))
     }
 
-    /// A number of the program's own, such as an index.
+    /// A number that the program makes, such as an index.
     #[must_use]
     pub fn integer(value: usize) -> Math {
         Math::Number(value.to_string())
     }
 
-    /// Pieces side by side; one piece is itself.
+    /// A row of pieces; a single piece stays as it is.
     #[must_use]
     pub fn row(mut pieces: Vec<Math>) -> Math {
         match (pieces.len(), pieces.pop()) {
@@ -110,7 +110,7 @@ impl Math {
         }
     }
 
-    /// The pieces side by side that this is.
+    /// The pieces of a row, or the piece itself if it is not a row.
     #[must_use]
     pub fn pieces(&self) -> &[Math] {
         match self {
@@ -119,7 +119,7 @@ impl Math {
         }
     }
 
-    /// The names of the symbols within, each once, in order of appearance.
+    /// The names of the symbols within, each once, in the order of their appearance.
     #[must_use]
     pub fn symbols(&self) -> Vec<&str> {
         let mut names: Vec<&str> = vec![];
@@ -135,7 +135,7 @@ impl Math {
         names
     }
 
-    /// Whether something within, the look of symbols included, has an upper index.
+    /// Whether any piece within, including the layouts of symbols, has an upper index.
     #[must_use]
     pub fn has_upper_index(&self) -> bool {
         let mut pending = vec![self];
@@ -149,7 +149,7 @@ impl Math {
         false
     }
 
-    /// Whether the piece is a function, perhaps with a power, that waits for its argument.
+    /// Whether the piece is a function, possibly with an exponent, whose argument follows.
     #[must_use]
     pub fn is_function(&self) -> bool {
         match self {
@@ -159,8 +159,8 @@ impl Math {
         }
     }
 
-    /// Whether a thin space keeps the piece apart from the one before it: factors, one of which is a word
-    /// in italics, such as `ZZR` with an index.
+    /// Whether a thin space separates the piece from the preceding one: both are factors, and one of them is a word in
+    /// italics, such as `ZZR` with an index.
     #[must_use]
     pub fn is_apart_from(&self, before: &Math) -> bool {
         let is_factor = |piece: &Math| {
@@ -179,7 +179,7 @@ impl Math {
         }
     }
 
-    /// The pieces directly within; of a symbol none.
+    /// The pieces directly within this one; none for a symbol.
     fn parts(&self) -> Vec<&Math> {
         match self {
             Math::Row(pieces) => pieces.iter().collect(),

@@ -1,4 +1,4 @@
-//! From a formula to the expression that it means.
+//! The expression that a formula stands for.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Function, Graph, Rational};
@@ -8,28 +8,28 @@ use super::math::{Fence, Math, Script};
 use super::{SymbolTable, Trigonometry};
 use crate::latex::{self, ReadError};
 
-/// A formula that is not an expression.
+/// The error for a formula that does not stand for an expression.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct MeaningError(&'static str);
 
 type Meaning<'g> = Result<Expr<'g>, MeaningError>;
 
-/// The symbols of formulas that were read from print, by their looks, and the style of sines and cosines.
+/// The symbols of printed formulas by their layouts, and the notation of sines and cosines.
 #[derive(Clone, Debug)]
 pub struct Looks {
     names: FxHashMap<Vec<Math>, String>,
-    /// The most pieces that a symbol has.
+    /// The largest number of pieces of a symbol.
     longest: usize,
     style: Trigonometry,
 }
 
 impl Looks {
-    /// The symbols of a table as they are read from their LaTeX.
+    /// The symbols of a table, with the layouts that are read from their LaTeX.
     ///
     /// # Errors
     ///
-    /// A symbol whose LaTeX is not read.
+    /// If the LaTeX of a symbol cannot be read.
     pub fn new(table: &SymbolTable) -> Result<Looks, ReadError> {
         let mut looks =
             Looks { names: FxHashMap::default(), longest: 0, style: table.trigonometry() };
@@ -41,7 +41,7 @@ impl Looks {
         Ok(looks)
     }
 
-    /// The symbol that the pieces start with, perhaps raised to a power, and the pieces after it.
+    /// The symbol at the beginning of the pieces with its exponent, and the pieces after it.
     fn symbol<'l, 'p>(&'l self, pieces: &'p [Math]) -> Option<(&'l str, i32, &'p [Math])> {
         (1..=self.longest.min(pieces.len())).rev().find_map(|count| {
             let (head, rest) = pieces.split_at(count);
@@ -60,11 +60,11 @@ impl Looks {
     }
 }
 
-/// The expression of a formula that was read from print.
+/// Returns the expression that a printed formula stands for.
 ///
 /// # Errors
 ///
-/// A formula that is not a sum of products: an equation, a word, an index without a meaning.
+/// If the formula is not a sum of products, as for an equation, a word, or an index without a meaning.
 pub fn meaning<'g>(math: &Math, graph: &'g Graph, looks: &Looks) -> Meaning<'g> {
     Reader { graph, looks }.sum(math.pieces())
 }
@@ -132,7 +132,7 @@ impl<'g> Reader<'g, '_> {
         product.map_or_else(|| fault("a product without factors"), Ok)
     }
 
-    /// A function that waits for its argument, with the exponent between them.
+    /// The function that a piece stands for, with its exponent, if its argument follows.
     fn function(&self, piece: &Math) -> Result<Option<(Function, i32)>, MeaningError> {
         let (base, exponent) = match piece {
             Math::Script(script) if script.lower.is_none() => (&script.base, script.upper.as_ref()),
@@ -188,7 +188,7 @@ impl<'g> Reader<'g, '_> {
         Ok(angle.apply(function).powi(exponent))
     }
 
-    /// `23` for q2 + q3, `2-3` for q2 − q3, `2,10` for q2 + q10.
+    /// The sum of angles for an index: q2 + q3 for `23`, q2 − q3 for `2-3`, q2 + q10 for `2,10`.
     fn joints(&self, index: &Math) -> Option<Expr<'g>> {
         let pieces = index.pieces();
         let apart = pieces.contains(&Math::Sign(','));

@@ -1,5 +1,6 @@
-//! Formulas as layout, in no notation: [`math`] is the tree, [`symbols`] makes it of expressions and of
-//! polynomials, [`breaking`] cuts it into lines by its [`width`], [`meaning`] goes the way back.
+//! Formulas as layouts that do not depend on a notation. [`math`] is the tree, [`symbols`] makes it from expressions
+//! and polynomials, [`breaking`] splits it into lines by its [`width`], and [`meaning`] turns it back into an
+//! expression.
 
 pub mod breaking;
 mod digits;

@@ -1,8 +1,9 @@
 //! The order of factors and terms.
 //!
-//! Factors: roots of numbers, components of wrenches, masses and inertias, other parameters, sines and cosines, what a
-//! form defines, then coordinates, velocities and accelerations; each by number. Terms are in the
-//! order of their factors, higher powers of the first one first.
+//! The factors of a term come in this order: roots of numbers, components of wrenches, masses and inertias, other
+//! parameters, sines and cosines, symbols that a form defines, and last coordinates, velocities and accelerations.
+//! Within each group they are ordered by number. Terms are ordered by their factors, higher powers of the first factor
+//! first.
 
 use robot_model::robot::{Parameter, Robot};
 use robot_model::variable::JointVariable;
@@ -10,16 +11,16 @@ use robot_symbolic::print::default_rank;
 use robot_symbolic::{Expr, Function, View};
 use rustc_hash::FxHashMap;
 
-/// The place of a factor: its group, its subgroup, its number.
+/// The rank of a factor: its group, its subgroup and its number.
 pub type Rank = (u8, u8, usize);
 
-/// Roots of numbers are beside a term's coefficient: √2/2 F.
+/// The rank of roots of numbers, which stand beside the coefficient of a term: √2/2 F.
 const ROOTS: Rank = (0, 0, 0);
 
-/// Where sums in brackets stand in a product: after parameters, before sines and cosines.
+/// The rank of sums in brackets, which stand after parameters and before sines and cosines.
 pub(crate) const BRACKETS: Rank = (1, 0, 0);
 
-/// The order for a robot.
+/// The order of the factors in the equations of a robot.
 #[derive(Clone, Debug)]
 pub struct Order<'r> {
     parameters: FxHashMap<&'r str, Rank>,
@@ -27,7 +28,7 @@ pub struct Order<'r> {
 }
 
 impl<'r> Order<'r> {
-    /// The order of the robot's symbols: parameters as the file lists them.
+    /// The order for the symbols of a robot; parameters are in the order of the robot file.
     #[must_use]
     pub fn new(robot: &'r Robot) -> Order<'r> {
         let rank = |(place, parameter): (usize, &'r Parameter)| {
@@ -49,7 +50,7 @@ impl<'r> Order<'r> {
         self.defined.insert(name.to_owned(), rank);
     }
 
-    /// Whether a symbol is neither a parameter nor a joint's variable nor defined by a form: a component of a wrench.
+    /// Whether a symbol is a component of a wrench: not a parameter, not a joint's variable and not defined by a form.
     #[must_use]
     pub(crate) fn is_wrench(&self, atom: Expr<'_>) -> bool {
         let View::Symbol(symbol) = atom.view() else { return false };
@@ -59,14 +60,15 @@ impl<'r> Order<'r> {
             && motion(&name).is_none()
     }
 
-    /// Whether a symbol is a joint's position, velocity or acceleration.
+    /// Whether a symbol is a joint position, velocity or acceleration.
     #[must_use]
     pub(crate) fn is_motion(&self, atom: Expr<'_>) -> bool {
         let View::Symbol(symbol) = atom.view() else { return false };
         is_motion(&atom.graph().symbol_name(symbol))
     }
 
-    /// The number of times that a symbol is a derivative by time: 1 for a velocity, 2 for an acceleration.
+    /// How often a joint position is differentiated with respect to time: 1 for a velocity, 2 for an acceleration,
+    /// otherwise 0.
     #[must_use]
     pub(crate) fn rate(&self, atom: Expr<'_>) -> u32 {
         let View::Symbol(symbol) = atom.view() else { return 0 };
@@ -77,7 +79,7 @@ impl<'r> Order<'r> {
         }
     }
 
-    /// The place of a factor.
+    /// The rank of a factor.
     #[must_use]
     pub fn rank(&self, atom: Expr<'_>) -> Rank {
         let View::Symbol(symbol) = atom.view() else {
@@ -92,7 +94,7 @@ impl<'r> Order<'r> {
         if let Some(rank) = self.defined.get(&name) {
             return *rank;
         }
-        // Motions are at the end of a term, wrenches at its beginning.
+        // Motions come last in a term, wrenches come first.
         if let Some((variable, index)) = motion(&name) {
             return (9, variable as u8, index + 1);
         }
@@ -101,23 +103,23 @@ impl<'r> Order<'r> {
     }
 }
 
-/// Whether a parameter is a mass or an inertia, by its unit.
+/// Whether a parameter is a mass or an inertia, according to its unit.
 fn is_inertial(parameter: &Parameter) -> bool {
     let dimension = parameter.unit.as_ref().map(|unit| unit.dimension);
     dimension.is_some_and(|dimension| dimension.mass == 1 && dimension.time == 0)
 }
 
-/// Whether a name is a coordinate's or one of its rates': `q1`, `qd2`, `qdd3`.
+/// Whether a name is that of a joint position, velocity or acceleration: `q1`, `qd2`, `qdd3`.
 pub(crate) fn is_motion(name: &str) -> bool {
     motion(name).is_some()
 }
 
-/// The variable of a name that is of a joint's motion.
+/// The variable and index of the name of a joint position, velocity or acceleration.
 fn motion(name: &str) -> Option<(JointVariable, usize)> {
     JointVariable::parse(name).filter(|(variable, _)| JointVariable::MOTION.contains(variable))
 }
 
-/// Whether a name is a velocity's or an acceleration's.
+/// Whether a name is that of a joint velocity or acceleration.
 pub(crate) fn is_rate(name: &str) -> bool {
     motion(name).is_some_and(|(variable, _)| variable != JointVariable::Position)
 }

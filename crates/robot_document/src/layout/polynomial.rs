@@ -38,7 +38,7 @@ impl Terms<'_> {
         Ok(Math::row(pieces))
     }
 
-    /// `c x y²`, over its denominator if it has one.
+    /// A term such as `c x y²`, as a fraction if it has a denominator.
     fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<Vec<Math>, Error> {
         let above = self.factors(term, |exponent| exponent > 0)?;
         let below = self.factors(term, |exponent| exponent < 0)?;
@@ -51,7 +51,7 @@ impl Terms<'_> {
             pieces.extend(above);
             return Ok(pieces);
         }
-        // A decimal belongs above the bar, a fraction before it.
+        // A decimal coefficient belongs in the numerator, a fraction before the fraction bar.
         let belongs_above = matches!(pieces.as_slice(), [Math::Number(_)]);
         let numerator = match (belongs_above && !is_one, above.is_empty()) {
             (false, true) => vec![Math::integer(1)],
@@ -65,7 +65,7 @@ impl Terms<'_> {
         Ok(pieces)
     }
 
-    /// The factors on one side of the fraction bar.
+    /// The factors above or below the fraction bar.
     fn factors(
         &mut self,
         term: &ArrangedTerm<'_>,
@@ -74,7 +74,7 @@ impl Terms<'_> {
         let mut pieces = vec![];
         let mut open = false;
         for (factor, exponent) in term.factors.iter().filter(|(_, exponent)| side(*exponent)) {
-            // A factor after an angle without parentheses would seem to belong to it.
+            // A factor after an angle without parentheses would look like a part of the angle.
             if open && !is_circular(factor) {
                 pieces.push(Math::Sign('·'));
             }
@@ -110,7 +110,7 @@ impl Terms<'_> {
     }
 }
 
-/// A power; in parentheses if there is an upper index already.
+/// A power; the base is in parentheses if it already has an upper index.
 fn raised(pieces: Vec<Math>, exponent: u32) -> Vec<Math> {
     let fence = exponent > 1 && pieces.iter().any(Math::has_upper_index);
     power_of(if fence { vec![fenced(pieces)] } else { pieces }, exponent)
@@ -127,7 +127,7 @@ fn fenced(pieces: Vec<Math>) -> Math {
     Math::Fenced(Fence::Parentheses, Box::new(Math::row(pieces)))
 }
 
-/// Whether a factor is a sum that is alone below its fraction bar.
+/// Whether a factor is a sum that is the whole denominator.
 fn is_alone_below(term: &ArrangedTerm<'_>, factor: &ArrangedFactor<'_>) -> bool {
     let mut below = term.factors.iter().filter(|(_, exponent)| *exponent < 0);
     let is_sum = match factor {

@@ -1,4 +1,4 @@
-//! The spelling of symbols and quantities.
+//! The layouts of symbols and quantities, derived from their names.
 
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_model::signs::{Accent, Letter};
@@ -7,9 +7,9 @@ use robot_model::variable::JointVariable;
 use super::math::{Fence, Math, Script};
 
 impl Math {
-    /// The look of a symbol by its name: `q2` has the index 2, `qd2` and `qdd2` dots on the q as well,
-    /// `Jx1` has the index x1, `alpha1` is α with the index 1, `v_max` has the upright index max, and
-    /// `payload` is an upright word.
+    /// The layout of a symbol with this name. `q2` has the index 2, `qd2` and `qdd2` also have dots on the q, `Jx1` has
+    /// the index x1, `alpha1` is α with the index 1, `v_max` has the upright index max, and `payload` is an upright
+    /// word.
     #[must_use]
     pub fn spelled(name: &str) -> Math {
         let mut parts = name.split(['_', '.']).filter(|part| !part.is_empty());
@@ -27,7 +27,7 @@ impl Math {
         Math::row(base)
     }
 
-    /// The look of a vector, `\bar{F}_{l}^{5}`: that of its components without their axis, under a bar.
+    /// The layout of a vector, `\bar{F}_{l}^{5}`: like that of its components, but with a bar and without the axis.
     #[must_use]
     pub fn vector(kind: Kind, number: usize) -> Math {
         let (letter, index) = kind.name().split_once('_').unwrap_or((kind.name(), ""));
@@ -36,8 +36,8 @@ impl Math {
         Math::Script(Box::new(Script { base, lower, upper: Some(Math::integer(number)) }))
     }
 
-    /// The look of a vector in the paper's relations, `\bar{F}_{l_5}^{5}`: its link below and its axes above, and the
-    /// point of moments, `\bar{M}_{l_{o_5}}^{5}`.
+    /// The layout of a vector in the paper's relations, `\bar{F}_{l_5}^{5}`: the lower index has the link and the upper
+    /// one the axes. A moment also has its reference point, `\bar{M}_{l_{o_5}}^{5}`.
     #[must_use]
     pub fn vector_in_paper(kind: Kind, number: usize) -> Math {
         let Math::Script(script) = Math::vector(kind, number) else { return Math::default() };
@@ -52,7 +52,8 @@ impl Math {
         Math::Script(Box::new(Script { lower: Some(lower), ..*script }))
     }
 
-    /// The look of a vector that the paper writes as a column, `[\bar{F}_l]_5^5`, of moments `[\bar{M}_l]_{O_5}^5`.
+    /// The layout of a vector that the paper writes as a column: `[\bar{F}_l]_5^5`, or `[\bar{M}_l]_{O_5}^5` for a
+    /// moment.
     #[must_use]
     pub fn column_in_paper(kind: Kind, number: usize) -> Math {
         let Math::Script(script) = Math::vector(kind, number) else { return Math::default() };
@@ -69,7 +70,7 @@ impl Math {
         Math::Script(Box::new(Script { base, lower: Some(lower), upper }))
     }
 
-    /// The look of a quantity in the paper: components as those of [`Math::quantity`], `Q_m^{1}`.
+    /// The layout of a quantity in the paper: `Q_m^{1}` for a joint torque, otherwise as in [`Math::quantity`].
     #[must_use]
     pub fn in_paper(symbol: Symbol) -> Math {
         match symbol.kind {
@@ -82,13 +83,13 @@ impl Math {
         }
     }
 
-    /// The piece under a bar.
+    /// The piece with a bar above it.
     #[must_use]
     pub fn under_bar(self) -> Math {
         Math::Accent(Accent::Bar, Box::new(self))
     }
 
-    /// The look of a quantity, `Q_1`, `F_{l_x}^{5}`, as the paper prints it.
+    /// The layout of a quantity: `Q_1`, `F_{l_x}^{5}`.
     #[must_use]
     pub fn quantity(symbol: Symbol) -> Math {
         let number = Math::integer(symbol.number);
@@ -107,7 +108,7 @@ impl Math {
     }
 }
 
-/// The letter of a name, and what goes below it.
+/// Splits the first part of a name into its base and its lower indices.
 fn leading(part: &str) -> (Vec<Math>, Vec<Vec<Math>>) {
     let letters = part.trim_end_matches(|c: char| c.is_ascii_digit());
     let digits = part.get(letters.len()..).unwrap_or_default();
@@ -122,7 +123,7 @@ fn leading(part: &str) -> (Vec<Math>, Vec<Vec<Math>>) {
     match (JointVariable::from_name(letters), first) {
         (Some(JointVariable::Velocity), _) => (rate(Accent::Dot), index),
         (Some(JointVariable::Acceleration), _) => (rate(Accent::DoubleDot), index),
-        // J, Jx, Ixx: a letter with axes below.
+        // A letter with axes as its lower index, such as Jx and Ixx.
         (_, Some(first)) if first.is_ascii_uppercase() && !tail.is_empty() && is_axes(tail) => {
             let mut index = axes(tail);
             if !digits.is_empty() {
@@ -143,7 +144,7 @@ fn axes(text: &str) -> Vec<Math> {
     text.chars().map(Math::Letter).collect()
 }
 
-/// A letter or a number as it is, a Greek letter by its name, else an upright word.
+/// The layout of a part of a name: a single letter, a number, a Greek letter by its name, or otherwise an upright word.
 fn word(text: &str) -> Vec<Math> {
     if let Some(letter) = Letter::greek(text) {
         return vec![Math::Letter(letter.character)];

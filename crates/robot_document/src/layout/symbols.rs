@@ -1,4 +1,4 @@
-//! The layout of a robot's symbols, and formulas made of expressions.
+//! The layouts of a robot's symbols, and formulas from expressions.
 
 use robot_model::robot::Robot;
 use robot_model::signs::check_latex;
@@ -13,13 +13,13 @@ use super::{Order, Trigonometry, polynomial};
 use crate::error::Error;
 use crate::latex;
 
-/// The look of a robot's symbols, of further ones that a form of the equations defines, and of sines
-/// and cosines.
+/// The layouts of a robot's symbols and of symbols that a form of the equations defines, and the notation of sines and
+/// cosines.
 #[derive(Clone, Debug)]
 pub struct SymbolTable {
     trigonometry: Trigonometry,
     entries: FxHashMap<String, Entry>,
-    /// The names of symbols by what they print as, but for those that would read as a sine.
+    /// The names of symbols by their printed forms, except symbols that could be read as a sine or cosine.
     printed: FxHashMap<String, String>,
     /// The names of symbols that a form defines.
     defined: Vec<String>,
@@ -32,18 +32,18 @@ struct Entry {
 }
 
 impl SymbolTable {
-    /// A table in which every symbol is spelled by its name.
+    /// A table in which the layout of every symbol follows from its name.
     #[must_use]
     pub fn spelled(trigonometry: Trigonometry) -> SymbolTable {
         let (entries, printed) = (FxHashMap::default(), FxHashMap::default());
         SymbolTable { trigonometry, entries, printed, defined: vec![] }
     }
 
-    /// The robot's coordinates, parameters and wrenches as its file wants them to look.
+    /// The coordinates, parameters and wrenches of a robot, with the layouts that its file gives.
     ///
     /// # Errors
     ///
-    /// Two symbols that look alike.
+    /// If two symbols look the same.
     pub fn new(robot: &Robot, trigonometry: Trigonometry) -> Result<SymbolTable, Error> {
         let mut table = SymbolTable::spelled(trigonometry);
         for index in 0..robot.degrees_of_freedom() {
@@ -62,7 +62,7 @@ impl SymbolTable {
         Ok(table)
     }
 
-    /// Adds a symbol that looks as its LaTeX has it; LaTeX that could do more than print is not used.
+    /// Adds a symbol with the layout of its LaTeX. LaTeX that could do more than print is ignored.
     fn add(&mut self, name: &str, given: Option<&str>) -> Result<(), Error> {
         let shape = match given.filter(|given| check_latex(given).is_ok()) {
             Some(given) => latex::read_symbol(given)?,
@@ -71,11 +71,11 @@ impl SymbolTable {
         self.insert(name, shape)
     }
 
-    /// Defines a further symbol.
+    /// Defines an additional symbol.
     ///
     /// # Errors
     ///
-    /// A symbol that there is already, or that looks like another one.
+    /// If the symbol exists already or looks like another one.
     pub fn define(&mut self, name: &str, shape: Math) -> Result<(), Error> {
         if self.entries.contains_key(name) {
             return Err(Error::Taken { name: name.to_owned() });
@@ -103,7 +103,7 @@ impl SymbolTable {
         self.trigonometry
     }
 
-    /// The names of all symbols with what they look like, but for those that would read as a sine.
+    /// The names and layouts of all symbols, except those that could be read as a sine or cosine.
     pub fn shapes(&self) -> impl Iterator<Item = (&str, &Math)> {
         let entry = |name: &String| self.entries.get(name).map(|entry| &entry.shape);
         self.printed.values().filter_map(move |name| Some((name.as_str(), entry(name)?)))
@@ -115,13 +115,13 @@ impl SymbolTable {
         self.defined.iter().any(|known| known == name)
     }
 
-    /// Whether no symbol has that name or that look.
+    /// Whether no symbol has this name or this layout.
     pub(crate) fn is_free(&self, name: &str, shape: &Math) -> bool {
         !self.entries.contains_key(name) && !self.printed.contains_key(&latex::formula(shape))
     }
 
-    /// A letter that no symbol has with a number as its first index, neither in text nor in print; the last one
-    /// where all are taken. The index x of M_x is not mistaken for that of M_12.
+    /// Returns the first candidate that no symbol uses with a number as its first index, neither in text nor in print;
+    /// the last candidate if all are used. An index such as x in M_x cannot be mistaken for that of M_12.
     #[must_use]
     pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {
         let taken = |letter: &str| {
@@ -141,7 +141,7 @@ impl SymbolTable {
         free.or(candidates.last()).copied().unwrap_or("x")
     }
 
-    /// The look of a symbol; one that the table does not have is spelled by its name.
+    /// The layout of a symbol; if the table does not contain it, the layout follows from its name.
     #[must_use]
     pub fn look(&self, name: &str) -> Math {
         let known = self.entries.get(name).map(|entry| entry.shape.clone());
@@ -149,36 +149,36 @@ impl SymbolTable {
         Math::Symbol(Symbol { name: name.to_owned(), shape })
     }
 
-    /// The sum that a polynomial is.
+    /// The layout of a polynomial as a sum of terms.
     ///
     /// # Errors
     ///
-    /// A symbol that looks like a sine; an argument that is too long to be written out.
+    /// If a symbol looks like a sine or cosine, or if an argument is too long to be written out.
     pub fn polynomial(&self, value: &Polynomial<'_>, order: &Order<'_>) -> Result<Math, Error> {
         self.terms(&value.arranged(|atom| order.rank(atom)))
     }
 
-    /// A sum of terms.
+    /// The layout of a sum of terms.
     ///
     /// # Errors
     ///
-    /// A symbol that looks like a sine; an argument that is too long to be written out.
+    /// If a symbol looks like a sine or cosine, or if an argument is too long to be written out.
     pub fn terms(&self, terms: &[ArrangedTerm<'_>]) -> Result<Math, Error> {
         self.check(&print::atoms(terms))?;
         polynomial::sum(terms, self)
     }
 
-    /// An expression as it is built.
+    /// The layout of an expression in the structure in which it was built.
     ///
     /// # Errors
     ///
-    /// A symbol that looks like a sine; an expression that is too long to be written out.
+    /// If a symbol looks like a sine or cosine, or if the expression is too long to be written out.
     pub fn expression(&self, value: Expr<'_>) -> Result<Math, Error> {
         self.check(&[value])?;
         Ok(Math::row(Expressions(self).pieces(value)?))
     }
 
-    /// Refuses symbols that would read as sines and cosines.
+    /// Returns an error for a symbol that could be read as a sine or cosine.
     fn check(&self, values: &[Expr<'_>]) -> Result<(), Error> {
         for value in values {
             for symbol in walk::symbols(&[*value]) {

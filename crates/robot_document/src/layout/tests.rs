@@ -109,7 +109,7 @@ fn polynomials_are_sums_of_terms() {
     }
 }
 
-/// Whatever the name, its look is one symbol that prints as such.
+/// Every name becomes one symbol that is printed without other effects.
 #[test]
 fn hostile_names_are_harmless() {
     for name in [
@@ -153,7 +153,7 @@ fn looks_that_could_do_more_than_print_are_not_used() {
     assert_eq!(shown(&robot), "M_a");
     robot.parameters[0].latex = Some(r"\input{x}".to_owned());
     assert_eq!(shown(&robot), "m");
-    // A space before an index is none of its own.
+    // A space before an index is ignored.
     robot.parameters[0].latex = Some("J _x ^2".to_owned());
     assert_eq!(shown(&robot), "J_x^{2}");
 }
@@ -171,7 +171,7 @@ fn nesting_ends_somewhere() {
 
 const SYMBOLS: [&str; 7] = ["x", "qd2", "l_1", "q1", "q2", "q12", "payload"];
 
-/// A table in which the symbols can be recognized by their looks.
+/// A table in which every symbol can be recognized by its layout.
 fn table(trigonometry: Trigonometry) -> SymbolTable {
     let mut table = SymbolTable::spelled(trigonometry);
     for name in SYMBOLS {
@@ -182,7 +182,7 @@ fn table(trigonometry: Trigonometry) -> SymbolTable {
     table
 }
 
-/// Sums, products, quotients, powers and functions of the symbols, some of them used again.
+/// Sums, products, quotients, powers and functions of the symbols, with shared parts.
 fn random_expression<'g>(graph: &'g Graph, random: &mut Random) -> Expr<'g> {
     let symbols = SYMBOLS.iter().chain(&["y"]);
     let mut parts: Vec<Expr<'g>> = symbols.map(|name| graph.symbol(name)).collect();
@@ -206,7 +206,7 @@ fn random_expression<'g>(graph: &'g Graph, random: &mut Random) -> Expr<'g> {
     parts[parts.len() - 1]
 }
 
-/// Whatever is printed reads back as LaTeX, and means what it was printed for.
+/// All that is printed can be read as LaTeX and stands for the expression from which it was printed.
 #[test]
 fn what_is_printed_means_the_expression() {
     let limits = PolynomialOptions { max_terms: 60, max_products: 400, ..Default::default() };

@@ -1,4 +1,4 @@
-//! Styles of sines and cosines.
+//! The notations of sines and cosines.
 
 /// The notation of sines and cosines in print.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -6,8 +6,8 @@ pub enum Trigonometry {
     /// `sin q₂`, `cos² q₅`, `sin(q₂ + q₃)`.
     #[default]
     Named,
-    /// `s₂`, `c₅²`, `s₂₃` for the joint variables q2, q5, q2 + q3; the angle as an index for others.
+    /// `s₂`, `c₅²`, `s₂₃` for the joint positions q2, q5 and q2 + q3; other angles are the index themselves.
     Short,
-    /// `sq₂`, `c²q₅`, `s(q₂ + q₃)`, as some papers print.
+    /// `sq₂`, `c²q₅`, `s(q₂ + q₃)`, as in some papers.
     Paper,
 }

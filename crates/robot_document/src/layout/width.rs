@@ -1,30 +1,30 @@
-//! The printed width of formulas, in points, set in Computer Modern at 10 points.
+//! The printed width of formulas in points, set in Computer Modern at 10 points.
 //!
-//! Advance widths, italic corrections included, are those of the font metrics cmmi10 and cmr10; smaller
-//! sizes take the largest ratio among the letters of cmmi7 and cmr7. Spaces are those of The TeXbook,
-//! chapter 18. Estimates err on the wide side: a line that is thought to fit does.
+//! Advance widths, including italic corrections, are those of the font metrics cmmi10 and cmr10. For smaller sizes,
+//! they are scaled by the largest ratio among the letters of cmmi7 and cmr7. Spaces are those in chapter 18 of The
+//! TeXbook. Estimates are rather too wide than too narrow, so that a line that seems to fit does fit.
 
 use super::math::{Fence, Math, Script};
 
-/// Thin, medium and thick spaces, pt.
+/// The widths of thin, medium and thick spaces, in pt.
 const SPACES: [f64; 3] = [1.667, 2.222, 2.778];
 
-/// Italic letters a to z, in thousandths of the size.
+/// The widths of the italic letters a to z, in thousandths of the font size.
 const ITALIC_LOWER: [u16; 26] = [
     529, 429, 433, 520, 466, 597, 513, 576, 345, 469, 552, 318, 878, 600, 485, 503, 482, 479, 469,
     361, 572, 521, 743, 572, 526, 509,
 ];
-/// Italic letters A to Z.
+/// The widths of the italic letters A to Z.
 const ITALIC_UPPER: [u16; 26] = [
     750, 809, 786, 856, 796, 782, 786, 912, 518, 651, 921, 681, 1079, 912, 791, 781, 791, 767, 671,
     723, 792, 806, 1083, 907, 803, 754,
 ];
-/// Upright letters a to z.
+/// The widths of the upright letters a to z.
 const UPRIGHT_LOWER: [u16; 26] = [
     500, 556, 444, 556, 444, 383, 514, 556, 278, 306, 528, 278, 833, 556, 500, 556, 528, 392, 394,
     389, 556, 542, 736, 528, 542, 444,
 ];
-/// Upright letters A to Z.
+/// The widths of the upright letters A to Z.
 const UPRIGHT_UPPER: [u16; 26] = [
     750, 708, 722, 764, 681, 653, 785, 750, 361, 514, 778, 625, 917, 750, 778, 681, 778, 736, 556,
     722, 750, 764, 1042, 750, 775, 611,
@@ -70,13 +70,13 @@ impl Size {
     }
 }
 
-/// The width of a displayed formula, pt.
+/// The width of a displayed formula, in pt.
 #[must_use]
 pub fn width(math: &Math) -> f64 {
     measure(math, Size::Display)
 }
 
-/// The width of upright text, pt.
+/// The width of upright text, in pt.
 #[must_use]
 pub fn text_width(text: &str) -> f64 {
     text.chars().map(upright).sum::<f64>() * 10.0
@@ -95,7 +95,7 @@ fn upright(character: char) -> f64 {
         '0'..='9' | '/' | '*' => 0.51,
         '+' | '=' | '<' | '>' => 0.78,
         '%' | '&' | '#' | '_' | '$' => 0.84,
-        // Characters that print by their code take a word.
+        // Characters that are printed as their code are as wide as a word.
         other if !other.is_ascii() => 4.5,
         _ => 0.8,
     }
@@ -108,7 +108,7 @@ fn italic(character: char) -> f64 {
         'A'..='Z' => ITALIC_UPPER.get(place(b'A')),
         _ => None,
     };
-    // The widest Greek letter and the widest sign.
+    // Others have the width of the widest Greek letter and the widest sign.
     width.map_or(1.0, |width| f64::from(*width) / 1000.0)
 }
 
@@ -149,14 +149,14 @@ fn measure(math: &Math, size: Size) -> f64 {
             (0..columns).map(|column| widest(column) + points).sum::<f64>() + points
         }
         Math::Lines(lines) => {
-            // A sign at the start of a line takes the spaces of one within a sum.
+            // A sign at the start of a line has the same spaces as one within a sum.
             let line = |line| measure(line, Size::Text) + 2.0 * SPACES[1];
             lines.iter().map(line).fold(0.0, f64::max)
         }
     }
 }
 
-/// Whether fences around the piece grow.
+/// Whether fences around a piece grow with it.
 fn is_tall(math: &Math) -> bool {
     match math {
         Math::Fraction(_) | Math::Root(_) | Math::Matrix(_) | Math::Lines(_) => true,
@@ -175,7 +175,7 @@ fn row(pieces: &[Math], size: Size) -> f64 {
             Math::Sign('=') => 2.0 * size.space(2),
             Math::Sign('+' | '-' | '·' | '×' | '*') if place > 0 => 2.0 * size.space(1),
             Math::Sign(',') | Math::Function(_) => size.space(0),
-            // Space before and after what is fenced, or between a function's power and its argument.
+            // The space before and after fences and fractions, or between a function's exponent and its argument.
             Math::Fenced(..) | Math::Fraction(_) => 2.0 * size.space(0),
             Math::Script(_) if piece.is_function() => size.space(0),
             _ => 0.0,
@@ -184,7 +184,7 @@ fn row(pieces: &[Math], size: Size) -> f64 {
         if before.is_some_and(|before| piece.is_apart_from(before)) {
             sum += size.space(0);
         }
-        // A function keeps its distance from the piece before it.
+        // There is a space before a function.
         if place > 0 && piece.is_function() {
             sum += size.space(0);
         }
@@ -203,7 +203,7 @@ mod tests {
     use super::*;
     use crate::latex::read;
 
-    /// Widths as pdfTeX measures the boxes in the class article at 10 points, pt.
+    /// Widths of boxes in pt, measured by pdfTeX with the class article at 10 points.
     const MEASURED: [(&str, f64); 12] = [
         (r"M_1 + M_2", 40.597),
         (r"\ddot{q}_1", 8.950),
@@ -223,7 +223,7 @@ mod tests {
     fn estimates_are_on_the_wide_side_and_near() {
         for (latex, measured) in MEASURED {
             let estimate = width(&read(latex).unwrap());
-            // The table has thousandths of the size.
+            // The table is rounded to thousandths of the font size.
             assert!(estimate >= measured - 0.01, "{latex}: {estimate} {measured}");
             assert!(estimate <= 1.2 * measured + 4.0, "{latex}: {estimate} {measured}");
         }
@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn text_is_as_wide_as_its_letters() {
         assert!((text_width("mass") - (8.33 + 5.0 + 2.0 * 3.94)).abs() < 1e-9);
-        // A character that prints as its code.
+        // This character is printed as its code.
         assert!(text_width("\u{4e2d}") > 40.0);
     }
 }

@@ -1,4 +1,5 @@
-//! A page of HTML with equations in MathML: one file that needs no other and no script, and contains its font.
+//! Pages of HTML with equations in MathML. A page is one file that contains its font and needs no other file and no
+//! script.
 
 use crate::breaking::right_side;
 use crate::error::Error;
@@ -10,10 +11,10 @@ use crate::math_font;
 use crate::mathml;
 use crate::width::width;
 
-/// The number of an equation and its distance from the equation, pt.
+/// The width of the number of an equation and of its distance from the equation, in pt.
 const NUMBER: f64 = 44.0;
 
-/// Right sides start in one line below each other; further lines are indented by an empty piece.
+/// The style sheet. The right sides of equations are aligned at the left; further lines are indented by an empty piece.
 const STYLE: &str = "\
 body { color-scheme: light dark; margin: 2rem; font-family: serif; line-height: 1.4 }
 p { max-width: 45rem }
@@ -25,22 +26,22 @@ mtd mtd:nth-child(n) { text-align: center; text-align: -webkit-center; padding: 
 mtd mtd[columnalign=left]:nth-child(n) { text-align: left; text-align: -webkit-left }
 mtable[columnalign=left] mtd:nth-child(n) { text-align: left; text-align: -webkit-left; padding: 0 }";
 
-/// How a page is made.
+/// The options of a page.
 #[derive(Clone, Copy, Debug)]
 pub struct PageOptions {
     /// The width of lines.
     pub layout: Layout,
     /// Whether equations are numbered.
     pub numbered: bool,
-    /// Whether the page contains the font of its equations, some 70 kB; without, browsers take one that is installed.
+    /// Whether the page contains the font of its equations, about 70 kB; otherwise browsers use an installed one.
     pub has_font: bool,
 }
 
-/// The page: a heading and a table of equations for each group, lines broken as in LaTeX.
+/// Makes a page with a heading and a table of equations for each group, with lines broken as in LaTeX.
 ///
 /// # Errors
 ///
-/// A piece of an equation that cannot be broken and does not fit a line.
+/// If a piece of an equation cannot be broken and does not fit on a line.
 pub fn page(title: &str, groups: &[Group], options: PageOptions) -> Result<String, Error> {
     let PageOptions { layout, numbered, has_font } = options;
     let mut body = vec![holding("h1", title)];
@@ -86,7 +87,7 @@ fn lines(name: &'static str, children: impl IntoIterator<Item = Element>) -> Ele
     children.into_iter().fold(start, |all, child| all.with(child).with("\n"))
 }
 
-/// The lines of an equation, the number at the last one.
+/// The lines of an equation as rows of a table; the last one has the number.
 fn rows(equation: &Equation, layout: Layout, number: Option<&str>) -> Result<Vec<Element>, Error> {
     let apart = if number.is_some() { NUMBER } else { 0.0 };
     let lines = right_side(equation, layout.width - width(&equation.left) - apart, 0.0)?;

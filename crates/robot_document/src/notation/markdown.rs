@@ -1,4 +1,4 @@
-//! Markdown: displayed equations between `$$`, formulas in lines between `$`, as GitHub and others render them.
+//! Markdown: displayed equations between `$$` and formulas in text between `$`, as GitHub and other sites render them.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use crate::latex::{Layout, continued, formula};
 use crate::math::Math;
 use crate::width::width;
 
-/// Equations one below the other, each broken into lines; labels are not shown.
+/// Writes equations one below the other, broken into lines and without their labels.
 ///
 /// # Errors
 ///
-/// A piece of an equation that cannot be broken and does not fit a line.
+/// If a piece of an equation cannot be broken and does not fit on a line.
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
     let mut shown = String::new();
     for equation in list {
@@ -43,17 +43,17 @@ fn display(
         }
     };
     let tag = number.map(|number| format!(" \\tag{{{number}}}")).unwrap_or_default();
-    // GitHub takes no \operatorname, others no space in place of a column.
+    // GitHub does not support \operatorname, and other sites do not support `@{}` for columns.
     let display = display.replace(r"\operatorname{", r"\mathrm{");
     let display = display.replace("[b]{@{}l@{}}", "{l}").replace("{@{}l@{}}", "{l}");
     Ok(format!("\n$$\n{display}{tag}\n$$\n"))
 }
 
-/// The document as Markdown. It has no figure: Markdown shows files, not drawings.
+/// Writes the document as Markdown, without its figure, because Markdown can only show images from other files.
 ///
 /// # Errors
 ///
-/// A piece of an equation that does not fit a line.
+/// If a piece of an equation cannot be broken and does not fit on a line.
 pub fn document(document: &Document, layout: Layout) -> Result<String, Error> {
     let lists = document.blocks.iter().filter_map(|block| match block {
         Block::Equations(list) => Some(list),
@@ -120,14 +120,14 @@ fn line(inlines: &[Inline], labels: &Labels) -> String {
     inlines.iter().map(one).collect()
 }
 
-/// A formula within a line: a bar would end a cell, and asterisks would be markup.
+/// A formula within a line. A bar would end a table cell and an asterisk would be markup, so commands replace them.
 fn inline_math(math: &Math) -> String {
     let latex = formula(math).replace(r"\operatorname{", r"\mathrm{").replace('*', r"\ast ");
     format!("${}$", latex.replace('|', r"\vert "))
 }
 
-/// Text for paragraphs and cells. Every sign that could be markup is escaped; what does not print, such as a change of
-/// the direction of writing, prints as its code.
+/// Text for paragraphs and cells. Every character that could be markup is escaped, and characters that are not
+/// printable, such as those that change the direction of writing, are written as their code.
 fn text(text: &str) -> String {
     let mut markdown = String::new();
     for character in text.chars() {
@@ -149,7 +149,7 @@ fn text(text: &str) -> String {
     markdown
 }
 
-/// A line that does not begin a list or a rule.
+/// Escapes the beginning of a line that Markdown would take for a list or a rule.
 fn opened(line: &str) -> String {
     let rest = line.trim_start_matches(|character: char| character.is_ascii_digit());
     let is_number = rest.len() < line.len() && rest.starts_with(['.', ')']);

@@ -1,8 +1,8 @@
-//! The font of equations in HTML: the letters and signs that formulas may have, out of STIX Two Math, so that
-//! a page looks alike where no math font is installed.
+//! The font of equations in HTML: the letters and signs that formulas can contain, taken from STIX Two Math, so that a
+//! page looks the same where no math font is installed.
 //!
-//! `font/math.woff2` is a subset that goes by a name of its own; its license, the SIL Open Font License 1.1, is
-//! beside it.
+//! `font/math.woff2` is a subset under a name of its own; its license, the SIL Open Font License 1.1, is in the same
+//! folder.
 
 use std::sync::LazyLock;
 
@@ -11,8 +11,8 @@ use base64::prelude::BASE64_STANDARD;
 
 const FONT: &[u8] = include_bytes!("../../font/math.woff2");
 
-/// The rules of CSS that set formulas in the font, which they contain as a `data:` address: a page with a content
-/// security policy allows it with `font-src data:`.
+/// The CSS rules that set formulas in the font, which they contain as a `data:` address. A content security policy
+/// allows it with `font-src data:`.
 pub static RULES: LazyLock<String> = LazyLock::new(|| {
     let font = BASE64_STANDARD.encode(FONT);
     format!(
@@ -28,7 +28,7 @@ mod tests {
 
     use super::*;
 
-    /// The characters of the list that the font is made from.
+    /// The characters in the list from which the font was made.
     fn characters() -> Vec<char> {
         let of = |digits: &str| u32::from_str_radix(digits, 16).unwrap();
         let lines =

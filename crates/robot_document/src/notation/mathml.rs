@@ -1,14 +1,14 @@
 //! Formulas as MathML, the markup of formulas in HTML.
 //!
-//! Only what MathML Core has is used, so that browsers set it: fonts are characters of their own, and
-//! there are no attributes of style.
+//! Only MathML Core is used, which browsers support: fonts are given by special characters, and there are no style
+//! attributes.
 
 use robot_model::signs::{Accent, Font};
 
 use crate::markup::{Element, element, holding};
 use crate::math::{Fence, Math, Script};
 
-/// The MathML of a formula, without the element `math` around it.
+/// The MathML of a formula, without the enclosing `math` element.
 #[must_use]
 pub fn formula(math: &Math) -> Element {
     match math {
@@ -28,7 +28,7 @@ pub fn formula(math: &Math) -> Element {
             let stretches = if accent.stretches() { "true" } else { "false" };
             let sign = holding("mo", accent.sign()).attribute("stretchy", stretches);
             let whole = element("mover").with_all([formula(inside), sign]);
-            // As accents, dots touch what is below in Chromium.
+            // As accents, dots touch the letter below them in Chromium.
             match accent {
                 Accent::Dot | Accent::DoubleDot => whole,
                 _ => whole.attribute("accent", "true"),
@@ -58,8 +58,8 @@ pub fn formula(math: &Math) -> Element {
     }
 }
 
-/// The MathML of a line or a term that goes on with a sum: the sign that it starts with stands between
-/// it and what is before.
+/// The MathML of a line or term that continues a sum: the sign at its beginning is an operator between the preceding
+/// term and this one.
 #[must_use]
 pub fn continued(math: &Math) -> Element {
     let mut markup = formula(math);
@@ -70,7 +70,7 @@ pub fn continued(math: &Math) -> Element {
     markup
 }
 
-/// A single letter would be italic.
+/// Upright text; a single letter needs an attribute, because it would be italic otherwise.
 fn upright(word: &str) -> Element {
     let text = holding("mi", word);
     if word.chars().count() == 1 { text.attribute("mathvariant", "normal") } else { text }
@@ -104,7 +104,7 @@ fn row(pieces: &[Math]) -> Element {
 }
 
 fn with_indices(script: &Script) -> Element {
-    // The power of a symbol with an index is above the index.
+    // The exponent of a symbol with a lower index stands above that index.
     if let (None, Some(upper), Some(own)) = (&script.lower, &script.upper, own_index(&script.base))
         && let (Some(lower), None) = (&own.lower, &own.upper)
     {
@@ -121,7 +121,7 @@ fn with_indices(script: &Script) -> Element {
     }
 }
 
-/// The indices that a base has itself.
+/// The indices of a base that has some itself.
 fn own_index(base: &Math) -> Option<&Script> {
     match base {
         Math::Script(script) => Some(script),
@@ -130,8 +130,8 @@ fn own_index(base: &Math) -> Option<&Script> {
     }
 }
 
-/// A letter and a mark on it as characters: the font knows where the mark belongs. Above a letter that is
-/// an element of its own, browsers set marks without a gap, and left of where a slanted letter has them.
+/// A letter with its accent as characters, because the font places the accent correctly. Over a letter in an element of
+/// its own, browsers place accents without a gap, and too far left for a slanted letter.
 fn marked(accent: Accent, inside: &Math) -> Option<Element> {
     let letter = match inside {
         Math::Symbol(symbol) => return marked(accent, &symbol.shape),
@@ -144,7 +144,7 @@ fn marked(accent: Accent, inside: &Math) -> Option<Element> {
 /// The italic character of a letter, as browsers show an `mi` of one letter.
 fn italic(letter: char) -> Option<char> {
     let (first, italic) = match letter {
-        // It is older than the others.
+        // The italic h has a code point outside the range of the others.
         'h' => return Some('\u{210e}'),
         'A'..='Z' => ('A', 0x1d434),
         'a'..='z' => ('a', 0x1d44e),
@@ -173,7 +173,7 @@ fn styled(font: Font, inside: &Math) -> Element {
     };
     match font {
         Font::Upright => upright(&text),
-        // Letters run together in italics.
+        // A word in one element would be upright, so each letter has its own.
         Font::Italic => {
             element("mrow").with_all(text.chars().map(|letter| holding("mi", letter.to_string())))
         }
@@ -184,11 +184,11 @@ fn styled(font: Font, inside: &Math) -> Element {
 fn matrix(rows: &[Vec<Math>]) -> Element {
     let is_apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
     let rows = rows.iter().map(|row| row.iter().map(formula).collect());
-    // A column with entries of several lines begins each at the left.
+    // A column with entries of several lines is aligned at the left.
     in_brackets(rows, if is_apart { Some("left") } else { None })
 }
 
-/// A matrix of these entries, row by row.
+/// A matrix in brackets with these entries, row by row.
 pub fn bracketed(rows: impl IntoIterator<Item = Vec<Element>>) -> Element {
     in_brackets(rows, None)
 }

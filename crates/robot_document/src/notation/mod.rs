@@ -1,4 +1,4 @@
-//! The notations, a printer each.
+//! The notations, each with its printer.
 
 pub mod html;
 pub mod latex;

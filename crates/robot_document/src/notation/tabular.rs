@@ -1,34 +1,35 @@
-//! Tables that fit a column: in smaller type, with cells of several lines, side by side, or in parts.
+//! Tables that fit a column of text: in smaller type, with cells of several lines, in two halves side by side, or in
+//! parts.
 
 use crate::document::{Cell, Inline, Table};
 use crate::width::{text_width, width};
 
-/// Sizes of type with what they are of the normal size.
+/// The font sizes, as ratios to the normal size.
 pub(super) const SIZES: [(&str, f64); 3] =
     [("normalsize", 1.0), ("small", 0.92), ("footnotesize", 0.84)];
 
-/// A table, or the part of one with some of its columns and rows.
+/// A table, or a part of one with some of its columns and rows.
 pub(super) struct Part {
-    /// Its heads and rows.
+    /// The headings and rows.
     pub(super) table: Table,
-    /// The widths of columns whose cells may take several lines, pt.
+    /// The widths of columns whose cells can take several lines, in pt; `None` for other columns.
     pub(super) widths: Vec<Option<f64>>,
-    /// The place of the size of type among the sizes.
+    /// The index of the font size in [`SIZES`].
     pub(super) size: usize,
-    /// Whether another part comes before.
+    /// Whether another part precedes this one.
     pub(super) is_continued: bool,
 }
 
-/// Rows from which a narrow table is set in two halves side by side.
+/// The number of rows from which a narrow table is set in two halves side by side.
 const LONG: usize = 14;
-/// Lines of a part.
+/// The largest number of lines of a part.
 const LINES: f64 = 28.0;
-/// Words are broken after as many letters.
+/// The number of letters after which words can be broken.
 const LONGEST_WORD: usize = 12;
-/// A column is broken to no less than this without need, pt.
+/// The smallest width of a column with broken cells, in pt, unless there is no other way.
 const NARROW: f64 = 70.0;
 
-/// The parts of a table for a line of a width, pt, with `gap` points for each column.
+/// Splits a table into parts for lines of `available` points, of which each column needs `gap` for its distance.
 pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
     let folded = folded(table);
     let columns = |table: &Table| 0..table.head.len();
@@ -63,7 +64,7 @@ pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
     parts
 }
 
-/// The natural widths of columns in the normal size, and those of their widest words.
+/// The natural widths of the columns in the normal size, and the widths of their widest words.
 struct Measure {
     natural: Vec<f64>,
     least: Vec<f64>,
@@ -71,7 +72,7 @@ struct Measure {
     gap: f64,
 }
 
-/// The place of a size, and the widths of columns of several lines.
+/// The index of a font size, and the widths of columns whose cells can take several lines.
 type Layout = (usize, Vec<Option<f64>>);
 
 impl Measure {
@@ -88,7 +89,7 @@ impl Measure {
         Measure { natural, least, keys: table.keys, gap }
     }
 
-    /// Columns in the largest type in which no cell needs a second line.
+    /// The columns in the largest font size in which no cell needs a second line; `None` if there is none.
     fn natural(&self, columns: impl Iterator<Item = usize>, available: f64) -> Option<Layout> {
         let widths: Vec<f64> =
             columns.filter_map(|column| self.natural.get(column).copied()).collect();
@@ -97,7 +98,7 @@ impl Measure {
         Some((size, vec![None; widths.len()]))
     }
 
-    /// Columns with cells of several lines, none narrower than `narrow` points.
+    /// The columns with cells of several lines, none narrowed to less than `narrow` points; `None` if they do not fit.
     fn broken(
         &self,
         columns: &[usize],
@@ -126,7 +127,7 @@ impl Measure {
         Some((size, chosen.collect()))
     }
 
-    /// A column that is wider than the line: its formulas are broken where they can be.
+    /// The layout for a column that is wider than the line: its formulas are broken where possible.
     fn forced(&self, columns: &[usize], available: f64) -> Layout {
         let scale = SIZES.last().map_or(1.0, |(_, scale)| *scale);
         let keys: f64 = self.natural.iter().take(self.keys).map(|width| width * scale).sum();
@@ -135,7 +136,7 @@ impl Measure {
         (SIZES.len() - 1, widths.collect())
     }
 
-    /// Columns in parts that fit, the first ones again in each.
+    /// Divides the columns into parts that fit; the first `keys` columns are repeated in each.
     fn split(&self, available: f64) -> Vec<Vec<usize>> {
         let scale = SIZES.last().map_or(1.0, |(_, scale)| *scale);
         let width =
@@ -156,13 +157,13 @@ impl Measure {
     }
 }
 
-/// The table with its second half beside the first.
+/// The table with its second half to the right of the first.
 fn folded(table: &Table) -> Option<Table> {
     let half = table.rows.len().div_ceil(2);
     let (left, right) = table.rows.split_at_checked(half)?;
     let beside = |left: &[Cell], right: Option<&Vec<Cell>>| -> Vec<Cell> {
         let empty = vec![vec![]; table.head.len()];
-        // A column of its own keeps the halves apart.
+        // An empty column separates the halves.
         let between = [vec![]];
         [left, &between, right.unwrap_or(&empty)].concat()
     };
@@ -188,7 +189,7 @@ fn chosen(table: &Table, columns: &[usize]) -> Table {
     }
 }
 
-/// The rows in parts, none longer than a page.
+/// Divides the rows into parts that fit on a page.
 fn rows(table: &Table, widths: &[Option<f64>], size: usize) -> Vec<Part> {
     let scale = SIZES.get(size).map_or(1.0, |(_, scale)| *scale);
     let lines = |row: &Vec<Cell>| {
@@ -222,7 +223,7 @@ fn natural_width(cell: &[Inline]) -> f64 {
     cell.iter().map(inline_width).sum()
 }
 
-/// The width of the widest word or formula of a cell.
+/// The width of the widest word or formula of a cell, in pt.
 fn least_width(cell: &[Inline]) -> f64 {
     let word = |inline: &Inline| match inline {
         Inline::Text(text) | Inline::Emphasis(text) => {

@@ -1,4 +1,4 @@
-//! A state with its joint torques, for readers who copy the equations.
+//! A check value: a state with its joint torques, for readers who copy the equations.
 
 use robot_model::variable::JointVariable;
 
@@ -8,18 +8,19 @@ use crate::forms::Letters;
 use crate::layout::SymbolTable;
 use crate::math::Math;
 
-/// A state and its joint torques, found without the equations. Numbers of the state are as they are printed.
+/// A state and its joint torques, which are computed without the equations. The numbers of the state are given as they
+/// are printed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckValue {
-    /// Joint positions, rad or m.
+    /// The joint positions, in rad or m.
     pub positions: Vec<&'static str>,
-    /// Joint velocities, rad/s or m/s.
+    /// The joint velocities, in rad/s or m/s.
     pub velocities: Vec<&'static str>,
-    /// Joint accelerations, rad/s² or m/s².
+    /// The joint accelerations, in rad/s² or m/s².
     pub accelerations: Vec<&'static str>,
-    /// The wrench that each tip exerts on its surroundings: force, N, then moment, N m.
+    /// The wrench that each tip exerts on its surroundings: the force in N, then the moment in N m.
     pub wrench: [&'static str; 6],
-    /// The generalized forces, N m or N.
+    /// The joint torques, in N m or N.
     pub forces: Vec<f64>,
 }
 
@@ -74,7 +75,7 @@ fn number(text: &str) -> Inline {
     Inline::Math(numbers::signed(text))
 }
 
-/// `q` of `q_1`.
+/// Removes the index: `q` from `q_1`.
 fn without_index(shape: Math) -> Math {
     match shape {
         Math::Symbol(symbol) => without_index(*symbol.shape),

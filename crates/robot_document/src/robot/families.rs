@@ -1,4 +1,5 @@
-//! The meaning of the symbols that equations define: one for all of a kind, with letters as indices.
+//! The meanings of the symbols that equations define. Symbols of one kind are explained together, with letters as
+//! indices.
 
 use robot_dynamics::quantity::Kind;
 
@@ -6,19 +7,19 @@ use crate::document::{Cell, Inline};
 use crate::forms::{Equation, Equations, Form, Group, Letters, Relation, paper};
 use crate::math::{Math, Script};
 
-/// Symbols of a kind.
+/// Symbols of one kind.
 pub(super) struct Family {
-    /// Their layout, letters in place of numbers.
+    /// The layout of the symbols, with letters in place of numbers.
     pub(super) shape: Math,
-    /// Their meaning.
+    /// The meaning of the symbols.
     pub(super) meaning: Cell,
 }
 
-/// The letters of indices.
+/// The letters that replace indices.
 const INDICES: [char; 3] = ['i', 'j', 'k'];
 
 /// The kinds of symbols on the left sides of equations, in order. The names of standard and base parameters are
-/// explained with their definitions.
+/// omitted, because they are explained with their definitions.
 pub(super) fn families(parts: &[(Form, Equations)], letters: &Letters) -> Vec<Family> {
     let mut known: Vec<(String, usize, Math)> = vec![];
     let mut families = vec![];
@@ -58,7 +59,7 @@ pub(super) fn families(parts: &[(Form, Equations)], letters: &Letters) -> Vec<Fa
     families
 }
 
-/// Whether two members of a family are explained by one of them: components are.
+/// Whether one explanation serves for both members of a family, as it does for components of one vector.
 fn same(first: &Math, other: &Math) -> bool {
     base(first) == base(other)
 }
@@ -71,7 +72,7 @@ fn base(shape: &Math) -> Option<&Math> {
     }
 }
 
-/// `M` of `M_1_2`, `F_l` of `F_l5.x` and `F_l5_x`, `omega` of `omega1.x`.
+/// The family of a symbol: `M` for `M_1_2`, `F_l` for `F_l5.x` and `F_l5_x`, `omega` for `omega1.x`.
 fn family(name: &str) -> &str {
     let name = name.split_once('.').map_or(name, |(name, _)| name);
     let bare = ["_x", "_y", "_z"].iter().find_map(|end| name.strip_suffix(end));
@@ -79,18 +80,18 @@ fn family(name: &str) -> &str {
     bare.unwrap_or(name).trim_end_matches(|c: char| c.is_ascii_digit() || c == '_')
 }
 
-/// The numbers of an indexed symbol, `M_1_2` or `Q1`.
+/// The number of indices of a symbol such as `M_1_2` or `Q1`.
 fn numbers(name: &str) -> usize {
     let is_number = |part: &&str| part.bytes().all(|byte| byte.is_ascii_digit());
     name.split('_').skip(1).filter(is_number).count().max(1)
 }
 
-/// The layout of a symbol with letters in place of its numbers: one number may be that of several indices.
+/// The layout of a symbol with letters in place of its numbers; a single number can stand for several indices.
 pub(super) fn general(shape: &Math, indices: usize) -> Math {
     let mut letters = INDICES.into_iter().map(Math::Letter);
     let all = count(shape);
     replaced(shape, &mut |_| match all {
-        // Below and above a vector is the same link.
+        // The lower and the upper index of a vector are the same link.
         _ if indices == 1 => Math::Letter('i'),
         1 => Math::row(letters.by_ref().take(indices).collect()),
         _ => letters.next().unwrap_or(Math::Letter('n')),
@@ -106,7 +107,7 @@ fn count(shape: &Math) -> usize {
     numbers
 }
 
-/// The layout with its numbers replaced.
+/// Replaces the numbers in a layout.
 fn replaced(shape: &Math, number: &mut dyn FnMut(&str) -> Math) -> Math {
     match shape {
         Math::Symbol(symbol) => replaced(&symbol.shape, number),
@@ -127,7 +128,7 @@ fn of_name(text: &str) -> Option<Cell> {
     Some(vec![Inline::text(text)])
 }
 
-/// What a matrix or a column in a group is.
+/// The meaning of a matrix or column in a group.
 fn of_array(group: &Group, part: &Equations, name: &str, letters: &Letters) -> Option<Cell> {
     let text = match group.title.as_str() {
         "Mass matrix" => "mass matrix",
@@ -141,7 +142,7 @@ fn of_array(group: &Group, part: &Equations, name: &str, letters: &Letters) -> O
     of_name(text)
 }
 
-/// What a vector of the links is, and the look of its components if equations use them.
+/// The meaning of a vector of the links, and the layout of its components if equations use them.
 fn of_vector(group: &Group, part: &Equations, name: &str, letters: &Letters) -> Option<Cell> {
     let mut cell = meaning(group, family(name), 1, letters)?;
     if let Some(Inline::Text(text)) = cell.first_mut() {
@@ -155,7 +156,7 @@ fn of_vector(group: &Group, part: &Equations, name: &str, letters: &Letters) -> 
     Some(cell)
 }
 
-/// What the symbols of a family in a group are.
+/// The meaning of the symbols of a family in a group.
 fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Option<Cell> {
     let text = match (group.title.as_str(), family) {
         ("Standard parameters" | "Base parameters", _) => return None,
@@ -202,7 +203,7 @@ const fn of_quantity(kind: Kind) -> &'static str {
     }
 }
 
-/// Of what a coefficient of velocities is one.
+/// The meaning of a coefficient of two velocities: it names their product.
 fn product(letters: &Letters) -> Cell {
     let rate = |index| {
         let letter = Box::new(Math::Letter('q'));

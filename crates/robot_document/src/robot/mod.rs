@@ -1,4 +1,4 @@
-//! The document of a robot: its tables, its equations, its symbols, a check value.
+//! The document of a robot: its tables, its equations, its symbols and a check value.
 
 mod check_value;
 mod families;
@@ -20,30 +20,30 @@ use crate::forms::{EquationOptions, Form, Room, equations};
 use crate::math::Math;
 pub use check_value::CheckValue;
 
-/// What a document has besides tables, equations and symbols.
+/// The optional parts of a document.
 #[derive(Clone, Debug, Default)]
 pub struct Extras<'e> {
-    /// The title; by default "Equations of motion of" and the robot's name.
+    /// The title; `None` for "Equations of motion of" and the robot's name.
     pub title: Option<&'e str>,
     /// A drawing of the robot.
     pub figure: Option<Figure>,
     /// The check value.
     pub check: Option<&'e CheckValue>,
-    /// The constant angles that the robot has as multiples of π/2 though the file has other values.
+    /// The constant angles of the robot file that were rounded to multiples of π/2.
     pub snaps: &'e [Snap],
-    /// The width of lines, pt, in which matrices and columns are shown where they fit; `None` for equations of their
-    /// entries alone.
+    /// The line width in pt for matrices and columns, which are shown if they fit; `None` to write only equations of
+    /// their entries.
     pub arrays: Option<f64>,
 }
 
-/// The number of an equation and its distance from the equation, pt.
+/// The space for the number of an equation, including the distance from the equation, in pt.
 const NUMBER: f64 = 44.0;
 
-/// The document of a robot with its equations in several forms.
+/// Makes the document of a robot with its equations in several forms.
 ///
 /// # Errors
 ///
-/// Equations that are too long, with the forms to use instead; symbols that would look alike.
+/// If the equations are too long, with the forms to use instead, or if two symbols would look the same.
 pub fn document(
     robot: &Robot,
     options: &EquationOptions,
@@ -97,7 +97,7 @@ fn heading(text: &str) -> Block {
     Block::Heading(1, text.to_owned())
 }
 
-/// The frame and sign conventions.
+/// The paragraph on the conventions for frames and signs.
 fn conventions(
     options: &EquationOptions,
     rounded: Option<usize>,
@@ -144,12 +144,12 @@ fn conventions(
     ])
 }
 
-/// The names in a sentence before the others are counted.
+/// The number of names in a sentence before the others are only counted.
 const NAMED: usize = 4;
 
-/// What is said of constant angles that are not those of the file.
+/// The sentence about constant angles that differ from those of the file.
 fn snapped(snaps: &[Snap]) -> String {
-    // What is rounded by the tolerance that code has is only rounding.
+    // A change within the default tolerance is only rounding and is not mentioned.
     let changed = || snaps.iter().filter(|snap| snap.change.abs() > snap::DEFAULT);
     let mut names: Vec<&str> = vec![];
     for snap in changed() {

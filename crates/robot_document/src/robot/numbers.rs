@@ -1,24 +1,24 @@
-//! Numbers in tables: short.
+//! Short numbers for tables.
 
 use robot_symbolic::Rational;
 
 use crate::layout::number;
 use crate::math::{Fence, Math};
 
-/// Constants of more bytes of text are rounded in tables.
+/// The number of bytes of text above which a constant is rounded in tables.
 const LONG: usize = 10;
 
-/// Whether a constant of that text is rounded in tables.
+/// Whether a constant with this text is rounded in tables.
 pub(super) const fn is_long(text: &str) -> bool {
     text.len() > LONG
 }
 
-/// Whether a table has another value for a constant with that text, a rounded one.
+/// Whether the rounded value in a table differs from the constant with this text.
 pub(super) fn is_cut(value: &Rational, text: &str) -> bool {
     is_long(text) && Rational::from_decimal(&six(value.to_f64())).as_ref() != Some(value)
 }
 
-/// A number to six digits.
+/// Rounds a number to six significant digits.
 pub(super) fn rounded(number: f64) -> Math {
     signed(&six(number))
 }
@@ -37,7 +37,7 @@ fn six(number: f64) -> String {
     }
 }
 
-/// The text of a number, a minus as the sign.
+/// The layout of a number given as text, with a minus sign if there is one.
 pub(super) fn signed(text: &str) -> Math {
     match text.strip_prefix('-') {
         Some(digits) => Math::Row(vec![Math::Sign('-'), number(digits)]),
@@ -45,7 +45,7 @@ pub(super) fn signed(text: &str) -> Math {
     }
 }
 
-/// Components in parentheses.
+/// A vector: its components in parentheses.
 pub(super) fn vector(components: &[Math; 3]) -> Math {
     let mut pieces = vec![];
     for component in components {

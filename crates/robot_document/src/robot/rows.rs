@@ -1,5 +1,5 @@
-//! The rows of tables about a robot: what every output says of a link, a frame and a parameter, in words.
-//! Each output chooses its columns and their look; formulas are written in its own notation.
+//! The rows of tables about a robot: all outputs describe a link, a frame and a parameter in the same words. Each
+//! output chooses its columns and their appearance, and writes formulas in its own notation.
 
 use robot_model::robot::{Frame, Link, Parameter, Robot, Wrench};
 use robot_model::variable::JointVariable;
@@ -13,13 +13,13 @@ use super::words;
 pub struct LinkRow<'r> {
     /// The link, with its name, axis, pose and bodies.
     pub link: &'r Link,
-    /// The name of its parent.
+    /// The name of the parent link.
     pub parent: &'r str,
-    /// The kind of its joint.
+    /// The kind of the joint.
     pub kind: &'static str,
-    /// The symbol of its coordinate, such as `q2`.
+    /// The symbol of the coordinate, such as `q2`.
     pub coordinate: String,
-    /// The limits of its coordinate, rad or m.
+    /// The limits of the coordinate, in rad or m.
     pub limits: Option<&'r [Rational; 2]>,
 }
 
@@ -30,7 +30,7 @@ pub struct FrameRow<'r> {
     pub frame: &'r Frame,
     /// The name of the link that it is fixed to.
     pub link: &'r str,
-    /// The components of the wrench that it exerts on its surroundings, force first.
+    /// The components of the wrench that the frame exerts on its surroundings, force first.
     pub wrench: Option<String>,
 }
 
@@ -39,15 +39,15 @@ pub struct FrameRow<'r> {
 pub struct ParameterRow<'r> {
     /// The parameter, with its name.
     pub parameter: &'r Parameter,
-    /// Its nominal value, exact.
+    /// The nominal value, as exact text.
     pub value: Option<String>,
-    /// Its unit.
+    /// The unit.
     pub unit: Option<&'r str>,
-    /// Its meaning, in the file's words.
+    /// The meaning, in the words of the robot file.
     pub meaning: Option<&'r str>,
 }
 
-/// A row for each link, in the file's order.
+/// The rows of the links, in the order of the robot file.
 pub fn links(robot: &Robot) -> impl Iterator<Item = LinkRow<'_>> {
     robot.links.iter().map(|link| {
         let coordinate = robot.coordinates.get(link.joint.coordinate);
@@ -61,7 +61,7 @@ pub fn links(robot: &Robot) -> impl Iterator<Item = LinkRow<'_>> {
     })
 }
 
-/// A row for each named frame, in the file's order.
+/// The rows of the named frames, in the order of the robot file.
 pub fn frames(robot: &Robot) -> impl Iterator<Item = FrameRow<'_>> {
     let components = |wrench: &Wrench| wrench.components().collect::<Vec<_>>().join(", ");
     robot.frames.iter().map(move |frame| FrameRow {
@@ -71,7 +71,7 @@ pub fn frames(robot: &Robot) -> impl Iterator<Item = FrameRow<'_>> {
     })
 }
 
-/// A row for each parameter, in the file's order.
+/// The rows of the parameters, in the order of the robot file.
 pub fn parameters(robot: &Robot) -> impl Iterator<Item = ParameterRow<'_>> {
     robot.parameters.iter().map(|parameter| ParameterRow {
         parameter,

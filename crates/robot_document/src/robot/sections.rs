@@ -1,4 +1,4 @@
-//! The equations of a document: a section for each form, its parts below it.
+//! The equations of a document: a section for each form, with its groups as parts.
 
 use robot_dynamics::quantity::Kind;
 
@@ -7,7 +7,7 @@ use crate::document::{Block, Inline, Table};
 use crate::forms::{Equation, EquationOptions, Equations, Form, Group};
 use crate::math::Math;
 
-/// The section of a form; each equation is numbered and labeled by form and name.
+/// The blocks of the section of a form. Each equation is numbered, and its label consists of the form and its name.
 pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) -> Vec<Block> {
     let mut blocks = vec![Block::Heading(1, format!("Equations of motion, {}", form.name()))];
     let own = part.groups.iter().find(|group| !group.definitions);
@@ -40,9 +40,9 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
     blocks
 }
 
-/// So many constants or more are a table.
+/// The smallest number of constants that are shown as a table.
 const FEWEST: usize = 4;
-/// The constants of a line of the table.
+/// The number of constants in one row of the table.
 const ACROSS: usize = 2;
 
 /// Whether the right side is a number, such as `√2/2`, and the left side is not a component of a vector.
@@ -59,7 +59,7 @@ fn is_number(piece: &Math) -> bool {
     }
 }
 
-/// A table of constants, some beside each other, one below the other in each column.
+/// A table of constants, which are listed down the first column, then down the next.
 fn constants(equations: &[&Equation]) -> Block {
     let count = equations.len().div_ceil(ACROSS);
     let cell = |equation: &&Equation| {
@@ -78,7 +78,7 @@ fn constants(equations: &[&Equation]) -> Block {
     })
 }
 
-/// The title of a part: what is asked for has the title of its section otherwise.
+/// The title of a group.
 fn title(form: Form, group: &Group, options: &EquationOptions) -> String {
     let has_all = matches!(form, Form::Expanded | Form::Collected | Form::Compact);
     match options.kinds.as_slice() {
@@ -89,7 +89,7 @@ fn title(form: Form, group: &Group, options: &EquationOptions) -> String {
     }
 }
 
-/// What a section starts with if its form says nothing of itself.
+/// The text at the beginning of a section whose groups have no introduction.
 fn introduction(form: Form) -> Option<Block> {
     match form {
         Form::Recursive => Some(recursion()),

@@ -1,4 +1,4 @@
-//! The table of the symbols that occur in a document: their meaning, units and values.
+//! The table of the symbols in a document, with their meanings, units and values.
 
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
@@ -12,7 +12,7 @@ use crate::layout::SymbolTable;
 use crate::math::Math;
 use crate::robot::rows::{self, ParameterRow};
 
-/// The symbols of a robot that occur in these blocks, and those that the forms define.
+/// The table of the symbols of a robot that occur in the given blocks, and of those that the forms define.
 pub(super) fn blocks(
     robot: &Robot,
     parts: &[(Form, Equations)],
@@ -33,7 +33,7 @@ pub(super) fn blocks(
     }
     let mut head: Vec<Cell> =
         ["Symbol", "Meaning", "Value"].map(|name| vec![Inline::text(name)]).into();
-    // A robot of numbers has no values of symbols.
+    // If no symbol has a value, the column of values is omitted.
     if rows.iter().all(|row| row.last().is_some_and(Vec::is_empty)) {
         head.truncate(2);
         rows.iter_mut().for_each(|row| row.truncate(2));
@@ -104,7 +104,7 @@ fn coordinates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) 
     rows
 }
 
-/// The velocities and accelerations, a row each for all joints.
+/// The velocities and accelerations, with one row each for all joints.
 fn rates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec<Vec<Cell>> {
     let mut rows = vec![];
     for (variable, word) in [
@@ -124,7 +124,7 @@ fn rates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec
     rows
 }
 
-/// The components of the wrenches that tips exert.
+/// The components of the wrenches that the tips exert on their surroundings.
 fn wrenches(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> Vec<Vec<Cell>> {
     let mut rows = vec![];
     for (frame, wrench) in robot.tips() {
@@ -168,7 +168,7 @@ fn parameter(symbol: Math, row: &ParameterRow<'_>) -> Vec<Cell> {
     vec![vec![Inline::Math(symbol)], vec![Inline::Text(meaning)], value]
 }
 
-/// `kg m²` after a number, powers raised.
+/// The layout of a unit after a number, such as `kg m²`, with raised exponents.
 fn unit_shape(unit: &str) -> Vec<Math> {
     let mut pieces = vec![Math::Word(" ".to_owned())];
     let mut rest = unit;

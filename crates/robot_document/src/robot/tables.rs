@@ -1,4 +1,4 @@
-//! The tables of links and masses.
+//! The tables of links, masses and frames.
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Placement, Robot};
@@ -13,8 +13,8 @@ use crate::math::Math;
 use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
 
-/// The figure, and tables of the links, of their masses, and of the named frames; and whether decimals of poses are rounded
-/// to `digits`.
+/// The figure and the tables of the links, of their masses and of the named frames; and whether decimals of poses were
+/// rounded to `digits`.
 pub(super) fn blocks(
     robot: &Robot,
     symbols: &SymbolTable,
@@ -40,9 +40,9 @@ pub(super) fn blocks(
 struct Formulas<'n> {
     graph: Graph,
     symbols: &'n SymbolTable,
-    /// The most significant digits of decimals.
+    /// The largest number of significant digits of decimals; `None` for all.
     digits: Option<usize>,
-    /// Whether one was rounded.
+    /// Whether a decimal was rounded.
     rounded: std::cell::Cell<bool>,
 }
 
@@ -96,14 +96,14 @@ fn heads(names: &[&str]) -> Vec<Cell> {
     names.iter().map(|name| vec![Inline::text(*name)]).collect()
 }
 
-/// The cells that say which link a row is about: its number, and its name unless that is the number.
+/// The cells that identify a link: its number, and its name unless all names are numbers.
 fn link_cells(robot: &Robot, index: usize) -> Vec<Cell> {
     let number = vec![Inline::Math(Math::integer(index + 1))];
     let name = robot.links.get(index).map_or("", |link| &link.name);
     if are_numbered(robot) { vec![number] } else { vec![number, vec![Inline::text(name)]] }
 }
 
-/// The heads of these cells.
+/// The headings of these cells.
 fn link_heads(robot: &Robot) -> Vec<Cell> {
     if are_numbered(robot) {
         return heads(&["Link"]);
@@ -149,7 +149,7 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     Ok(Table { caption: "Named frames.".to_owned(), head, rows, keys: 1 })
 }
 
-/// A value of a table: long constants to six digits.
+/// A value in a table; long constants are rounded to six digits.
 fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
     let long = robot_symbolic::print::to_text(value).is_ok_and(|text| numbers::is_long(&text));
     if !long || !walk::symbols(&[value]).is_empty() {
@@ -158,7 +158,7 @@ fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
     Ok(numbers::rounded(value.evaluate(|_| f64::NAN)))
 }
 
-/// Mass, center of mass and tensor of each link, in the link's axes; columns of zeros are left out.
+/// The mass, center of mass and inertia tensor of each link, in the link's axes; columns of zeros are omitted.
 fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let graph = Graph::new();
     let options = MechanismOptions::EXACT.with_snap(None, robot);

@@ -1,15 +1,15 @@
-//! Words about a robot in tables and lists, the same everywhere.
+//! Words about a robot for tables and lists, so that all outputs use the same ones.
 
 use robot_model::robot::{Axis, JointKind, Move, Placement, Robot};
 use robot_symbolic::Formula;
 
-/// The name of the link that carries something, by its index; `base` if no link does.
+/// The name of the link with this index, which carries something; `base` if there is none.
 #[must_use]
 pub fn carrier(robot: &Robot, link: Option<usize>) -> &str {
     link.and_then(|index| robot.links.get(index)).map_or("base", |link| &link.name)
 }
 
-/// The kind of a joint: `revolute` or `prismatic`.
+/// The name of the kind of a joint: `revolute` or `prismatic`.
 #[must_use]
 pub const fn motion(kind: JointKind) -> &'static str {
     match kind {
@@ -18,7 +18,7 @@ pub const fn motion(kind: JointKind) -> &'static str {
     }
 }
 
-/// `x`, `y` or `z`.
+/// The name of an axis: `x`, `y` or `z`.
 #[must_use]
 pub const fn axis(axis: Axis) -> char {
     match axis {
@@ -34,13 +34,12 @@ pub fn is_zero(formula: &Formula) -> bool {
     formula.as_number().is_some_and(|number| number.is_zero())
 }
 
-/// Three components: `(0, 0, l3)`, each formula as `text` writes it.
+/// A vector such as `(0, 0, l3)`; `text` writes each component.
 pub fn vector(components: &[Formula; 3], text: impl FnMut(&Formula) -> String) -> String {
     format!("({})", components.each_ref().map(text).join(", "))
 }
 
-/// A pose, its moves one after the other: `to (l4, 0, l3), rotated about z by pi/2`, each formula as `text`
-/// writes it; `none` if nothing is moved.
+/// A pose as its moves in order: `to (l4, 0, l3), rotated about z by pi/2`, or `none`. `text` writes each formula.
 pub fn pose(placement: &Placement, mut text: impl FnMut(&Formula) -> String) -> String {
     let one = |step: &Move| match step {
         Move::Translate(by) => format!("to {}", vector(by, &mut text)),
@@ -50,7 +49,7 @@ pub fn pose(placement: &Placement, mut text: impl FnMut(&Formula) -> String) -> 
     if moves.is_empty() { "none".to_owned() } else { moves.join(", ") }
 }
 
-/// The moves of a placement but for those by nothing.
+/// The moves of a placement, except those by zero.
 pub fn moves(placement: &Placement) -> impl Iterator<Item = &Move> {
     placement.0.iter().filter(|step| match step {
         Move::Translate(by) => !by.iter().all(is_zero),

@@ -1,4 +1,4 @@
-//! The columns of regressors, from which those of the base parameters are taken.
+//! The columns of regressors, among which are the columns of the base parameters.
 
 use robot_symbolic::Expr;
 
@@ -15,8 +15,7 @@ pub(crate) fn standard_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Colum
     with_drives(derivation, &columns.unwrap_or_else(|| plain::regressor(derivation)))
 }
 
-/// The columns from which those of the base parameters are taken: at a base parameter's `column` lies
-/// its own.
+/// The columns among which are those of the base parameters: the column of a base parameter is at its `column`.
 pub(crate) fn base_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g>> {
     let columns = base_frames(derivation)
         .and_then(|reframed| economical::regressor(&reframed.mechanism, Moments::Second));
@@ -26,7 +25,7 @@ pub(crate) fn base_columns<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Column<'g
     }
 }
 
-/// The columns of the links, then those of the drives.
+/// The columns of the links, followed by those of the drives.
 fn with_drives<'g>(
     derivation: &Derivation<'_, 'g>,
     RegressorColumns { links, rotors }: &RegressorColumns<'g>,
@@ -43,7 +42,7 @@ fn with_drives<'g>(
     standard_parameters(mechanism).into_iter().enumerate().map(column).collect()
 }
 
-/// The column of a drive's quantity that acts on its own joint alone.
+/// The column of a quantity of a drive that only affects the drive's own joint.
 fn drive_column<'g>(
     link: &MechanismLink<'g>,
     quantity: Quantity,

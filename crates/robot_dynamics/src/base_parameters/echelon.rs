@@ -5,11 +5,11 @@ use super::scalar::Scalar;
 /// A row of coefficients.
 pub(super) type Row<'g> = Vec<Scalar<'g>>;
 
-/// Constants this much smaller than the largest entry of a column are not taken as pivots.
+/// A constant is preferred as a pivot only if it exceeds this fraction of the largest entry of its column.
 const SMALL: f64 = 0.05;
 
-/// Rows with a pivot each: 1 there, 0 in the other rows and to the left; in order of the pivots. The
-/// form depends on nothing but the space that the rows span.
+/// Rows in the order of their pivots. The pivot of a row is 1; the entries to its left, and the entries of the other
+/// rows in its column, are 0. The form only depends on the space that the rows span.
 #[derive(Clone, Debug)]
 pub(super) struct Echelon<'g> {
     pub(super) rows: Vec<(usize, Row<'g>)>,
@@ -34,13 +34,14 @@ impl<'g> Echelon<'g> {
         Echelon { rows: done }
     }
 
-    /// The rows alone.
+    /// The rows without the columns of their pivots.
     pub(super) fn into_rows(self) -> Vec<Row<'g>> {
         self.rows.into_iter().map(|(_, row)| row).collect()
     }
 }
 
-/// The row to take the pivot of a column from: constants before others, then the largest.
+/// The row whose entry becomes the pivot of a column: constants are preferred to other entries, then large to small
+/// ones.
 fn pivot(rows: &[Row<'_>], column: usize) -> Option<usize> {
     let size = |row: usize| rows[row][column].size();
     let candidates: Vec<usize> =
@@ -53,7 +54,7 @@ fn pivot(rows: &[Row<'_>], column: usize) -> Option<usize> {
     candidates.into_iter().reduce(|best, row| if rank(row) > rank(best) { row } else { best })
 }
 
-/// Makes the row's entry at the pivot vanish.
+/// Subtracts a multiple of a known row so that the entry in the pivot's column becomes 0.
 fn subtract<'g>(row: &mut Row<'g>, known: &Row<'g>, pivot: usize) {
     let factor = row[pivot];
     if factor.is_zero() {
@@ -68,7 +69,7 @@ fn subtract<'g>(row: &mut Row<'g>, known: &Row<'g>, pivot: usize) {
     }
 }
 
-/// The smallest space that holds the rows and is closed under a linear map.
+/// A basis of the smallest space that contains the rows and is closed under a linear map.
 pub(super) fn closure<'g>(
     rows: impl IntoIterator<Item = Row<'g>>,
     map: impl Fn(&Row<'g>) -> Row<'g>,

@@ -1,23 +1,23 @@
-//! Identifiability conditions: which linear functions of each link's parameters the joint torques determine.
+//! Identifiability conditions: the linear functions of each link's parameters that the joint torques determine.
 //!
-//! Joint torques vanish at all states where the kinetic energy does and the potential energy is
-//! constant. A joint's own velocity and position occur in the energies of its link and of the links
-//! farther outward alone. From the tips inward, the parameters π of a link, with what its children
-//! have passed on to it, therefore have no effect beyond that of a body on the link's carrier exactly
-//! where, with the twist Φ of the joint's motion, the twists t and the linear functions of parameters w
-//! that the carrier's motions bring (kinetic energy, potential energy), and D the rate of the
-//! parameters as the joint moves,
+//! The joint torques are zero in all states if and only if the kinetic energy is zero and the potential energy is
+//! constant. The velocity and position of a joint occur only in the energies of its link and of the links farther
+//! outward. The links are therefore treated from the tips inward. Let π be the parameters of a link, including those
+//! that its children have passed on to it; Φ the twist of the joint's unit motion; t the twists, and w the linear
+//! functions of parameters (kinetic energy, potential energy), that the motions of the carrier produce at the link; and
+//! D the derivative of the parameters with respect to the joint position. Then π has no effect beyond that of a body on
+//! the link's carrier if and only if
 //!
-//! - b(Φ, Φ) π + J = 0 and b(Φ, t) π + ρ a · ω(t) = 0: the momentum along the joint vanishes,
-//! - w D π = 0, and w D π + o = 0 for the potential energy: no position of the joint is another.
+//! - b(Φ, Φ) π + J = 0 and b(Φ, t) π + ρ a · ω(t) = 0: the momentum along the joint vanishes;
+//! - w D π = 0, and w D π + o = 0 for the potential energy: the energies do not depend on the joint position.
 //!
-//! Here b(t, t) π is twice the kinetic energy, J the drive's reflected inertia, ρ its rotor's coupling
-//! with the carrier and o its offset. All t and w matter by what they span only, and that is found
-//! from the base outward: Φ and b(Φ, Φ), b(Φ, t) are added to what the carrier has, and all is closed
-//! under the joint's motion. So the conditions are small systems of linear equations, and exact.
+//! Here b(t, t) π is twice the kinetic energy, J the drive's reflected inertia, ρ the coupling of its rotor with the
+//! carrier, and o the drive's offset. Only the spans of t and w matter. They are found from the base outward: Φ, b(Φ,
+//! Φ) and b(Φ, t) are added to the spans of the carrier, and the result is closed under the motion of the joint. The
+//! conditions are thus small systems of linear equations, and they are exact.
 //!
-//! The spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization
-//! of observability in inertial parameter identification" (2018), here with drives.
+//! These are the spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization of
+//! observability in inertial parameter identification" (2018), extended here by drives.
 
 use robot_model::robot::LINK_PARAMETERS;
 
@@ -27,21 +27,21 @@ use super::scalar::Scalar;
 use super::standard::Quantity;
 use crate::mechanism::Mechanism;
 
-/// The drive's quantities in the places after the ten of the link.
+/// The quantities of a drive that follow the ten parameters of the link.
 pub(super) const DRIVE: [Quantity; 3] =
     [Quantity::Offset, Quantity::RotorCoupling, Quantity::ReflectedInertia];
 
-/// A motion's span at a link.
+/// The span of the possible motions at a link.
 struct Span<'g> {
     /// Twists about the link's origin, in its axes.
     twists: Vec<Row<'g>>,
-    /// Linear functions of the parameters, each a kinetic energy of the motion.
+    /// Linear functions of the parameters that are kinetic energies of these motions.
     kinetic: Vec<Row<'g>>,
-    /// Linear functions of the parameters, each a potential energy of the motion, and a constant.
+    /// Linear functions of the parameters, with a constant, that are potential energies in these motions.
     potential: Vec<Row<'g>>,
 }
 
-/// Per link, the identifiable linear functions of its parameters: places as in [`Quantity::place`].
+/// The identifiable linear functions of each link's parameters, which are ordered as in [`Quantity::place`].
 pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) -> Vec<Vec<Row<'g>>> {
     let base = at_base(mechanism);
     let mut spans: Vec<Span<'g>> = vec![];
@@ -55,7 +55,7 @@ pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) ->
     conditions
 }
 
-/// The base rests; the potential energy is −g · h.
+/// The span at the base, which is at rest: there are no twists, and the potential energy is −g · h.
 fn at_base<'g>(mechanism: &Mechanism<'g>) -> Span<'g> {
     let graph = mechanism.graph;
     let zero = Scalar::new(graph.zero());
@@ -68,7 +68,7 @@ fn at_base<'g>(mechanism: &Mechanism<'g>) -> Span<'g> {
 }
 
 impl<'g> Span<'g> {
-    /// The motions of the carrier seen at a link, over all positions of its joint.
+    /// The motions of the carrier as seen at a link, at all positions of the link's joint.
     fn carried(&self, joint: &Joint<'g>) -> Span<'g> {
         let functions = |of: &[Row<'g>]| {
             let here = of.iter().map(|row| joint.function_here(row));
@@ -107,7 +107,7 @@ impl<'g> Span<'g> {
         conditions
     }
 
-    /// The motions with the joint's own.
+    /// The motions of the carrier together with the motion of the joint itself.
     fn with_own(self, joint: &Joint<'g>) -> Span<'g> {
         let own = std::iter::once(&joint.twist).chain(&self.twists);
         let own: Vec<Row<'g>> = own.map(|twist| energy(&joint.twist, twist)).collect();

@@ -1,4 +1,4 @@
-//! How twists and bodies change over a joint and the placement before it.
+//! The transformation of twists and bodies across a joint and the placement before it.
 
 use robot_model::robot::JointKind;
 use robot_model::robot::LINK_PARAMETERS;
@@ -10,10 +10,10 @@ use crate::body::{Body, ENTRIES, FIRST_MOMENT, TENSOR};
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 
-/// Angular velocity, then the velocity of the point at the origin.
+/// The number of components of a twist: the angular velocity, then the velocity of the point at the origin.
 const TWIST: usize = 6;
 
-/// A linear map, by the images of the unit vectors.
+/// A linear map, given by the images of the unit vectors.
 struct Map<'g> {
     columns: Vec<Row<'g>>,
 }
@@ -37,7 +37,7 @@ impl<'g> Map<'g> {
         result
     }
 
-    /// The pullback of a linear function: a function of the map's arguments.
+    /// The pullback of a linear function: the function composed with the map.
     fn pull_back(&self, function: &[Scalar<'g>]) -> Row<'g> {
         let entry = |column: &Row<'g>| dot(function, column);
         self.columns.iter().map(entry).collect()
@@ -57,18 +57,18 @@ fn dot<'g>(a: &[Scalar<'g>], b: &[Scalar<'g>]) -> Scalar<'g> {
     a.iter().zip(b).fold(zero, |sum, (a, b)| add_product(sum, *a, *b))
 }
 
-/// A link's joint in the axes of the link's frame.
+/// The joint of a link, in the axes of the link's frame.
 pub(super) struct Joint<'g> {
-    /// The joint's own motion, a unit of it.
+    /// The twist of the joint's unit motion.
     pub(super) twist: Row<'g>,
     axis: Row<'g>,
-    /// The twist of the carrier, about this link's origin and in its axes, by that in the carrier's.
+    /// Maps the twist of the carrier from the carrier's origin and axes to those of this link, at joint position 0.
     placement: Map<'g>,
-    /// The rate at which a motion of the joint changes the components of a twist.
+    /// The derivative of the components of a twist with respect to the joint position.
     turning: Map<'g>,
-    /// A body's parameters in the carrier's frame by those in this link's, the joint at 0.
+    /// Maps a body's parameters from this link's frame to the carrier's frame, at joint position 0.
     carried: Map<'g>,
-    /// The rate at which a motion of the joint changes the parameters of a body.
+    /// The derivative of the parameters of a body with respect to the joint position.
     moving: Map<'g>,
 }
 
@@ -111,42 +111,43 @@ impl<'g> Joint<'g> {
         }
     }
 
-    /// A twist of the carrier about this link's origin, in its axes at joint position 0.
+    /// A twist of the carrier about this link's origin and in its axes, at joint position 0.
     pub(super) fn twist_here(&self, twist: &Row<'g>) -> Row<'g> {
         self.placement.apply(twist)
     }
 
-    /// The rate of a twist's components with the joint's motion.
+    /// The derivative of the components of a twist with respect to the joint position.
     pub(super) fn turned(&self, twist: &Row<'g>) -> Row<'g> {
         self.turning.apply(twist)
     }
 
-    /// The angular velocity about the joint axis.
+    /// The component of the angular velocity along the joint axis.
     pub(super) fn about_axis(&self, twist: &Row<'g>) -> Scalar<'g> {
         dot(&self.axis, &twist[..3])
     }
 
-    /// A linear function of the carrier's parameters as one of this link's; what follows the ten stays.
+    /// A linear function of the carrier's parameters as a function of this link's; entries after the ten parameters are
+    /// kept.
     pub(super) fn function_here(&self, function: &Row<'g>) -> Row<'g> {
         with_rest(self.carried.pull_back(&function[..LINK_PARAMETERS]), function, None)
     }
 
-    /// The rate of a linear function of parameters with the joint's motion; what follows the ten
-    /// does not change.
+    /// The derivative of a linear function of parameters with respect to the joint position; it is 0 for entries after
+    /// the ten parameters.
     pub(super) fn rate(&self, function: &Row<'g>) -> Row<'g> {
         let rate = self.moving.pull_back(&function[..LINK_PARAMETERS]);
         with_rest(rate, function, Some(Scalar::integer(function[0], 0)))
     }
 
-    /// The parameters in the carrier's frame of a body of this link, the joint at 0, by place and
-    /// amount of each that is not 0.
+    /// The nonzero parameters, in the carrier's frame at joint position 0, of a body of this link that has a unit of
+    /// one parameter: pairs of the parameter's index and its value.
     pub(super) fn moved(&self, parameter: usize) -> impl Iterator<Item = (usize, Scalar<'g>)> + '_ {
         let column = self.carried.columns.get(parameter).into_iter().flatten();
         column.copied().enumerate().filter(|(_, entry)| !entry.is_zero())
     }
 }
 
-/// A row with what follows the ten parameters in `whole`, or with as many of `filling`.
+/// Appends to a row the entries of `whole` after the ten parameters, or `filling` in place of each of them.
 fn with_rest<'g>(mut row: Row<'g>, whole: &Row<'g>, filling: Option<Scalar<'g>>) -> Row<'g> {
     let rest = whole.iter().skip(LINK_PARAMETERS);
     row.extend(rest.map(|entry| filling.unwrap_or(*entry)));
@@ -157,7 +158,7 @@ fn twist<'g>(Vector([a, b, c]): Vector<'g>, Vector([x, y, z]): Vector<'g>) -> [E
     [a, b, c, x, y, z]
 }
 
-/// The rate of a unit of a parameter with the joint's motion.
+/// The derivative of a unit of one parameter with respect to the joint position.
 fn moving<'g>(
     graph: &'g Graph,
     kind: JointKind,
@@ -180,8 +181,8 @@ fn moving<'g>(
     rate.parameters()
 }
 
-/// The bilinear form of two twists in a body's parameters: m v₁ · v₂ + h · (v₁ × ω₂ + v₂ × ω₁) + ω₁ · I ω₂. With
-/// equal twists it is twice the kinetic energy.
+/// The bilinear form of two twists as a linear function of a body's parameters: m v₁ · v₂ + h · (v₁ × ω₂ + v₂ × ω₁) +
+/// ω₁ · I ω₂. For equal twists, this is twice the kinetic energy.
 pub(super) fn energy<'g>(a: &Row<'g>, b: &Row<'g>) -> Row<'g> {
     let ((w, v), (u, x)) = (a.split_at(3), b.split_at(3));
     let zero = Scalar::integer(a[0], 0);

@@ -1,22 +1,22 @@
-//! The base (minimal) inertial parameters: the fewest combinations of the parameters of links and
-//! drives that determine the joint torques.
+//! The base parameters: the smallest set of combinations of the parameters of links and drives that determines the
+//! joint torques.
 //!
-//! The joint torques are linear in the standard parameters, ten of each link and those of its drive
-//! ([`StandardParameter`]); some have no effect, others only together. A base parameter is a kept
-//! standard parameter and what is regrouped under it: β = B π. The columns of the kept ones in the full
-//! regressor Y are the regressor over the base parameters, Y π = Y_base β, and each column of Y is
-//! Y_base times the column of B.
+//! The joint torques are linear in the standard parameters ([`StandardParameter`]): ten of each link and those of its
+//! drive. Some of them have no effect, others only have an effect in combination. A base parameter is a kept standard
+//! parameter together with the parameters that are regrouped into it: β = B π. The columns of the kept parameters in
+//! the full regressor Y form the regressor of the base parameters, Y π = Y_base β, and each column of Y is Y_base times
+//! the corresponding column of B.
 //!
-//! The regrouping is that of M. Gautier and W. Khalil, "Direct calculation of minimum set of inertial
-//! parameters of serial robots" (1990), and W. Khalil and E. Dombre, "Modeling, Identification and
-//! Control of Robots" (2002), section 9.4, whose names are used; the conditions are exact for any tree
-//! ([`identifiable`](self)): first joints along gravity, parallel axes, planar arms.
+//! The regrouping and the names follow M. Gautier and W. Khalil, "Direct calculation of minimum set of inertial
+//! parameters of serial robots" (1990), and W. Khalil and E. Dombre, "Modeling, Identification and Control of Robots"
+//! (2002), section 9.4. The conditions ([`identifiable`](self)) are exact for any tree, including first joints along
+//! gravity, parallel axes and planar arms.
 //!
-//! Over frames of Denavit and Hartenberg ([`BaseFrames`]) first and second moments are kept in place of
-//! standard parameters; the formulas are in these all the same.
+//! In Denavit–Hartenberg frames ([`BaseFrames`]), first and second moments are kept instead of standard parameters;
+//! their formulas are still in terms of standard parameters.
 //!
-//! If joints share a coordinate, the mechanism determines fewer combinations than it would with independent
-//! ones: these are found by the rank of the columns at seeded states, and the coefficients are rounded.
+//! If joints share a coordinate, fewer combinations are identifiable than with independent coordinates. They are found
+//! from the rank of the columns at seeded states, and their coefficients are rounded.
 
 mod columns;
 mod echelon;
@@ -47,50 +47,48 @@ pub use standard::{Quantity, StandardParameter, standard_parameters};
 pub struct BaseParameters<'g> {
     /// The standard parameters with their values, in the order of the full regressor's columns.
     pub standard: Vec<(StandardParameter, Expr<'g>)>,
-    /// The base parameters, in the order of their columns.
+    /// The base parameters, in the order of the columns of Y_base.
     pub base: Vec<BaseParameter<'g>>,
-    /// Whether coefficients were found at seeded states and rounded, which is so if joints share a coordinate and
-    /// this matters.
+    /// Whether coefficients were found at seeded states and are therefore rounded. This is the case if joints share a
+    /// coordinate and fewer parameters are identifiable because of this.
     pub rounded: bool,
-    /// The frames of the parameters.
+    /// The frames to which the parameters refer.
     pub frames: BaseFrames,
 }
 
 /// A base parameter.
 #[derive(Clone, Debug)]
 pub struct BaseParameter<'g> {
-    /// The place of the kept parameter. Of a standard one, the column of the full regressor that is
-    /// this one's; a moment in another frame has the place of the link's parameter of its number.
+    /// The index of the kept parameter. For a standard parameter, this is its column in the full regressor; for a
+    /// moment in another frame, the index of the link's standard parameter with the same number.
     pub column: usize,
-    /// The kept parameter: a standard one, or a moment in another frame ([`Quantity::Moment`]).
+    /// The kept parameter: a standard parameter or a moment in another frame ([`Quantity::Moment`]).
     pub kept: StandardParameter,
-    /// A row of B: the coefficients of standard parameters by their places, all but those that are 0, in
-    /// order. If the kept ones are standard parameters, that of the kept one is 1, and no other
-    /// kept one occurs.
+    /// A row of B: the nonzero coefficients of standard parameters with their indices, in ascending order. If standard
+    /// parameters are kept, the coefficient of the kept one is 1, and no other kept parameter occurs.
     pub terms: Vec<(usize, Expr<'g>)>,
-    /// Standard parameters that have this base parameter 1 and all others 0, by their places: the
-    /// kept one alone, or those of a moment of 1 in another frame. Its column of Y_base is their sum in
-    /// the full regressor.
+    /// Standard parameters, with their indices, for which this base parameter is 1 and all others are 0: the kept
+    /// parameter alone, or those of a unit moment in another frame. Its column of Y_base is the corresponding
+    /// combination of columns of the full regressor.
     pub unit: Vec<(usize, Expr<'g>)>,
 }
 
 impl<'g> BaseParameter<'g> {
-    /// The column of the full regressor that is this one's; `None` for a moment in another frame.
+    /// The column of the full regressor that equals this parameter's column; `None` for a moment in another frame.
     #[must_use]
     pub fn full_column(&self) -> Option<usize> {
         (!matches!(self.kept.quantity, Quantity::Moment(_))).then_some(self.column)
     }
 
-    /// The name: that of the kept parameter, with an R if others are regrouped under it, as in
-    /// `ZZR_2`.
+    /// The name: that of the kept parameter, with an R if others are regrouped into it, as in `ZZR_2`.
     #[must_use]
     pub fn name(&self) -> String {
         let StandardParameter { link, quantity } = self.kept;
         format!("{}{}_{}", quantity.symbol(), self.mark(), link + 1)
     }
 
-    /// `R` if other parameters are regrouped under the kept one; under a moment, those of other links
-    /// or of drives.
+    /// `R` if other parameters are regrouped into the kept one. For a moment, only parameters of other links and of
+    /// drives count as others.
     #[must_use]
     pub fn mark(&self) -> &'static str {
         let own = |place: usize| place / LINK_PARAMETERS == self.column / LINK_PARAMETERS;
@@ -103,7 +101,7 @@ impl<'g> BaseParameter<'g> {
 }
 
 impl<'g> BaseParameters<'g> {
-    /// The values of the base parameters from those of the standard ones, in their order: B π.
+    /// The values of the base parameters for given values of the standard parameters, B π; both in their order.
     #[must_use]
     pub fn values(&self, standard: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let value = |base: &BaseParameter<'g>| {
@@ -115,15 +113,15 @@ impl<'g> BaseParameters<'g> {
         self.base.iter().filter_map(value).collect()
     }
 
-    /// The values of the base parameters in the file's parameters.
+    /// The values of the base parameters as functions of the robot file's parameters.
     #[must_use]
     pub fn nominal(&self) -> Vec<Expr<'g>> {
         let standard: Vec<Expr<'g>> = self.standard.iter().map(|(_, value)| *value).collect();
         self.values(&standard)
     }
 
-    /// Standard parameters that have these base parameters, one of many: the kept ones have their
-    /// values, the others are 0.
+    /// One of many sets of standard parameters that give these base parameters: the kept parameters have the values of
+    /// the base parameters, and all others are 0.
     #[must_use]
     pub fn representative(&self, base: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let zero = |(_, value): &(_, Expr<'g>)| value.graph().zero();
@@ -139,7 +137,7 @@ impl<'g> BaseParameters<'g> {
     }
 }
 
-/// The base parameters of a robot; `None` if [`out_of_reach`] says why.
+/// The base parameters of a robot; `None` in the cases of [`out_of_reach`].
 #[must_use]
 pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParameters<'g>> {
     if out_of_reach(derivation.robot).is_some() {
@@ -176,7 +174,7 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     Some(BaseParameters { base, standard, rounded, frames: derivation.robot.base_frames })
 }
 
-/// The quantity kept at a place, and the standard parameters that a unit of it consists of.
+/// The quantity that is kept at an index, and the standard parameters of a unit of it.
 fn kept_parameter<'g>(
     mechanism: &Mechanism<'g>,
     column: usize,
@@ -196,8 +194,7 @@ fn kept_parameter<'g>(
     }
 }
 
-/// The mechanism in the frames over which the robot's base parameters are, if they are not the
-/// file's.
+/// The mechanism in the frames to which the base parameters refer; `None` if these are the frames of the robot file.
 pub(crate) fn base_frames<'g>(derivation: &Derivation<'_, 'g>) -> Option<Reframed<'g>> {
     match derivation.robot.base_frames {
         BaseFrames::File => None,

@@ -1,5 +1,5 @@
-//! Base parameters over second moments: from a link's parameters in the file's frame to first and second
-//! moments in another frame, and back.
+//! Base parameters in terms of second moments: conversion between a link's parameters in the file's frame and the first
+//! and second moments in another frame.
 
 use robot_model::robot::LINK_PARAMETERS;
 use robot_symbolic::Expr;
@@ -10,12 +10,13 @@ use super::scalar::Scalar;
 use crate::body::{Body, ENTRIES, Moments, TENSOR};
 use crate::economical::WorkingFrame;
 
-/// Whether a place among the six entries of a tensor is on the diagonal.
+/// Whether an index among the six entries of a tensor is that of a diagonal entry.
 fn is_diagonal(place: usize) -> bool {
     ENTRIES.get(place).is_some_and(|(row, column)| row == column)
 }
 
-/// The ten parameters of a body in a frame, of a unit of one of them in the file's.
+/// The ten parameters, in the given frame, of a body whose parameters in the file's frame are all 0 except the given
+/// one, which is 1.
 pub(super) fn unit_in_frame<'g>(
     frame: &WorkingFrame<'g>,
     parameter: usize,
@@ -24,7 +25,8 @@ pub(super) fn unit_in_frame<'g>(
     unit.about(-frame.origin).turned(frame.axes.transpose()).parameters()
 }
 
-/// The ten parameters in the file's frame of a body that has a unit of one moment in another.
+/// The ten parameters, in the file's frame, of a body whose moments in the given frame are all 0 except the given one,
+/// which is 1.
 pub(super) fn unit_in_file<'g>(
     frame: &WorkingFrame<'g>,
     moment: usize,
@@ -34,8 +36,8 @@ pub(super) fn unit_in_file<'g>(
     body.turned(frame.axes).about(frame.origin).parameters()
 }
 
-/// A linear function of a body's parameters as one of its moments: with I = tr(Σ) 1 − Σ, f(Σ_xx) is
-/// f(I_yy) + f(I_zz) and f(Σ_xy) is −f(I_xy).
+/// Converts a linear function of a body's parameters to a function of its moments: with I = tr(Σ) 1 − Σ, f(Σ_xx) is
+/// f(I_yy) + f(I_zz), and f(Σ_xy) is −f(I_xy).
 pub(super) fn of_moments<'g>(function: &Row<'g>) -> Row<'g> {
     let mut row = function.clone();
     for place in 0..ENTRIES.len() {
@@ -49,17 +51,17 @@ pub(super) fn of_moments<'g>(function: &Row<'g>) -> Row<'g> {
     row
 }
 
-/// Forms of a body's parameters to forms of its moments: Σ = tr(I)/2 1 − I.
+/// Converts forms of a body's parameters to forms of its moments: Σ = tr(I)/2 1 − I.
 pub(super) fn to_second<'g>(forms: &mut [Form<'g>], one: Scalar<'g>) {
     exchange(forms, one, one / Scalar::integer(one, 2));
 }
 
-/// Forms of a body's moments to forms of its parameters: I = tr(Σ) 1 − Σ.
+/// Converts forms of a body's moments to forms of its parameters: I = tr(Σ) 1 − Σ.
 pub(super) fn to_inertia<'g>(forms: &mut [Form<'g>], one: Scalar<'g>) {
     exchange(forms, one, one);
 }
 
-/// A symmetric tensor to its trace times `factor`, less itself.
+/// Replaces a symmetric tensor T by `factor` · tr(T) 1 − T.
 fn exchange<'g>(forms: &mut [Form<'g>], one: Scalar<'g>, factor: Scalar<'g>) {
     let mut trace = Form::new();
     for place in (0..ENTRIES.len()).filter(|place| is_diagonal(*place)) {

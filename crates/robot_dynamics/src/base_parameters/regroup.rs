@@ -1,4 +1,5 @@
-//! Regrouping, from the tips inward: keeps what a link's joint identifies, and moves the rest to the carrier.
+//! Regrouping, from the tips inward: keeps the parameters that a link's joint identifies and moves the rest to the
+//! carrier.
 
 use std::collections::BTreeMap;
 
@@ -15,18 +16,17 @@ use crate::body::{FIRST_MOMENT, tensor_place};
 use crate::economical::WorkingFrame;
 use crate::mechanism::{Mechanism, MechanismLink};
 
-/// A linear function of the standard parameters: coefficients by their places.
+/// A linear function of the standard parameters: coefficients by the parameters' indices.
 pub(super) type Form<'g> = BTreeMap<usize, Scalar<'g>>;
 
-/// A kept parameter: its place among the standard ones, and what is regrouped under it, itself
-/// included.
+/// A kept parameter: its index among the standard parameters, and the form that it stands for, including itself.
 pub(super) type Kept<'g> = (usize, Form<'g>);
 
 /// Keeps as many parameters of the links, and of the drives' inertias and offsets, as are identifiable.
 ///
-/// With `frames` of the links, in which the mechanism, its joints and the conditions are, moments are
-/// kept in place of parameters: a kept one is at the place of the parameter of its number. Forms are
-/// of the parameters in the file's frames all the same.
+/// If `frames` is given, the mechanism, its joints and the conditions are in these frames, and moments are kept instead
+/// of parameters: the index of a kept moment is that of the parameter with the same number. Forms are nevertheless
+/// functions of the parameters in the file's frames.
 pub(super) fn regroup<'g>(
     mechanism: &Mechanism<'g>,
     joints: &[Joint<'g>],
@@ -35,10 +35,10 @@ pub(super) fn regroup<'g>(
     frames: Option<&[WorkingFrame<'g>]>,
 ) -> Vec<Kept<'g>> {
     let one = Scalar::new(mechanism.graph.one());
-    // Per link, what has come together at each place.
+    // For each link, the forms collected at each place.
     let mut gathered: Vec<Vec<Form<'g>>> =
         vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; joints.len()];
-    // Per link, the column of each place if there is one.
+    // For each link, the column of each place, if it has one.
     let mut columns = vec![vec![None; LINK_PARAMETERS + DRIVE.len()]; joints.len()];
     for (column, parameter) in standard.iter().enumerate() {
         if is_inertial(parameter.quantity) {
@@ -73,7 +73,7 @@ pub(super) fn regroup<'g>(
         if frames.is_some() {
             to_second(&mut gathered[index], one);
         }
-        // The unidentifiable rest, as a body that acts on the carrier alone.
+        // The unidentifiable rest, which acts like a body on the carrier.
         let mut rest = gathered[index].clone();
         for (pivot, row) in identifiable.rows {
             let mut regrouped = Form::new();
@@ -99,12 +99,12 @@ pub(super) fn regroup<'g>(
     kept
 }
 
-/// Whether the quantity is identified by inertia or position; friction is not.
+/// Whether the quantity is identifiable from inertial or position-dependent torques, unlike friction.
 pub(super) fn is_inertial(quantity: Quantity) -> bool {
     matches!(quantity, Quantity::Link(_)) || DRIVE.contains(&quantity)
 }
 
-/// Adds a multiple of a form.
+/// Adds a multiple of a form to a sum.
 pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
     if factor.is_zero() {
         return;
@@ -120,10 +120,10 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
     }
 }
 
-/// The places in the order in which they are kept: of those that the joint torques cannot distinguish,
-/// the first. The recursion computes the first seven of a rotation, the first four of a
-/// translation. Of second moments it is the one along the axis, which a rotation does not identify; of inertia
-/// tensors one across it.
+/// The places in order of preference: among parameters that the joint torques cannot distinguish, the first is kept.
+/// The first seven for a revolute joint, or four for a prismatic joint, are those that the recursion computes. Of the
+/// second moments, a revolute joint does not identify the one along its axis; of the inertia tensor, the one that is
+/// left out is across the axis.
 fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
     let size = |component: usize| Scalar::new(link.axis.0[component]).size();
     let z = [0, 1].into_iter().fold(2, |best, k| if size(k) > size(best) { k } else { best });

@@ -1,36 +1,36 @@
-//! Scalars with a decided zero: expressions that are known to vanish or not.
+//! Scalars for which it is decided whether they are zero.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use robot_symbolic::{Expr, Polynomial, PolynomialOptions, Random, View, walk};
 
-/// Points at which symbols have seeded values.
+/// The number of points at which symbols have seeded values.
 const POINTS: usize = 3;
-/// The seed of the symbols' values: a point's number and a symbol's name are added to it.
+/// The seed of the symbols' values; the number of the point and the name of the symbol are combined with it.
 const SEED: u64 = 1990;
-/// A difference below this part of what it is the difference of may be 0.
+/// A difference below this fraction of its operands may be 0.
 const NOTICED: f64 = 1e-9;
-/// Limits of an expanded difference, beyond which the values at the points decide.
+/// Limits on the expansion of a difference. Beyond them, the values at the points decide whether it is 0.
 const EXPANSION: PolynomialOptions = PolynomialOptions {
     angle_sums: robot_symbolic::AngleSums::Expand,
     max_terms: 2_000,
     max_products: 100_000,
 };
 
-/// Limits of a tidied scalar: a longer one is no tidier for having no brackets.
+/// Limits on the expansion of a scalar for output. Beyond them, its expanded form is not simpler.
 const TIDY: PolynomialOptions =
     PolynomialOptions { max_terms: 100, max_products: 10_000, ..EXPANSION };
 
-/// Longer expressions, by their nodes, are left as they are, such as those of chains about skew axes, whose sines
-/// and cosines occur in every coefficient.
+/// Expressions with more nodes than this are not simplified. Examples are those of chains with skew axes, in which
+/// sines and cosines occur in every coefficient.
 const SHORT: usize = 100;
 
 /// An expression in constants and parameters, with its values at seeded values of the parameters.
 ///
-/// A scalar that vanishes is the constant 0. Rational numbers decide that exactly. Of the others, a
-/// sum that is small at all points is 0 if its canonical polynomial is; it is not if that is a
-/// polynomial in parameters with rational coefficients. If irrational constants occur or the
-/// polynomial would be too large, the values at the points decide.
+/// A scalar that vanishes is represented by the constant 0. For rational numbers this is decided exactly. For others, a
+/// sum that is small at all points counts as 0 if its canonical polynomial is 0, and does not if the polynomial has
+/// only rational coefficients and parameters. If irrational constants occur or the polynomial would be too large, the
+/// values at the points decide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Scalar<'g> {
     pub(super) expr: Expr<'g>,
@@ -59,17 +59,17 @@ impl<'g> Scalar<'g> {
         self.expr.is_zero()
     }
 
-    /// Whether it is the same at all values of the parameters.
+    /// Whether the scalar has the same value for all values of the parameters.
     pub(super) fn is_constant(self) -> bool {
         self.expr.as_number().is_some()
     }
 
-    /// A rough size, to choose among scalars.
+    /// A rough magnitude, used to choose among scalars.
     pub(super) fn size(self) -> f64 {
         self.at[0].abs()
     }
 
-    /// This scalar, or 0 if it vanishes against `scale`.
+    /// This scalar, or 0 if it vanishes relative to `scale`.
     fn settled(self, scale: [f64; POINTS]) -> Scalar<'g> {
         let small = self.at.iter().zip(scale).all(|(value, scale)| value.abs() <= NOTICED * scale);
         let exact = |expr: Expr<'_>| expr.as_number().is_some_and(|n| n.as_rational().is_some());
@@ -85,13 +85,13 @@ impl<'g> Scalar<'g> {
     }
 }
 
-/// Whether the polynomial is one in symbols with rational coefficients.
+/// Whether the polynomial only contains symbols and rational coefficients.
 fn is_rational(polynomial: &Polynomial<'_>) -> bool {
     polynomial.terms().all(|(_, number)| number.as_rational().is_some())
         && polynomial.atoms().iter().all(|atom| atom.as_symbol().is_some())
 }
 
-/// The canonical form of an expression if it is short and without sums in denominators.
+/// The canonical form of an expression, if the expression is short and the form contains no sums as atoms.
 pub(super) fn tidied(expr: Expr<'_>) -> Expr<'_> {
     let is_simple = !walk::is_longer_than(expr, 3);
     let is_done = is_simple || expr.as_number().is_some() || expr.graph().is_full();

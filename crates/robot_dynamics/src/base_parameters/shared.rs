@@ -10,12 +10,12 @@ use crate::derivation::Derivation;
 
 /// The seed of the states.
 const SEED: u64 = 19_900_402;
-/// A column depends on others if its residual is below this part of it.
+/// A column is dependent on others if its residual is below this fraction of its norm.
 const DEPENDENT: f64 = 1e-9;
-/// Coefficients below this are rounding errors of 0.
+/// Coefficients below this value are taken as rounding errors of 0.
 const ROUNDING: f64 = 1e-10;
 
-/// The kept parameters without those whose columns at seeded states depend on others'.
+/// The kept parameters without those whose columns at seeded states depend on the columns of others.
 pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Kept<'g>> {
     let columns = sampled(derivation, kept);
     let mut basis: Vec<(usize, Vec<f64>)> = vec![];
@@ -41,7 +41,7 @@ pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) ->
     found
 }
 
-/// Solves R x = `projections` for x, with the columns of R in `triangle`.
+/// Solves R x = `projections`, in which `triangle` contains the columns of R.
 fn solved(triangle: &[Vec<f64>], mut projections: Vec<f64>) -> Vec<f64> {
     for (column, entries) in triangle.iter().enumerate().rev() {
         let coefficient = projections[column] / entries[column];
@@ -53,7 +53,8 @@ fn solved(triangle: &[Vec<f64>], mut projections: Vec<f64>) -> Vec<f64> {
     projections
 }
 
-/// Gram–Schmidt with reorthogonalization: the residual of `column` and its coefficients in `basis`.
+/// The residual of `column` and its coefficients in `basis`, by Gram–Schmidt orthogonalization with
+/// reorthogonalization.
 fn orthogonal(column: &[f64], basis: &[(usize, Vec<f64>)]) -> (Vec<f64>, Vec<f64>) {
     let (mut rest, mut projections) = (column.to_vec(), vec![0.0; basis.len()]);
     for _ in 0..2 {
@@ -72,7 +73,7 @@ fn norm(column: &[f64]) -> f64 {
     column.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
 }
 
-/// The columns of the kept parameters at enough states to distinguish them, a few of them at rest.
+/// The columns of the kept parameters at enough states to distinguish them; a few of the states are at rest.
 fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f64>> {
     let graph = derivation.mechanism.graph;
     let all = base_columns(derivation);
@@ -81,7 +82,7 @@ fn sampled<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) -> Vec<Vec<f6
     let states = 3 * kept.len() / rows.max(1) + 12;
     let mut random = Random::new(SEED);
     let mut columns = vec![vec![]; kept.len()];
-    // Parameters that no coefficient depends on, such as the widths of smooth signs, have random values too.
+    // Parameters on which no coefficient depends, such as the widths of smooth signs, also get random values.
     let mut values: Vec<f64> =
         (0..graph.symbol_count()).map(|_| random.uniform(0.5, 1.5)).collect();
     for state in 0..states {

@@ -6,32 +6,31 @@ use robot_symbolic::Expr;
 use crate::body::Body;
 use crate::mechanism::{Mechanism, MechanismLink};
 
-/// An inertial quantity of a link, or a quantity of the drive of its joint.
+/// An inertial parameter of a link, or a quantity of the drive of its joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
-    /// One of the link's ten: m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz, with the first
-    /// moment h and the tensor I about the origin of the link's frame, in its axes; kg, kg m, kg m².
+    /// One of the ten parameters of a link: m, h_x, h_y, h_z, I_xx, I_xy, I_yy, I_xz, I_yz, I_zz. The first moment h
+    /// and the inertia tensor I are about the origin and in the axes of the link's frame; kg, kg m, kg m².
     Link(usize),
-    /// One of the link's ten in Denavit–Hartenberg frames, which base parameters may combine
-    /// ([`BaseFrames`](robot_model::robot::BaseFrames)): m, h_x, h_y, h_z, and the second moments Σ_xx = ∫ x² dm,
-    /// Σ_xy, Σ_yy, Σ_xz, Σ_yz, Σ_zz.
+    /// One of the ten parameters of a link in Denavit–Hartenberg frames, which base parameters may combine
+    /// ([`BaseFrames`](robot_model::robot::BaseFrames)): m, h_x, h_y, h_z, and the second moments Σ_xx = ∫ x² dm, Σ_xy,
+    /// Σ_yy, Σ_xz, Σ_yz, Σ_zz.
     Moment(usize),
-    /// The drive's inertia reflected to the joint, kg m² or kg.
+    /// The inertia of the drive reflected to the joint, kg m² or kg.
     ReflectedInertia,
     /// Viscous friction, N m s/rad or N s/m.
     ViscousFriction,
-    /// Constant friction for positive velocities, N m or N.
+    /// Constant dry friction at positive velocities, N m or N.
     ForwardFriction,
-    /// Constant friction for negative velocities, N m or N.
+    /// Constant dry friction at negative velocities, N m or N.
     BackwardFriction,
-    /// A constant offset of the torque, N m or N.
+    /// A constant offset of the joint torque, N m or N.
     Offset,
-    /// The coupling of a gyroscopic rotor with the link that carries it: its inertia times the gear
-    /// ratio.
+    /// The coupling of a gyroscopic rotor with the link that carries it: the rotor's inertia times the gear ratio.
     RotorCoupling,
 }
 
-/// The names of a link's ten parameters, as Khalil and Dombre have them.
+/// The names of a link's ten parameters, following Khalil and Dombre.
 const NAMES: [&str; LINK_PARAMETERS] = ["M", "MX", "MY", "MZ", "XX", "XY", "YY", "XZ", "YZ", "ZZ"];
 
 /// The names if the last six parameters are second moments.
@@ -49,7 +48,7 @@ impl Quantity {
         Quantity::RotorCoupling,
     ];
 
-    /// The name without the number of a link; inertias have the names that Khalil and Dombre use.
+    /// The name without the number of the link; inertial parameters have the names of Khalil and Dombre.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
@@ -81,7 +80,7 @@ impl Quantity {
         }
     }
 
-    /// The place among the quantities that inertias and positions identify.
+    /// The index among the quantities that inertial and position-dependent torques identify.
     pub(super) fn place(self) -> usize {
         match self {
             Quantity::Link(place) | Quantity::Moment(place) => place,
@@ -92,25 +91,25 @@ impl Quantity {
     }
 }
 
-/// A parameter in which the joint torques are linear, and a column of the full regressor.
+/// A parameter in which the joint torques are linear; it corresponds to a column of the full regressor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct StandardParameter {
-    /// The link, or the link that the drive moves; an index from 0.
+    /// The index, from 0, of the link or of the link that the drive moves.
     pub link: usize,
     /// The quantity.
     pub quantity: Quantity,
 }
 
 impl StandardParameter {
-    /// The name, such as `ZZ_2`; links count from 1.
+    /// The name, such as `ZZ_2`, in which links are numbered from 1.
     #[must_use]
     pub fn name(self) -> String {
         format!("{}_{}", self.quantity.symbol(), self.link + 1)
     }
 }
 
-/// The standard parameters with their values in the file's parameters, in the order of the full
-/// regressor's columns: ten of each link, then those of the drives that the file gives.
+/// The standard parameters, with their values as functions of the file's parameters, in the order of the columns of the
+/// full regressor: ten of each link, then those of the drives that the file specifies.
 #[must_use]
 pub fn standard_parameters<'g>(mechanism: &Mechanism<'g>) -> Vec<(StandardParameter, Expr<'g>)> {
     let links = mechanism.links.iter().enumerate();
@@ -128,7 +127,7 @@ pub fn standard_parameters<'g>(mechanism: &Mechanism<'g>) -> Vec<(StandardParame
     of_links.chain(of_drives).collect()
 }
 
-/// A quantity of a link's drive.
+/// The value of a quantity of a link's drive.
 fn drive_entry<'g>(link: &MechanismLink<'g>, quantity: Quantity) -> Expr<'g> {
     let friction = &link.friction;
     match quantity {

@@ -1,9 +1,9 @@
-//! Articulated bodies: the solution of M x = b in a number of operations that grows with the number of
-//! links, not with its third power.
+//! Articulated bodies: solves M x = b with a number of operations that is proportional to the number of links instead
+//! of its third power.
 //!
-//! R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 7.2, for a mechanism at rest and
-//! without gravity: everything that moves and pulls it is in b. Each joint is eliminated on the way inward, from
-//! the inertia that its link and all that it carries show to its parent.
+//! The method is that of R. Featherstone, "Rigid Body Dynamics Algorithms", 2008, section 7.2, for a mechanism at rest
+//! and without gravity: the effects of motion and gravity are all contained in b. The joints are eliminated from the
+//! tips inward; each elimination uses the inertia of the link and of everything that it carries.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Graph};
@@ -18,40 +18,41 @@ use crate::economical::spatial::{Twist, Wrench};
 use crate::matrix::Pivots;
 use crate::vector::{Matrix, Vector};
 
-/// The inertia of a link and all that it carries, as its joint sees it if the joints farther out are free.
+/// The inertia of a link and everything that it carries, with respect to its joint, if the joints farther outward are
+/// free.
 ///
-/// Unlike that of one rigid body its mass may depend on the direction: a motion (ω, v) asks for the
-/// moment I ω + H v and the force Hᵀ ω + M v.
+/// Unlike the mass of a rigid body, its mass may depend on the direction: a motion (ω, v) requires the moment I ω + H v
+/// and the force Hᵀ ω + M v.
 #[derive(Clone, Copy, Debug)]
 struct ArticulatedInertia<'g> {
-    /// I, symmetric.
+    /// The moment I, symmetric.
     turning: Matrix<'g>,
-    /// H.
+    /// The coupling H.
     coupling: Matrix<'g>,
-    /// M, symmetric.
+    /// The mass M, symmetric.
     mass: Matrix<'g>,
 }
 
 /// An eliminated joint.
 #[derive(Clone, Debug)]
 struct Eliminated<'g> {
-    /// U = I S and the moment of the drive's gyroscopic rotor: the wrench that a unit acceleration of the joint
+    /// U = I S plus the moment of the drive's gyroscopic rotor: the wrench that a unit acceleration of the joint
     /// requires from the parent, in home axes.
     asked: Wrench<'g>,
-    /// D = Sᵀ U and the drive's reflected inertia.
+    /// The pivot D = Sᵀ U plus the drive's reflected inertia.
     pivot: Expr<'g>,
-    /// 1/D.
+    /// The reciprocal 1/D.
     reciprocal: Expr<'g>,
-    /// u = b − Sᵀ p.
+    /// The remaining force u = b − Sᵀ p.
     force: Expr<'g>,
 }
 
-/// The form in which inertias are turned from a link's axes to its parent's.
+/// The form in which inertias are transformed from a link's axes to its parent's.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Turns {
-    /// With the fewest operations.
+    /// The form with the fewest operations.
     Cheap,
-    /// In a form that keeps the digits of small moments: for robots whose pivots may be small.
+    /// A form that preserves the significant digits of small moments, for robots whose pivots may be small.
     Exact,
 }
 
@@ -62,12 +63,12 @@ pub(crate) struct Method {
     pub(crate) pivots: Pivots,
 }
 
-/// Whether each coordinate moves one joint: otherwise joints cannot be eliminated one by one.
+/// Whether each coordinate moves exactly one joint; otherwise joints cannot be eliminated one by one.
 pub(crate) fn applies(chain: &Chain<'_>) -> bool {
     (0..chain.links.len()).all(|link| chain.drives_alone(link))
 }
 
-/// Solves M x = b by coordinates, with a division for each joint. M must be positive definite.
+/// Solves M x = b, both ordered by coordinates, with one division for each joint. M must be positive definite.
 pub(crate) fn solve<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],
@@ -79,7 +80,7 @@ pub(crate) fn solve<'g>(
     outward(&frames, &joints)
 }
 
-/// D of each coordinate: the inertia that its joint shows if the joints farther out are free.
+/// The pivot D of each coordinate: the inertia with respect to its joint if the joints farther outward are free.
 pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) -> Vec<Expr<'g>> {
     let frames = Frames::new(chain, |index| plans[index].composite_sum);
     let mut pivots = vec![chain.graph.zero(); chain.degrees_of_freedom];
@@ -90,11 +91,11 @@ pub(crate) fn pivots<'g>(chain: &Chain<'g>, plans: &[LinkPlan], method: Method) 
     pivots
 }
 
-/// Eliminates the joints, from the tips to the base.
+/// Eliminates the joints from the tips to the base.
 fn inward<'g>(frames: &Frames<'_, 'g>, right: &[Expr<'g>], method: Method) -> Vec<Eliminated<'g>> {
     let chain = frames.chain;
     let zero = Carried::zero(chain.graph);
-    // The sums over the children, in the link's own axes and in its home axes.
+    // The sums over the children, separately in the link's own axes and in its home axes.
     let mut own: Vec<Carried<'g>> = chain
         .links
         .iter()
@@ -122,11 +123,11 @@ fn inward<'g>(frames: &Frames<'_, 'g>, right: &[Expr<'g>], method: Method) -> Ve
     joints
 }
 
-/// The accelerations of the joints, from the base to the tips.
+/// Computes the accelerations of the joints from the base to the tips.
 fn outward<'g>(frames: &Frames<'_, 'g>, joints: &[Eliminated<'g>]) -> Vec<Expr<'g>> {
     let chain = frames.chain;
     let mut solution = vec![chain.graph.zero(); chain.degrees_of_freedom];
-    // Of each link, in its home axes.
+    // The acceleration of each link, in its home axes.
     let mut motions: Vec<Twist<'g>> = vec![];
     for (index, (link, joint)) in chain.links.iter().zip(joints).enumerate() {
         let carried = link.parent.map(|parent| {
@@ -176,14 +177,14 @@ impl<'g> Carried<'g> {
         }
     }
 
-    /// The rest after the joint is free: I − U Uᵀ/D, and p + U u/D.
+    /// The remaining inertia and wrench after the joint is eliminated: I − U Uᵀ/D and p + U u/D.
     fn without(&self, joint: &Eliminated<'g>, link: &ChainLink<'g>, unit: Expr<'g>) -> Carried<'g> {
         let Eliminated { asked, reciprocal, force, .. } = joint;
         let scaled =
             Wrench { force: asked.force * *reciprocal, moment: asked.moment * *reciprocal };
         let inertia = self.inertia.minus_product(asked, &scaled);
-        // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ with the reflected inertia r and the rotor's k, which a
-        // prismatic joint does not feel: 0 without a drive.
+        // (I − U Uᵀ/D) S = U (r − k)/D − k ẑ, with the reflected inertia r and the rotor coupling k; k does not affect
+        // a prismatic joint itself. Without a drive, the product is 0.
         let own_coupling = match link.kind {
             JointKind::Revolute => link.rotor_coupling,
             JointKind::Prismatic => unit.graph().zero(),
@@ -199,7 +200,7 @@ impl<'g> Carried<'g> {
     }
 }
 
-/// The steps on the way to the parent.
+/// The transformations on the way to the parent.
 impl<'g> Carried<'g> {
     fn zero(graph: &'g Graph) -> Self {
         Carried { inertia: ArticulatedInertia::zero(graph), wrench: Wrench::zero(graph) }
@@ -215,7 +216,7 @@ impl<'g> Carried<'g> {
         Carried { inertia, wrench: self.wrench.plus(&other.wrench) }
     }
 
-    /// The inertia in the axes that its own axes were turned from.
+    /// The inertia in the axes from which a turn in the given plane leads to its own axes.
     fn turned(&self, plane: &Plane<'g>, turns: Turns) -> Self {
         let symmetric_tensor = |tensor| match turns {
             Turns::Cheap => plane.forward_symmetric(tensor),
@@ -232,7 +233,7 @@ impl<'g> Carried<'g> {
         Carried { inertia, wrench: self.wrench.turned_forward(plane) }
     }
 
-    /// The inertia in the axes that its own axes were rotated from.
+    /// The inertia in the axes from which the given rotation leads to its own axes.
     fn rotated(&self, rotation: &ConstantRotation<'g>, turns: Turns) -> Self {
         let symmetric_tensor = |tensor| match turns {
             Turns::Cheap => rotation.forward_symmetric(tensor),
@@ -251,13 +252,13 @@ impl<'g> Carried<'g> {
         Carried { inertia, wrench }
     }
 
-    /// The inertia about an origin from which its own origin lies at `arm`.
+    /// The inertia about another origin; `arm` is the position of its own origin relative to that one.
     fn moved(&self, arm: Vector<'g>) -> Self {
         Carried { inertia: self.inertia.about(arm), wrench: self.wrench.about(arm) }
     }
 }
 
-/// The upper triangle of a symmetric matrix copied to the lower.
+/// The symmetric matrix with the upper triangle of the given one.
 fn upper(Matrix(entries): Matrix<'_>) -> Matrix<'_> {
     symmetric(|i, j| entries[i][j])
 }
@@ -298,7 +299,7 @@ impl<'g> ArticulatedInertia<'g> {
         }
     }
 
-    /// Sets the wrench that a unit acceleration along the joint requires, which is known.
+    /// Replaces the wrench that a unit acceleration along the joint requires by its known value.
     fn with_along_joint(mut self, along: &Wrench<'g>, kind: JointKind, unit: Expr<'g>) -> Self {
         let Wrench { force, moment } = *along;
         for k in 0..3 {
@@ -308,7 +309,7 @@ impl<'g> ArticulatedInertia<'g> {
                     self.coupling.0[2][k] = force.0[k];
                 }
                 JointKind::Prismatic => {
-                    // In the chain's unit of length a translation of one meter is 1/unit.
+                    // In the chain's unit of length, a translation of one meter is 1/unit.
                     self.coupling.0[k][2] = moment.0[k] * unit;
                     let entry = force.0[k] * unit;
                     (self.mass.0[k][2], self.mass.0[2][k]) = (entry, entry);
@@ -318,8 +319,8 @@ impl<'g> ArticulatedInertia<'g> {
         self
     }
 
-    /// The inertia about an origin from which its own origin lies at `arm` = p: H + P M and I − H P + P (H + P M)ᵀ
-    /// with P = \[p\]×.
+    /// The inertia about another origin, with P = \[p\]× and the position p = `arm` of its own origin relative to that
+    /// one: H + P M and I − H P + P (H + P M)ᵀ.
     fn about(&self, arm: Vector<'g>) -> Self {
         let p = Matrix::skew(arm);
         let coupling = self.coupling + p * self.mass;

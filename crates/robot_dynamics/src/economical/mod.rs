@@ -1,18 +1,18 @@
-//! The economical recursion: a second form of Newton–Euler, made for code, that computes the same joint torques
-//! as the paper's iterations with the fewest operations, and whose inner forces have no physical meaning.
+//! The economical recursion: a second form of the Newton–Euler recursion, meant for code. It computes the same joint
+//! torques as the paper's iterations with the fewest operations; its internal forces have no physical meaning.
 //!
-//! Links are pseudo-inertias ([`spatial::inertia`](self)); accelerations of a link's points are given by the tensor
-//! U = \[ε\]× + \[ω\]×²; each link has a working frame with z along its joint axis; inertial
-//! parameters that a joint cannot distinguish from its parent's are regrouped there, so that a link behind a
-//! rotation keeps seven of its ten. Within this one recursion, a [`Plan`] chooses among equivalent
-//! forms per link; [`search`] finds the cheapest plan for a robot by trying and counting.
+//! Links are represented by pseudo-inertias ([`spatial::inertia`](self)), and the accelerations of a link's points by
+//! the tensor U = \[ε\]× + \[ω\]×². Each link has a working frame whose z axis is the joint axis. Inertial parameters
+//! that a joint cannot distinguish from its parent's are regrouped to the parent, so that a link on a revolute joint
+//! keeps seven of its ten. Within this recursion, a [`Plan`] chooses among equivalent forms for each link; [`search`]
+//! finds the cheapest plan for a robot by generating candidates and counting their operations.
 //!
-//! The folders follow the flow: [`plan`] chooses the forms, `frames` prepares the mechanism in working frames,
-//! `spatial` has the algebra of twists, wrenches and inertias, `recursion` goes outward and inward, and `composite`,
-//! `articulated`, `derivatives` and `regressor` make the other functions.
+//! The modules follow the flow: [`plan`] chooses the forms; `frames` prepares the mechanism in working frames;
+//! `spatial` contains the algebra of twists, wrenches and inertias; `recursion` proceeds outward and inward; and
+//! `composite`, `articulated`, `derivatives` and `regressor` derive the other functions.
 //!
-//! Sources: Khalil and Kleinfinger 1987 (regrouping, modified Denavit–Hartenberg frames), Balafoutis
-//! and Patel 1991 (the tensor U), with further options of this project's own, named in [`plan`].
+//! Sources: Khalil and Kleinfinger 1987 (regrouping, modified Denavit–Hartenberg frames); Balafoutis and Patel 1991
+//! (the tensor U). Options that are original to this project are described in [`plan`].
 
 mod articulated;
 mod composite;
@@ -48,17 +48,17 @@ pub(crate) use spatial::Wrench;
 /// The method by which forward dynamics solves M q̈ = b.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solver {
-    /// Decomposes the mass matrix: for few joints.
+    /// Decomposition of the mass matrix, for few joints.
     MassMatrix,
-    /// Eliminates joint by joint, without the matrix: for many. Applies if each coordinate moves one joint.
+    /// Elimination of the joints one by one, without the mass matrix, for many joints. It applies if each coordinate
+    /// moves exactly one joint.
     ArticulatedBodies,
-    /// Eliminates joint by joint with more operations, so small pivots keep their digits: for robots with links that
-    /// have almost no inertia about their joint axes.
+    /// Elimination of the joints one by one, with additional operations that preserve the digits of small pivots. It is
+    /// for robots with links that have almost no inertia about their joint axes.
     SmallPivots,
 }
 
-/// The economical recursion of a mechanism under a plan: its links in working frames, with
-/// regrouped inertias.
+/// The economical recursion of a mechanism for a plan: its links in working frames, with regrouped inertias.
 #[derive(Clone, Debug)]
 pub struct Recursion<'g> {
     chain: Chain<'g>,
@@ -68,8 +68,8 @@ pub struct Recursion<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// Prepares the recursion; `None` if a joint axis depends on parameters, for which working frames cannot be
-    /// chosen.
+    /// Prepares the recursion; `None` if a joint axis depends on parameters, because working frames cannot be chosen in
+    /// this case.
     #[must_use]
     pub fn new(mechanism: &Mechanism<'g>, plan: &Plan) -> Option<Recursion<'g>> {
         Some(Recursion::from_base(mechanism, &Base::new(mechanism)?, plan))
@@ -100,15 +100,13 @@ impl<'g> Recursion<'g> {
         self.chain.degrees_of_freedom
     }
 
-    /// The generalized forces Q, with the tips' wrenches if `wrench` asks for them;
-    /// friction is not included.
+    /// The joint torques Q, including the effect of the tips' wrenches if `wrench` is true; friction is not included.
     #[must_use]
     pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
         self.torques(&self.chain, Accelerations::Given, wrench).0
     }
 
-    /// The bias torques C(q, q̇) q̇ + g(q), with the tips' wrenches if
-    /// `wrench` asks for them.
+    /// The bias torques C(q, q̇) q̇ + g(q), including the effect of the tips' wrenches if `wrench` is true.
     #[must_use]
     pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
         let mut chain = self.chain.clone();
@@ -118,10 +116,11 @@ impl<'g> Recursion<'g> {
         self.torques(&chain, Accelerations::Given, wrench).0
     }
 
-    /// q̈ for the joint torques `tau`, with the tips' wrenches if `wrench` asks for them.
+    /// The accelerations q̈ for the joint torques `tau`, including the effect of the tips' wrenches if `wrench` is
+    /// true.
     ///
-    /// Solves M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* whose joint torques need few operations
-    /// ([`LinkPlan::free`]); `None` if the solver does not apply.
+    /// This solves M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* whose joint torques need few operations
+    /// ([`LinkPlan::free`]). `None` if the solver does not apply.
     #[must_use]
     pub fn forward_dynamics(
         &self,
@@ -157,20 +156,20 @@ impl<'g> Recursion<'g> {
         Some(accelerations)
     }
 
-    /// Whether each coordinate moves one joint, so that joints can be eliminated one by one.
+    /// Whether each coordinate moves exactly one joint, so that joints can be eliminated one by one.
     pub(crate) fn is_articulated(&self) -> bool {
         articulated::applies(&self.chain)
     }
 
-    /// Solves M x = b, both by coordinates, with [`Solver::SmallPivots`].
+    /// Solves M x = b with [`Solver::SmallPivots`]; both vectors are ordered by coordinates.
     pub(crate) fn solve_articulated(&self, right: &[Expr<'g>]) -> Vec<Expr<'g>> {
         let chain = self.chain.without_idle_turns(&[]);
         let method = Method { turns: Turns::Exact, pivots: Pivots::Checked };
         articulated::solve(&chain, &self.plans, right, method)
     }
 
-    /// D of M = Lᵀ D L by coordinates, as [`Recursion::forward_dynamics`] computes it with that solver; `None`
-    /// if the solver does not apply.
+    /// The pivots D of M = Lᵀ D L, ordered by coordinates, as [`Recursion::forward_dynamics`] computes them with the
+    /// given solver; `None` if the solver does not apply.
     pub(crate) fn pivots(&self, solver: Solver) -> Option<Vec<Expr<'g>>> {
         let chain = self.chain.without_idle_turns(&[]);
         let pivots = Pivots::Checked;
@@ -197,20 +196,20 @@ impl<'g> Recursion<'g> {
         (inward::inward(chain, &self.plans, &states, tips), states)
     }
 
-    /// g(q): the joint torques that hold the mechanism at rest.
+    /// The gravity terms g(q): the joint torques that hold the mechanism at rest.
     #[must_use]
     pub fn gravity(&self) -> Vec<Expr<'g>> {
         gravity::gravity(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 
-    /// M(q), including drives.
+    /// The mass matrix M(q), including drives.
     #[must_use]
     pub fn mass_matrix(&self) -> SymmetricMatrix<'g> {
         mass_matrix::cheapest(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 }
 
-/// The tips' wrenches in working frames.
+/// The wrenches of the tips in working frames.
 fn tip_wrenches<'g>(mechanism: &Mechanism<'g>, chain: &Chain<'g>) -> Vec<TipWrench<'g>> {
     let tips = mechanism.frames.iter().filter_map(|frame| {
         let (link, (force, moment)) = (frame.link?, frame.wrench?);
@@ -219,7 +218,7 @@ fn tip_wrenches<'g>(mechanism: &Mechanism<'g>, chain: &Chain<'g>) -> Vec<TipWren
         let force = back * (frame.rotation * force);
         let arm = back * (frame.translation - working.origin);
         let moment: Vector<'g> = back * (frame.rotation * moment) + arm.cross(force);
-        // In the chain's unit of length a force is measured by the torque at one unit.
+        // In the chain's unit of length, a force is represented by its torque at a distance of one unit.
         Some(TipWrench { link, force: force * chain.unit, moment })
     });
     tips.collect()

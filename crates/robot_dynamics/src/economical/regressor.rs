@@ -2,14 +2,14 @@
 //!
 //! A unit of each of a link's ten parameters ([`crate::body`]) requires a wrench, which is propagated inward and
 //! projected on the joints. Not all ten wrenches are needed: a parameter that a joint cannot distinguish from the
-//! parent's own (for a rotation about z the mass and the moments along z, for a translation the
-//! whole tensor) has the same contribution as the parent's parameters that it is equal to. That is the
-//! regrouping of Khalil and Dombre (Modeling, Identification and Control of Robots, section 9.4) read
-//! backwards: here it saves columns, there it removes them.
+//! parent's own parameters (for a rotation about z the mass and the moments along z, for a translation the whole
+//! tensor) has the same contribution as the equivalent parameters of the parent. This is the regrouping of Khalil and
+//! Dombre (Modeling, Identification and Control of Robots, section 9.4), used in reverse: there it eliminates
+//! parameters, here it saves the computation of columns.
 //!
-//! The last six of a link's parameters are the entries of its inertia tensor or its second moments
-//! ([`Moments`]). Wrenches of second moments have more zeros and share more products: from tensor to
-//! second moments the base regressor of an arm of seven joints loses 52 operations of some thousand.
+//! The last six parameters of a link are the entries of its inertia tensor or its second moments ([`Moments`]). The
+//! wrenches of second moments have more zeros and share more products: with them instead of the tensor, the base
+//! regressor of an arm with seven joints needs 52 fewer of its more than a thousand operations.
 
 use robot_model::robot::JointKind;
 use robot_model::robot::LINK_PARAMETERS;
@@ -27,15 +27,15 @@ use crate::economical::spatial::rotation::Plane;
 use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 
-/// The places of the parameters that a rotation about z distinguishes from the parent's, but for I_yy.
+/// The indices of the parameters that a rotation about z distinguishes from the parent's; I_yy is left out.
 const IDENTIFIABLE_BY_ROTATION: [usize; 7] = [1, 2, 4, 5, 7, 8, 9];
-/// The places if the last six parameters are second moments.
+/// The same indices if the last six parameters are second moments.
 const IDENTIFIABLE_SECOND_MOMENTS: [usize; 7] = [1, 2, 4, 5, 6, 7, 8];
-/// The places of the parameters that a translation distinguishes from the parent's.
+/// The indices of the parameters that a translation distinguishes from the parent's.
 const IDENTIFIABLE_BY_TRANSLATION: [usize; 4] = [0, 1, 2, 3];
 
-/// The options of a regressor's recursion: those that need the fewest operations for most arms. They are
-/// the regressor's own because the parameters are about the links' frames whatever a plan says.
+/// The options of the recursion for regressors: those that need the fewest operations for most arms. The regressor does
+/// not use the options of the plan, because its parameters always refer to the links' frames.
 const REGRESSOR_PLAN: LinkPlan = LinkPlan {
     origin: Origin::File,
     turn: Turn::File,
@@ -44,25 +44,25 @@ const REGRESSOR_PLAN: LinkPlan = LinkPlan {
     diagonal: true,
     ..LinkPlan::BASIC
 };
-/// Wrenches from beyond this group of parallel joints, counted from the base, go inward to its axes
-/// and no farther: the motions of the joints inward of it are taken there, once for all wrenches.
+/// The group of parallel joints, counted from the base, to whose axes the wrenches of links farther outward are
+/// propagated. The motions of the joints inward of it are transformed to these axes once for all wrenches.
 const PROJECTION_GROUP: usize = 3;
 
-/// The contribution of a unit of a parameter to each joint torque.
+/// The contribution of a unit of one parameter to each joint torque.
 pub type Column<'g> = Vec<Expr<'g>>;
 
 /// The columns of a regressor.
 #[derive(Clone, Debug)]
 pub struct RegressorColumns<'g> {
-    /// Ten per link: parameters about the origin and in the axes of the link's frame.
+    /// Ten columns for each link: for the parameters about the origin and in the axes of the link's frame.
     pub links: Vec<Column<'g>>,
-    /// One per link: the coupling of its drive's rotor with the link that carries the rotor
-    /// ([`crate::mechanism::MechanismLink::rotor_coupling`]), 0 if the base does.
+    /// One column for each link: for the coupling of its drive's rotor with the link that carries the rotor
+    /// ([`crate::mechanism::MechanismLink::rotor_coupling`]); 0 if the base carries the rotor.
     pub rotors: Vec<Column<'g>>,
 }
 
-/// A unit of the mass (0), the first moment (1) or the second moment (2) of masses on the line
-/// through `p` along the unit vector `z`, both counted from `p`.
+/// A unit of the mass (0), first moment (1) or second moment (2) of masses on the line through `p` along the unit
+/// vector `z`; distances on the line are measured from `p`.
 fn rod<'g>(kind: usize, z: Vector<'g>, p: Vector<'g>, moments: Moments) -> Body<'g> {
     let graph = z.0[0].graph();
     let (zero, one, none) = (graph.zero(), graph.one(), Vector::zero(graph));
@@ -74,7 +74,8 @@ fn rod<'g>(kind: usize, z: Vector<'g>, p: Vector<'g>, moments: Moments) -> Body<
     Body { mass, first, tensor: moments.of_second(second) }
 }
 
-/// A body's contribution to the joint torques, from those of units in the same frame.
+/// The contribution of a body to the joint torques, computed from the contributions of unit parameters in the same
+/// frame.
 fn combination<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
     let mut combination: Column<'g> = vec![];
     for (amount, unit) in body.parameters().into_iter().zip(units) {
@@ -88,10 +89,10 @@ fn combination<'g>(body: &Body<'g>, units: &[Column<'g>]) -> Column<'g> {
     combination
 }
 
-/// The wrenches, about the origin, that move a unit of each parameter with U, ω, ε and the
-/// acceleration of the origin: f = m a + U h, n = h × a + I ε + ω × I ω.
+/// The wrenches, about the origin, that a unit of each parameter requires at given U, ω, ε and acceleration of the
+/// origin: f = m a + U h, n = h × a + I ε + ω × I ω.
 ///
-/// `diagonal` takes differences of squared angular velocities from the diagonal of U.
+/// With `diagonal`, differences of squared angular velocities are computed from the diagonal of U.
 pub(crate) fn unit_wrenches<'g>(
     tensor: Matrix<'g>,
     omega: Vector<'g>,
@@ -127,7 +128,7 @@ pub(crate) fn unit_wrenches<'g>(
     ]
 }
 
-/// The wrenches if the last six parameters are second moments: n = ∫ r × U r dm.
+/// The unit wrenches if the last six parameters are second moments: n = ∫ r × U r dm.
 fn second_moment_wrenches<'g>(state: &LinkState<'g>) -> [Wrench<'g>; LINK_PARAMETERS] {
     let (Matrix(u), Vector(w)) = (state.tensor, state.angular_velocity);
     let graph = w[0].graph();
@@ -145,16 +146,16 @@ fn second_moment_wrenches<'g>(state: &LinkState<'g>) -> [Wrench<'g>; LINK_PARAME
         moment(zero, -u[2][0], u[1][0]),
         moment(u[2][0], -u[2][1], u[1][1] - u[0][0]),
         moment(u[2][1], zero, -u[0][1]),
-        // U_xx − U_zz = ω_x² − ω_z², from which U_xx is made
+        // U_xx − U_zz = ω_x² − ω_z²; these squares are also used to compute U_xx.
         moment(-u[1][0], w[0] * w[0] - w[2] * w[2], u[1][2]),
         moment(u[2][2] - u[1][1], u[0][1], -u[0][2]),
         moment(-u[1][2], u[0][2], zero),
     ]
 }
 
-/// The torque that a rotor requires of its joint per unit of its coupling, a · ε, and the moment it requires of
-/// the link that carries it, q̈ a + q̇ ω × a: with the joint axis a, its velocity and acceleration, and ω and ε of
-/// the carrier, in the carrier's axes.
+/// The torque a · ε that a rotor requires at its joint for a unit of its coupling, and the moment q̈ a + q̇ ω × a that
+/// it requires from the link that carries it. All vectors are in the carrier's axes: a is the joint axis, and ω and ε
+/// are those of the carrier.
 pub(crate) fn unit_rotor<'g>(
     axis: Vector<'g>,
     [velocity, acceleration]: [Expr<'g>; 2],
@@ -164,8 +165,8 @@ pub(crate) fn unit_rotor<'g>(
     (axis.dot(epsilon), axis * acceleration + omega.cross(axis) * velocity)
 }
 
-/// The contributions of the links' inertial parameters, about the origins and in the axes of their frames, and
-/// of the rotors, to the joint torques. `None` if a joint axis depends on parameters.
+/// The contributions to the joint torques of the rotors and of the links' inertial parameters about the origins and in
+/// the axes of their frames. `None` if a joint axis depends on parameters.
 pub(crate) fn regressor<'g>(
     mechanism: &Mechanism<'g>,
     moments: Moments,
@@ -189,9 +190,10 @@ pub(crate) fn regressor<'g>(
     Some(RegressorColumns { links, rotors: rotors.collect() })
 }
 
-/// Per link, the place where its wrenches are projected on the motions of the joints inward of [`PROJECTION_GROUP`].
+/// For each link, the place at which its wrenches are projected on the motions of the joints inward of
+/// [`PROJECTION_GROUP`].
 fn projection_places(frames: &Frames<'_, '_>) -> Vec<Option<Place>> {
-    // The groups from the base to each link, and its place of projection.
+    // For each link, the number of groups from the base, and the place of projection.
     let mut found: Vec<(usize, Option<Place>)> = vec![];
     for (link, joint) in frames.chain.links.iter().enumerate() {
         let carrier = joint.parent.map(|parent| (parent, found[parent]));
@@ -210,7 +212,7 @@ fn projection_places(frames: &Frames<'_, '_>) -> Vec<Option<Place>> {
 }
 
 impl<'g> Recursion<'g> {
-    /// Per link, the columns of its parameters in its working frame.
+    /// The columns of each link's parameters in its working frame.
     fn unit_columns(
         &self,
         frames: &Frames<'_, 'g>,
@@ -241,7 +243,7 @@ impl<'g> Recursion<'g> {
             for parameter in identifiable {
                 own[*parameter] = self.column(frames, index, &wrenches[*parameter]);
             }
-            // The base does not move: parameters equal to the base's contribute nothing.
+            // The base does not move, so parameters that are equivalent to the base's contribute nothing.
             let carrier = link.parent.map_or(&nothing, |parent| &columns[parent]);
             regrouped(link, carrier, &mut own, moments);
             columns.push(own);
@@ -273,7 +275,7 @@ impl<'g> Recursion<'g> {
         column
     }
 
-    /// The contributions of a wrench on a link, in its own axes, to the joint torques.
+    /// The contributions of a wrench on a link, given in the link's own axes, to the joint torques.
     fn column(&self, frames: &Frames<'_, 'g>, index: usize, wrench: &Wrench<'g>) -> Column<'g> {
         let chain = &self.chain;
         let mut column = vec![chain.graph.zero(); chain.degrees_of_freedom];
@@ -289,7 +291,7 @@ impl<'g> Recursion<'g> {
     }
 }
 
-/// The columns of the parameters that the link's joint cannot distinguish from those of its carrier.
+/// Computes the columns of the parameters that the link's joint cannot distinguish from those of its carrier.
 fn regrouped<'g>(
     link: &ChainLink<'g>,
     carrier: &[Column<'g>],
@@ -305,7 +307,7 @@ fn regrouped<'g>(
                 own[TENSOR + 5] = rod(2);
                 return;
             }
-            // A unit of Σ_zz is one of I_xx and one of I_yy.
+            // A unit of Σ_zz is a unit of I_xx plus a unit of I_yy.
             let xx = own[TENSOR].iter();
             own[TENSOR + 2] = rod(2).into_iter().zip(xx).map(|(both, xx)| both - *xx).collect();
         }

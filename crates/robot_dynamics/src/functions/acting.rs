@@ -1,9 +1,9 @@
-//! Functions without the parameters that do not act on them.
+//! Functions without the parameters that have no effect on them.
 //!
-//! A recursion includes terms that cancel: of a link that turns about z alone, I_xx enters both second
-//! moments Σ_xx and Σ_yy, and cancels in their sum. Rounding does not cancel it: a parameter without
-//! effect on a function would cost it digits. Such parameters are found by slopes at seeded
-//! states, and replaced by a constant in the function's expressions.
+//! A recursion may contain terms that cancel: for a link that only turns about z, I_xx enters both second moments Σ_xx
+//! and Σ_yy and cancels in their sum. Rounding errors do not cancel, so a parameter without effect on a function would
+//! reduce its accuracy. Such parameters are found by differentiation at seeded states and replaced by a constant in the
+//! function's expressions.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,20 +12,20 @@ use robot_symbolic::{Expr, Function as Elementary, Random, SymbolId, View};
 
 use super::{Derivation, Function};
 
-/// States at which slopes are taken.
+/// The number of states at which slopes are evaluated.
 const STATES: u64 = 3;
-/// A slope below this fraction of the size of its terms may be 0.
+/// A slope below this fraction of the sum of its terms' magnitudes may be 0.
 const NOTICED: f64 = 1e-8;
-/// A parameter that is multiplied by this factor ...
+/// The factor by which a parameter is multiplied to test whether it has an effect.
 const CHANGE: f64 = 1e3;
-/// ... and changes no value by more than this part of it does not act: its contribution to the value is
-/// below the rounding of the value.
+/// If no value changes by more than this fraction of itself, the parameter has no effect: its contribution to the value
+/// is below the rounding error of the value.
 const UNCHANGED: f64 = 1e-10;
 /// Values below this fraction of the largest value count as rounding errors.
 const ROUNDING: f64 = 1e-14;
 
 impl<'g> Derivation<'_, 'g> {
-    /// The function with a constant for each parameter that does not act on it.
+    /// The function with a constant in place of each parameter that has no effect on it.
     pub(super) fn of_acting_parameters(&self, mut function: Function<'g>) -> Function<'g> {
         let graph = self.mechanism.graph;
         let outputs = function.outputs.iter().flat_map(|output| &output.values);
@@ -34,7 +34,7 @@ impl<'g> Derivation<'_, 'g> {
         if idle.is_empty() || graph.is_full() {
             return function;
         }
-        // A value in a denominator must not be 0.
+        // The constant 1 is tried as well, because a value in a denominator must not be 0.
         for constant in [0, 1] {
             let settled = walk::rebuild(&roots, graph, |name| {
                 let symbol = graph.symbol(name);
@@ -57,7 +57,7 @@ impl<'g> Derivation<'_, 'g> {
         function
     }
 
-    /// The parameters that occur in the expressions and do not act on their values.
+    /// The parameters that occur in the expressions but have no effect on their values.
     fn idle_parameters(&self, roots: &[Expr<'g>]) -> BTreeSet<SymbolId> {
         let graph = self.mechanism.graph;
         let symbol = |name: &str| graph.find_symbol(name).and_then(Expr::as_symbol);
@@ -81,7 +81,7 @@ impl<'g> Derivation<'_, 'g> {
     }
 }
 
-/// Whether no value changes with a parameter; `value` gives that of a symbol at a state.
+/// Whether no value depends on a parameter; `value` returns the value of a symbol in a state.
 fn is_idle(
     evaluator: &Evaluator,
     parameter: SymbolId,
@@ -106,8 +106,8 @@ fn same(a: &[f64], b: &[f64]) -> bool {
     })
 }
 
-/// Values at any parameters, including those that no body can have: there a pivot below 0 is to show what it
-/// depends on.
+/// Evaluates expressions at arbitrary parameters, including those that no body can have: a negative pivot must be
+/// evaluated, too, to find the parameters on which it depends.
 fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
     evaluator.values_by(value, |function, argument| match function {
         Elementary::RecipPositive => argument.recip(),
@@ -115,21 +115,21 @@ fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> 
     })
 }
 
-/// The value of a symbol at a seeded state.
+/// The value of a symbol in a seeded state.
 fn value(name: &str, state: u64) -> f64 {
     let mix = |seed: u64, byte: u8| seed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte);
     let seed = name.bytes().fold(0xcbf2_9ce4_8422_2325, mix);
     Random::new(seed.wrapping_add(state)).uniform(0.4, 1.6)
 }
 
-/// A sum and the sum of its terms' magnitudes.
+/// A sum together with the sum of its terms' magnitudes.
 #[derive(Clone, Copy, Default)]
 struct Slope {
     sum: f64,
     size: f64,
 }
 
-/// The slopes of a weighted sum of the roots by each symbol.
+/// The derivatives of a weighted sum of the roots with respect to each symbol.
 fn slopes(roots: &[Expr<'_>], state: u64) -> BTreeMap<SymbolId, Slope> {
     let nodes = walk::reachable(roots);
     let Some(graph) = nodes.first().map(|node| node.graph()) else {
@@ -137,7 +137,7 @@ fn slopes(roots: &[Expr<'_>], state: u64) -> BTreeMap<SymbolId, Slope> {
     };
     let values =
         evaluate(&Evaluator::new(&nodes), |symbol| value(&graph.symbol_name(symbol), state));
-    // All operands are among the nodes.
+    // All operands are contained in `nodes`.
     let place_of = |expr: Expr<'_>| {
         nodes.binary_search_by_key(&expr.id(), |node| node.id()).unwrap_or_default()
     };

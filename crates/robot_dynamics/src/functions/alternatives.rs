@@ -1,21 +1,22 @@
-//! Functions under other plans than the given one, which is most often that for inverse dynamics.
+//! Functions with other plans than the given one, which is usually that of inverse dynamics.
 
 use super::{Derivation, Function, FunctionKind};
 use crate::economical::Plan;
 use crate::economical::plan::{LinkPlan, Origin};
 
-/// Up to this number of coordinates other plans are tried, but for the mass matrix always: it is short.
+/// The maximum number of coordinates for which other plans are tried. For the mass matrix they always are, because its
+/// derivation is short.
 const MANY: usize = 32;
 
 impl<'g> Derivation<'_, 'g> {
-    /// The operations of functions in one call.
+    /// The number of operations of functions that are computed in one call.
     pub(super) fn cost(&self, functions: &[Function<'g>]) -> usize {
         let outputs = functions.iter().flat_map(|function| &function.outputs);
         let roots: Vec<_> = outputs.flat_map(|output| output.values.iter().copied()).collect();
         self.operations(&roots).flops()
     }
 
-    /// Functions, by `derive`, under the given plan or the one of a few others under which they need the fewest
+    /// Derives functions with `derive`, for the given plan and for a few others; returns those with the fewest
     /// operations.
     pub(super) fn cheapest_plan(
         &self,
@@ -38,22 +39,22 @@ impl<'g> Derivation<'_, 'g> {
     }
 }
 
-/// Whether a function of so many coordinates may want another plan than inverse dynamics: if composites take many of its
-/// operations.
+/// Whether a function may need fewer operations with another plan than inverse dynamics. This is the case if many of
+/// its operations belong to composite inertias.
 fn depends(kind: FunctionKind, coordinates: usize) -> bool {
     match kind {
         FunctionKind::MassMatrix | FunctionKind::MassMatrixLower => true,
         FunctionKind::CoriolisMatrix
         | FunctionKind::InverseDynamicsDerivatives
         | FunctionKind::ForwardDynamicsDerivatives => coordinates <= MANY,
-        // Load-dependent friction is found in rounds, each as long as the function.
+        // Load-dependent friction is computed in iterations, each of which is as long as the function.
         FunctionKind::ForwardDynamics(effects) => !effects.friction && coordinates <= MANY,
         _ => false,
     }
 }
 
-/// The plan with all regrouped inertia at the parents, so that composites have no mass behind rotations, and uniform
-/// plans.
+/// The given plan with all regrouped inertia at the parents, so that composites of links on revolute joints have no
+/// mass, and uniform plans.
 fn others(plan: &Plan) -> Vec<Plan> {
     let bare = plan.links.iter().map(|link| LinkPlan {
         residual: [None; 3],

@@ -5,15 +5,15 @@ use robot_model::functions::{Bundle, FunctionKind};
 use super::{Derivation, Function, Input, Output, sharing};
 
 impl<'g> Derivation<'_, 'g> {
-    /// Derives the functions of a bundle as one: expressions that they have in common are computed once, and
-    /// if it is cheaper one function is made from others, such as τ = M q̈ + C q̇ + g.
+    /// Derives the functions of a bundle as one function. Common expressions are computed once, and if it needs fewer
+    /// operations, one function is computed from others, for example τ = M q̈ + C q̇ + g.
     ///
-    /// A function's only output is named after the function. Functions with several
-    /// outputs keep the outputs' names; if two functions have the same one, the function's name is put
-    /// before it.
+    /// An output that is the only one of its function has the name of the function. If a function has several outputs,
+    /// they keep their names; if two functions have outputs with the same name, the name of the function precedes it.
     #[must_use]
     pub fn bundle(&self, bundle: &Bundle) -> Function<'g> {
-        // All under one plan, or each under its own: they then share less.
+        // Either all functions use the same plan, or each uses its own; in the latter case, they share fewer
+        // expressions.
         let under_one = self.cheapest_plan(&bundle.functions, |derivation| {
             derivation.shared(bundle, |kind| derivation.acting(kind))
         });
@@ -45,7 +45,7 @@ impl<'g> Derivation<'_, 'g> {
         Function { name: bundle.name.clone(), doc, inputs, outputs }
     }
 
-    /// The functions of a bundle, each as `derive` has it or made from the others.
+    /// The functions of a bundle, each derived by `derive` or computed from the others.
     fn shared(
         &self,
         bundle: &Bundle,
@@ -58,7 +58,7 @@ impl<'g> Derivation<'_, 'g> {
     }
 }
 
-/// The outputs of several functions under names of their own.
+/// The outputs of several functions, with distinct names.
 fn outputs(functions: Vec<Function<'_>>) -> Vec<Output<'_>> {
     let names: Vec<String> = functions.iter().flat_map(own_names).collect();
     let is_shared = |name: &String| names.iter().filter(|other| *other == name).count() > 1;
@@ -73,7 +73,7 @@ fn outputs(functions: Vec<Function<'_>>) -> Vec<Output<'_>> {
     outputs
 }
 
-/// The names of a function's outputs beside those of others.
+/// The names of a function's outputs in a bundle, before they are made distinct.
 fn own_names(function: &Function<'_>) -> Vec<String> {
     match function.outputs.as_slice() {
         [_] => vec![function.name.clone()],

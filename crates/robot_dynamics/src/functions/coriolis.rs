@@ -28,7 +28,8 @@ pub(super) fn coriolis_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'
     )
 }
 
-/// ½ ∂τ/∂q̇, because C q̇ is a quadratic form in q̇ with the Christoffel symbols as coefficients.
+/// ½ ∂τ/∂q̇. This is a Coriolis matrix, because C q̇ is a quadratic form in q̇ whose coefficients are the Christoffel
+/// symbols.
 fn half_velocity_slopes<'g>(derivation: &Derivation<'_, 'g>) -> SquareMatrix<'g> {
     let bias = inverse_dynamics::bias_torques(derivation);
     let slopes =

@@ -7,7 +7,7 @@ use super::{Derivation, Function, FunctionKind, Output, forward_dynamics};
 use crate::economical::TorqueDerivatives;
 use crate::matrix::SquareMatrix;
 
-/// ∂Q/∂q and ∂Q/∂q̇.
+/// The function for ∂Q/∂q and ∂Q/∂q̇.
 pub(super) fn inverse_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let TorqueDerivatives { positions, velocities } = cheapest(derivation);
     let output = |name, doc, per, matrix: SquareMatrix<'g>| {
@@ -29,7 +29,7 @@ fn matrix_output<'g>(name: &str, doc: &str, unit: &str, matrix: &SquareMatrix<'g
     Output::new(name, doc, unit, vec![matrix.order(), matrix.order()], matrix.rows())
 }
 
-/// The derivatives by composite quantities, in one of their forms, or by forward or reverse differentiation of the
+/// The derivatives by composite quantities in one of their forms, or by forward or reverse differentiation of the
 /// torques, whichever needs the fewest operations.
 fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
     let (torques, composite) = match &derivation.recursion {
@@ -55,7 +55,7 @@ fn cheapest<'g>(derivation: &Derivation<'_, 'g>) -> TorqueDerivatives<'g> {
     fewest(derivation, others.collect()).unwrap_or(by_forward)
 }
 
-/// The form that needs the fewest operations; `None` of none.
+/// The form with the fewest operations; `None` if there are no forms.
 pub(super) fn fewest<'g>(
     derivation: &Derivation<'_, 'g>,
     forms: Vec<TorqueDerivatives<'g>>,
@@ -68,8 +68,8 @@ fn cost<'g>(derivation: &Derivation<'_, 'g>, derivatives: &TorqueDerivatives<'g>
     derivation.operations(&[positions.rows(), velocities.rows()].concat()).flops()
 }
 
-/// The form of least cost. The first one, relative to the links, is kept unless another saves a sixty-fourth of it: the
-/// passes over programs save more of the first, which repeats itself more.
+/// The form with the lowest cost. The first form, which is relative to the links, is preferred unless another one saves
+/// more than a sixty-fourth of its cost: it has more repeated expressions, which later passes over programs eliminate.
 fn cheapest_form<T>(forms: impl IntoIterator<Item = T>, cost: impl Fn(&T) -> usize) -> Option<T> {
     let forms = forms.into_iter().enumerate().map(|(index, form)| {
         let cost = cost(&form);
@@ -78,7 +78,7 @@ fn cheapest_form<T>(forms: impl IntoIterator<Item = T>, cost: impl Fn(&T) -> usi
     forms.min_by_key(|(cost, _)| *cost).map(|(_, form)| form)
 }
 
-/// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
+/// The function for ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ.
 pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let order = derivation.mechanism.degrees_of_freedom;
     let solved = solutions(derivation);
@@ -110,7 +110,7 @@ pub(super) fn forward_dynamics<'g>(derivation: &Derivation<'_, 'g>) -> Function<
     function
 }
 
-/// The columns of ∂q̈/∂q, of ∂q̈/∂q̇ and of ∂q̈/∂τ, with the derivatives of the torques in the form that needs the fewest
+/// The columns of ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ, with the derivatives of the torques in the form that needs the fewest
 /// operations.
 fn solutions<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Vec<Expr<'g>>> {
     let accelerations = forward_dynamics::for_derivatives(derivation);
@@ -139,7 +139,7 @@ fn solutions<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Vec<Expr<'g>>> {
     cheapest_form(solutions, cost).unwrap_or_default()
 }
 
-/// The derivatives with the accelerations in place of the symbols q̈.
+/// The derivatives with the given accelerations substituted for the symbols q̈.
 fn at<'g>(
     derivation: &Derivation<'_, 'g>,
     derivatives: TorqueDerivatives<'g>,

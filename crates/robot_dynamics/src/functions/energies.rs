@@ -3,7 +3,7 @@
 use super::{Derivation, Function, FunctionKind, Output, mass_matrix};
 use crate::plain;
 
-/// The energies of the links and drives.
+/// The function for the energies of the links and drives.
 pub(super) fn energies<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let (kinetic, potential) = match &derivation.recursion {
         Some(recursion) => (recursion.kinetic_energy(), recursion.potential_energy()),

@@ -7,17 +7,19 @@ use super::{Derivation, Effects, Function, FunctionKind, Output, inverse_dynamic
 use crate::economical::Solver;
 use crate::matrix::Pivots;
 
-/// Up to this number of coordinates M is decomposed and articulated bodies are not tried: these need fewer
-/// operations from some ten joints on, and have nothing in common with other functions of a bundle.
+/// Up to this number of coordinates, only the decomposition of M is used, unless pivots may be small. The articulated-body
+/// algorithm needs fewer operations only from about ten joints on, and it shares no expressions with other functions of
+/// a bundle.
 const FEW: usize = 8;
-/// Beyond this number of coordinates M is not tried: its decomposition grows with their third power.
+/// Above this number of coordinates, the decomposition of M is not tried, because its operations grow with the third
+/// power of the number.
 const MANY: usize = 16;
 
-/// Rounds in which the accelerations and the load-dependent dry friction that they cause are found
-/// together. Each reduces the error to about the coefficient of friction times it.
+/// The number of iterations that determine the accelerations together with the load-dependent dry friction that they
+/// cause. Each iteration multiplies the error by approximately the coefficient of friction.
 const FRICTION_ROUNDS: usize = 8;
 
-/// q̈ of M q̈ = τ − C q̇ − g, or of M q̈ = τ − C q̇ − g − Q_f.
+/// The function for the solution q̈ of M q̈ = τ − C q̇ − g or, with friction, of M q̈ = τ − C q̇ − g − Q_f.
 pub(super) fn forward_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
@@ -48,8 +50,8 @@ pub(super) fn forward_dynamics<'g>(
     function
 }
 
-/// The documentation of how the functions of a robot solve M q̈ = b, how many digits that may cost, and what a
-/// wrong pivot does.
+/// The documentation of the method by which a robot's functions solve M q̈ = b, of the digits that may be lost, and of
+/// the effect of an invalid pivot.
 pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     let solution = if derivation.recursion_for_small_pivots().is_some() {
         "Uses the articulated-body algorithm: at the nominal parameters the mass matrix is \
@@ -74,7 +76,7 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     vec![solution.to_owned(), wrong.to_owned()]
 }
 
-/// The documentation of the function's friction.
+/// The documentation of the friction in the function.
 const FRICTION_DOC: &str = "Forward dynamics with joint friction, viscous and Coulomb: the \
     accelerations that the joint torques `tau` cause, the solution of M q̈ = τ − C q̇ − g − Q_f. \
     Coulomb friction uses the sign of the velocity, or its smooth version if the robot file sets \
@@ -83,7 +85,7 @@ const FRICTION_DOC: &str = "Forward dynamics with joint friction, viscous and Co
     use the friction of the previous one, and each reduces the error by about a factor of the \
     friction coefficient. Without load-dependent friction the result is exact.";
 
-/// q̈ with friction, for the symbols τ.
+/// The accelerations q̈ with friction, for the symbols τ.
 fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<'g>> {
     let graph = derivation.mechanism.graph;
     let tau = derivation.coordinate_symbols(JointVariable::Torque);
@@ -109,7 +111,7 @@ fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<
     found
 }
 
-/// q̈ for the joint torques `tau` without friction, by the solver that needs fewer operations.
+/// The accelerations q̈ for the joint torques `tau` without friction, by the solver that needs fewer operations.
 fn accelerations<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
@@ -137,7 +139,7 @@ fn accelerations<'g>(
     }
 }
 
-/// q̈ for the joint torques `tau` if pivots of M may be small.
+/// The accelerations q̈ for the joint torques `tau` if pivots of M may be small; `None` otherwise.
 fn by_small_pivots<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
@@ -147,15 +149,15 @@ fn by_small_pivots<'g>(
     recursion.forward_dynamics(tau, wrench, Solver::SmallPivots, Pivots::Checked)
 }
 
-/// q̈ for the symbols τ in derivatives, which solve M x = b for many b: by the decomposition of M, unless
-/// pivots may be small.
+/// The accelerations q̈ for the symbols τ in derivatives, which solve M x = b for many vectors b. They are computed by
+/// the decomposition of M, unless pivots may be small.
 pub(super) fn for_derivatives<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     let tau = derivation.coordinate_symbols(JointVariable::Torque);
     let careful = by_small_pivots(derivation, false, &tau);
     careful.unwrap_or_else(|| by_matrix(derivation, false, &tau))
 }
 
-/// Solves M x = b, for each b by coordinates.
+/// Solves M x = b for several vectors b, each ordered by coordinates.
 pub(super) fn solve_all<'g>(
     derivation: &Derivation<'_, 'g>,
     right: Vec<Vec<Expr<'g>>>,
@@ -166,7 +168,7 @@ pub(super) fn solve_all<'g>(
     }
 }
 
-/// D of M = Lᵀ D L by coordinates, as the accelerations use it.
+/// The pivots D of M = Lᵀ D L, ordered by coordinates, as forward dynamics uses them.
 pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     let small = derivation.recursion_for_small_pivots();
     let small = small.and_then(|recursion| recursion.pivots(Solver::SmallPivots));
@@ -178,7 +180,7 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     small.or_else(long).unwrap_or_else(|| mass_matrix::matrix(derivation).pivots(Pivots::Checked))
 }
 
-/// q̈ for the joint torques `tau`, by the decomposition of M.
+/// The accelerations q̈ for the joint torques `tau`, by the decomposition of M.
 fn by_matrix<'g>(derivation: &Derivation<'_, 'g>, wrench: bool, tau: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let pivots = derivation.pivots_known();
     let recursion = derivation.recursion.as_ref();

@@ -4,7 +4,7 @@ use robot_model::variable::JointVariable;
 
 use super::{Derivation, Function, FunctionKind};
 
-/// g(q).
+/// The function for the gravity terms g(q).
 pub(super) fn gravity<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let torques = match &derivation.recursion {
         Some(recursion) => recursion.gravity(),

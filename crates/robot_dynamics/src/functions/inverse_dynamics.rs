@@ -1,4 +1,4 @@
-//! Inverse dynamics, with and without wrenches and friction, and the wrenches in the joints.
+//! Inverse dynamics, with and without wrenches and friction, and the wrenches that the joints transmit.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
@@ -8,7 +8,7 @@ use crate::mechanism::Mechanism;
 use crate::newton_euler::{self, NewtonEuler};
 use crate::vector::Vector;
 
-/// The generalized forces Q of equation (3).
+/// The function for the joint torques Q, equation (3).
 pub(super) fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
@@ -34,7 +34,7 @@ pub(super) fn inverse_dynamics<'g>(
     derivation.of_kind(kind, &doc, vec![tau])
 }
 
-/// C(q, q̇) q̇ + g(q).
+/// The bias torques C(q, q̇) q̇ + g(q).
 pub(super) fn bias_torques<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     match &derivation.recursion {
         Some(recursion) => recursion.bias(false),
@@ -53,7 +53,7 @@ pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     )
 }
 
-/// Q by the economical recursion, friction added to it.
+/// The joint torques Q by the economical recursion, plus friction.
 fn generalized_forces<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
@@ -73,7 +73,7 @@ fn generalized_forces<'g>(
     forces
 }
 
-/// Q_f of equations (4)-(5), at the symbols of q, q̇ and q̈: N m or N.
+/// The friction torques Q_f, equations (4) and (5), for the symbols of q, q̇ and q̈: N m or N.
 pub(super) fn friction_forces<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Vec<Expr<'g>> {
     let effects = Effects { wrench, friction: false };
     let NewtonEuler { wrenches, .. } = newton_euler::newton_euler(mechanism, effects);
@@ -91,7 +91,7 @@ pub(super) fn friction_forces<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Ve
     forces
 }
 
-/// F_l and M_l of every joint, equations (26) and (36).
+/// The function for F_l and M_l of every joint, equations (26) and (36).
 pub(super) fn link_wrenches<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let effects = Effects { wrench: true, friction: false };
     let NewtonEuler { wrenches, .. } = newton_euler::newton_euler(&derivation.mechanism, effects);

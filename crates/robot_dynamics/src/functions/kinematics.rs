@@ -10,7 +10,7 @@ use crate::mechanism::MechanismFrame;
 use crate::plain;
 use crate::vector::{Matrix, Vector};
 
-/// The poses of all links.
+/// The function for the poses of all links.
 pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let poses = link_poses(derivation);
     let names = derivation.robot.links.iter().map(|link| link.name.as_str());
@@ -26,7 +26,7 @@ pub(super) fn forward_kinematics<'g>(derivation: &Derivation<'_, 'g>) -> Functio
     )
 }
 
-/// The poses of the named frames.
+/// The function for the poses of the named frames.
 pub(super) fn frame_poses<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let poses = match &derivation.recursion {
         Some(recursion) => recursion.frame_poses(&derivation.mechanism.frames),
@@ -64,7 +64,8 @@ fn pose_outputs<'g>(poses: &[Pose<'g>]) -> Vec<Output<'g>> {
     ]
 }
 
-/// The links' frames are the file's: they are cheapest from working frames at the same places.
+/// The poses of the links' frames, which are those of the file. They need the fewest operations with working frames at
+/// the same places.
 fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     let of_plan = |angle_sum: bool| {
         let file =
@@ -81,7 +82,7 @@ fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     forms.min_by_key(cost).unwrap_or_else(|| plain::link_poses(derivation))
 }
 
-/// The functions of all frames that the kind asks for.
+/// The functions of all frames for which the kind stands.
 pub(super) fn per_frame<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,
@@ -117,7 +118,7 @@ pub(super) fn of_frame<'g>(
     Some(Function { name: kind.full_name(derivation.robot), ..function })
 }
 
-/// The frame of a moving link, as the file has it, as a frame on the link.
+/// The frame of a moving link in the robot file, as a frame on the link.
 fn link_frame<'g>(derivation: &Derivation<'_, 'g>, name: &str, index: usize) -> MechanismFrame<'g> {
     let graph = derivation.mechanism.graph;
     MechanismFrame {

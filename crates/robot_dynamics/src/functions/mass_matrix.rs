@@ -7,7 +7,7 @@ use robot_symbolic::walk;
 use super::{Derivation, Function, FunctionKind, Output};
 use crate::matrix::SymmetricMatrix;
 
-/// M(q).
+/// The function for M(q).
 pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let matrix = matrix(derivation);
     let order = matrix.order();
@@ -27,7 +27,7 @@ pub(super) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     )
 }
 
-/// The entries of M's lower triangle that are not 0 by structure.
+/// The function for the entries in the lower triangle of M that can be nonzero for the robot's structure.
 pub(super) fn mass_matrix_lower<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let matrix = matrix(derivation);
     let entries = coupled(derivation.robot).into_iter();
@@ -49,7 +49,7 @@ pub(super) fn mass_matrix_lower<'g>(derivation: &Derivation<'_, 'g>) -> Function
     )
 }
 
-/// M by composite inertias, or as ∂Q/∂q̈.
+/// M by composite inertias or, if the recursion does not apply, as ∂Q/∂q̈.
 pub(super) fn matrix<'g>(derivation: &Derivation<'_, 'g>) -> SymmetricMatrix<'g> {
     if let Some(recursion) = &derivation.recursion {
         return recursion.mass_matrix();

@@ -1,8 +1,8 @@
-//! The dynamic functions that become code: named arrays of expressions over named input arrays.
+//! The functions that are generated as code: named arrays of expressions over named input arrays.
 //!
-//! All functions of a robot are derived in one graph ([`Derivation`]), so that what depends on
-//! parameters alone is shared among them. Torques come from the economical recursion; whatever
-//! needs the forces between links comes from the paper's iterations.
+//! All functions of a robot are derived in one graph ([`Derivation`]), so that expressions that depend only on
+//! parameters are shared among them. Joint torques are derived by the economical recursion; quantities that depend on
+//! the forces between links are derived by the paper's iterations.
 
 mod acting;
 mod alternatives;
@@ -41,8 +41,8 @@ use robot_model::variable::{JointVariable, WRENCH};
 pub type Output<'g> = named::Output<Vec<Expr<'g>>>;
 
 impl<'r, 'g> Derivation<'r, 'g> {
-    /// The recursion, if it has to solve M q̈ = b by articulated bodies so as to keep digits: if
-    /// pivots of M may be small, and each coordinate moves one joint.
+    /// The recursion, if M q̈ = b must be solved by the articulated-body algorithm to preserve digits: pivots of M may
+    /// be small, and each coordinate moves exactly one joint.
     fn recursion_for_small_pivots(&self) -> Option<&Recursion<'g>> {
         let recursion = self.recursion.as_ref().filter(|recursion| recursion.is_articulated());
         recursion.filter(|_| self.may_have_small_pivots())
@@ -52,35 +52,35 @@ impl<'r, 'g> Derivation<'r, 'g> {
         *self.small_pivots.get_or_init(|| pivots::may_be_small(self.robot))
     }
 
-    /// Whether the pivots of M are known to be positive: if all values are numbers and no configuration makes a pivot
-    /// small, they need no check at run time.
+    /// Whether the pivots of M are known to be positive. If all values are numbers and no pivot is small in any
+    /// configuration, no check is needed at run time.
     fn pivots_known(&self) -> Pivots {
         let is_sure = self.robot.parameters.is_empty() && !self.may_have_small_pivots();
         if is_sure { Pivots::Positive } else { Pivots::Checked }
     }
 
-    /// Derives the functions of a kind: one, or one per frame. Properties that the robot lacks (a tip,
-    /// friction) are taken as 0: ask [`FunctionKind::missing_in`] first.
+    /// Derives the functions of a kind: one function, or one for each frame. A property that the robot does not have (a
+    /// tip, friction) is taken as 0; check [`FunctionKind::missing_in`] first.
     ///
-    /// A parameter that has no effect on a function does not occur in it.
+    /// Parameters that have no effect on a function do not occur in it.
     #[must_use]
     pub fn functions(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         self.cheapest_plan(&[kind], |derivation| derivation.acting(kind))
     }
 
-    /// The functions of a kind under this plan.
+    /// The functions of a kind with this plan.
     fn acting(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let derived = self.derived(kind).into_iter();
         derived.map(|function| self.of_acting_parameters(function)).collect()
     }
 
-    /// The regressor over known base parameters, as [`Derivation::functions`] derives it.
+    /// The regressor for known base parameters, as [`Derivation::functions`] derives it.
     #[must_use]
     pub fn regressor_over(&self, base: &BaseParameters<'g>) -> Function<'g> {
         self.of_acting_parameters(regressor::regressor_over(self, base))
     }
 
-    /// The functions as derived, with the parameters that cancel.
+    /// The functions before parameters without effect are removed.
     fn derived(&self, kind: FunctionKind) -> Vec<Function<'g>> {
         let function = match kind {
             FunctionKind::InverseDynamics(_) => inverse_dynamics::inverse_dynamics(self, kind),
@@ -109,17 +109,17 @@ impl<'r, 'g> Derivation<'r, 'g> {
         vec![function]
     }
 
-    /// The function `pivots` of the inputs `q`, with the outputs `pivots`, D of M = Lᵀ D L as forward dynamics
-    /// has it, and `diagonal`, that of M: kg m² or kg, by coordinates.
+    /// The function `pivots` of the input `q`. Its outputs are `pivots`, the pivots D of M = Lᵀ D L as forward dynamics
+    /// computes them, and `diagonal`, the diagonal of M; both are ordered by coordinates, in kg m² or kg.
     ///
-    /// A pivot is the inertia that a joint shows if the joints farther out are free. Forward dynamics has
-    /// no solution if one is not above 0, and few digits if rounding is of its size.
+    /// A pivot is the inertia with respect to its joint if the joints farther outward are free. Forward dynamics has no
+    /// solution if a pivot is not positive, and few correct digits if a pivot is of the size of rounding errors.
     #[must_use]
     pub fn pivots(&self) -> Function<'g> {
         pivots::pivots(self)
     }
 
-    /// A function of the kind's own name and inputs.
+    /// A function with the name and the inputs of its kind.
     fn of_kind(&self, kind: FunctionKind, doc: &[&str], outputs: Vec<Output<'g>>) -> Function<'g> {
         let doc = doc.iter().map(|&paragraph| paragraph.to_owned()).collect();
         let mut inputs: Vec<Input> =
@@ -130,7 +130,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Function { name: kind.name().to_owned(), doc, inputs, outputs }
     }
 
-    /// The generalized forces as an output.
+    /// The joint torques as an output.
     fn torque_output(&self, values: Vec<Expr<'g>>) -> Output<'g> {
         Output::new(
             JointVariable::Torque.name(),
@@ -141,7 +141,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         )
     }
 
-    /// An input array with an element per coordinate.
+    /// An input array with one element for each coordinate.
     fn coordinate_input(&self, variable: JointVariable) -> Input {
         Input {
             name: variable.name().to_owned(),
@@ -151,12 +151,12 @@ impl<'r, 'g> Derivation<'r, 'g> {
         }
     }
 
-    /// The unit of an array over the coordinates, with the translations named if they differ.
+    /// The unit of an array over the coordinates; the prismatic joints are named if there are both kinds.
     fn coordinate_unit(&self, variable: JointVariable) -> String {
         self.unit_by_joint(variable.unit(JointKind::Revolute), variable.unit(JointKind::Prismatic))
     }
 
-    /// An array over the coordinates with other units.
+    /// The unit of an array over the coordinates that depends on the kind of the joint.
     fn unit_by_joint(&self, rotation: &str, translation: &str) -> String {
         let kinds = &self.robot.coordinates;
         let translations: Vec<String> = kinds
@@ -178,8 +178,8 @@ impl<'r, 'g> Derivation<'r, 'g> {
         }
     }
 
-    /// The unit of a matrix over the coordinates, with the mixed and the translations' entries named
-    /// if they differ.
+    /// The unit of a matrix over the coordinates; the mixed entries and those of prismatic joints are named if there
+    /// are both kinds.
     fn matrix_unit(&self, rotation: &str, mixed: &str, translation: &str) -> String {
         let (mut revolute, mut prismatic) = (0, 0);
         for coordinate in &self.robot.coordinates {
@@ -198,7 +198,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         }
     }
 
-    /// An input array per tip: force, then moment.
+    /// One input array for each tip: force, then moment.
     fn wrench_inputs(&self) -> Vec<Input> {
         let inputs = self.robot.tips().map(|(frame, wrench)| Input {
             name: format!("{WRENCH}{}", self.robot.wrench_suffix(frame)),

@@ -1,10 +1,10 @@
-//! Whether pivots of the mass matrix may become small, which decides how forward dynamics is solved.
+//! Determines whether pivots of the mass matrix may become small, on which the method of forward dynamics depends.
 //!
-//! The pivot D of a coordinate in M = Lᵀ D L is its inertia if all joints farther out
-//! are free. The decomposition of M takes it from the diagonal of M, so it loses as many digits as
-//! D is smaller than the diagonal: none to speak of in most arms, all of them in a wrist whose links have
-//! no mass, if the axes of the first and the last joint come into line. Articulated bodies do not
-//! subtract what they have not added, and keep the digits.
+//! The pivot D of a coordinate in M = Lᵀ D L is its inertia if all joints farther outward are free. The decomposition
+//! of M computes it by subtractions from the diagonal of M, so it loses digits if D is much smaller than the diagonal.
+//! In most arms the loss is negligible; in a wrist with massless links, all digits are lost if the axes of the first
+//! and the last joint are aligned. The articulated-body algorithm does not subtract anything that it has not added
+//! before, and preserves the digits.
 
 use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
@@ -13,27 +13,28 @@ use robot_symbolic::Random;
 use super::sampled::{Rows, SampledMassMatrix};
 use super::{Derivation, Function, Output, forward_dynamics, mass_matrix};
 
-/// Pivots below this part of the diagonal of M are small: two digits of sixteen are lost. Those of industrial
-/// arms with up to eight joints stay above 0.02 in any configuration.
+/// Pivots below this fraction of the diagonal of M are small: two of sixteen digits are lost. The pivots of industrial
+/// arms with up to eight joints are above 0.02 in all configurations.
 const SMALL: f64 = 1e-2;
-/// The threshold from [`MANY`] coordinates on: the inner joints of long chains and of humanoids have pivots down
-/// to 10⁻⁴ because of the length of what they carry, and are solved by articulated bodies in any case.
+/// The same limit for robots with at least [`MANY`] coordinates. The inner joints of long chains and of humanoids have
+/// pivots down to 10⁻⁴ because the links that they carry are long; such robots are solved by the articulated-body
+/// algorithm in any case.
 const SMALL_OF_MANY: f64 = 1e-5;
-/// The number of coordinates from which a robot counts as one with many.
+/// The number of coordinates from which [`SMALL_OF_MANY`] applies.
 const MANY: usize = 9;
-/// The most mass matrices to evaluate, times the square of the number of coordinates: at most a second in an
-/// unoptimized build.
+/// The maximum number of mass matrices to evaluate, times the square of the number of coordinates; this takes at most a
+/// second in an unoptimized build.
 const MAX_WORK: usize = 30_000;
-/// The least number of mass matrices to evaluate.
+/// The minimum number of mass matrices to evaluate.
 const LEAST: usize = 60;
-/// The number of configurations from which smaller pivots are searched.
+/// The number of configurations from which a descent to smaller pivots starts.
 const DESCENTS: usize = 3;
-/// The step, in rad or m, with which a descent begins, and the one below which it ends.
+/// The step of a descent at its beginning and its end, in rad or m.
 const STEPS: [f64; 2] = [0.4, 1e-4];
 const SEED: u64 = 1;
 
 /// The function `pivots` of q: the pivots as in forward dynamics, and the diagonal of M. It is not a
-/// [`super::FunctionKind`]: callers that evaluate forward dynamics ask it how many digits are left.
+/// [`super::FunctionKind`]; callers that evaluate forward dynamics use it to determine how many digits are correct.
 pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let matrix = mass_matrix::matrix(derivation);
     let diagonal = (0..matrix.order()).map(|row| matrix.at(row, row)).collect();
@@ -52,11 +53,12 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     }
 }
 
-/// Whether a pivot of M is small in some configuration, at nominal parameters; those without a value are 1.
+/// Whether a pivot of M is small in some configuration, at the nominal parameters; parameters without a value are set
+/// to 1.
 ///
-/// A pivot is no smaller than the inertia of the joint's own link and drive. If that bound is not
-/// enough, mass matrices are evaluated: in configurations with joints at right angles, where axes come into line
-/// in most wrists, in others at random, and from the worst of them downhill.
+/// A pivot is at least the inertia of the joint's own link and drive. If this bound does not suffice, mass matrices are
+/// evaluated: in configurations with joints at right angles, in which the axes of most wrists are aligned, in random
+/// configurations, and by descents from the worst of them.
 pub(super) fn may_be_small(robot: &Robot) -> bool {
     let matrix = SampledMassMatrix::new(robot);
     let small = if matrix.order() < MANY { SMALL } else { SMALL_OF_MANY };
@@ -67,9 +69,9 @@ pub(super) fn may_be_small(robot: &Robot) -> bool {
 struct Search<'m> {
     matrix: &'m SampledMassMatrix,
     small: f64,
-    /// The mass matrices that may still be evaluated.
+    /// The number of mass matrices that may still be evaluated.
     left: usize,
-    /// The smallest ratios found, with their configurations.
+    /// The smallest ratios that were found, with their configurations.
     worst: Vec<(f64, Vec<f64>)>,
 }
 
@@ -86,7 +88,8 @@ impl<'m> Search<'m> {
             || worst.into_iter().any(|(part, q)| self.descend(part, q) < self.small)
     }
 
-    /// Tries configurations with a joint or two at right angles and the others anywhere, with half of the budget.
+    /// Evaluates configurations with one or two joints at right angles and the others at random, using half of the
+    /// budget.
     fn look_around(&mut self) {
         let n = self.matrix.order();
         let mut random = Random::new(SEED);
@@ -115,7 +118,7 @@ impl<'m> Search<'m> {
         self.worst.truncate(DESCENTS);
     }
 
-    /// The smallest ratio of a descent, one coordinate after the other.
+    /// The smallest ratio that a descent along single coordinates finds.
     fn descend(&mut self, mut part: f64, mut q: Vec<f64>) -> f64 {
         let [mut step, end] = STEPS;
         while step > end && part >= self.small {
@@ -140,14 +143,14 @@ impl<'m> Search<'m> {
         part
     }
 
-    /// The smallest pivot in a configuration, each relative to the diagonal of M.
+    /// The smallest ratio of a pivot to the diagonal entry of M in a configuration.
     fn smallest_part(&mut self, q: &[f64]) -> f64 {
         self.left = self.left.saturating_sub(1);
         smallest_part(self.matrix.at(q))
     }
 }
 
-/// The smallest pivot of M = Lᵀ D L, each relative to the diagonal of M; 0 if one is not above 0.
+/// The smallest ratio of a pivot of M = Lᵀ D L to the diagonal entry of M; 0 if a pivot is not positive.
 fn smallest_part(mut matrix: Rows) -> f64 {
     let diagonal: Vec<f64> = (0..matrix.len()).map(|row| matrix[row][row]).collect();
     let mut smallest = 1.0_f64;

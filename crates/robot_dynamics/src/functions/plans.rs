@@ -1,4 +1,4 @@
-//! The cheapest plan for the functions that are wanted.
+//! The search for the plan with the fewest operations for given functions.
 
 use std::cell::OnceCell;
 
@@ -10,10 +10,10 @@ use crate::economical::search::{self, Found, Objective, Scope};
 use crate::economical::{Recursion, TorqueDerivatives};
 use crate::mechanism::MechanismOptions;
 
-/// Searches the plan under which these functions together need the fewest multiplications and
-/// additions; common expressions count once.
+/// Searches for the plan with which these functions together need the fewest multiplications and additions; common
+/// expressions are counted once.
 ///
-/// `None` if the economical recursion does not apply (a joint axis that depends on parameters).
+/// `None` if the economical recursion does not apply because a joint axis depends on parameters.
 #[must_use]
 pub fn search_plan(
     robot: &Robot,
@@ -48,7 +48,7 @@ fn objective<'g>(
 ) -> Objective<'g> {
     let values = |kind: FunctionKind| -> Vec<Expr<'g>> {
         if kind == FunctionKind::InverseDynamicsDerivatives
-            // Alternatives for the functions are tried once, when the plan is found.
+            // Alternatives to these forms are tried only once, after the plan has been found.
             && let Some(TorqueDerivatives { positions, velocities }) =
                 derivatives::fewest(derivation, recursion.torque_derivatives())
         {

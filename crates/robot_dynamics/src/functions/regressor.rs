@@ -10,7 +10,7 @@ use crate::base_parameters::{
 };
 use crate::economical::Column;
 
-/// Y with Y π = τ.
+/// The function for the regressor Y with Y π = τ.
 pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     let columns = standard_columns(derivation);
     let standard = standard_parameters(&derivation.mechanism);
@@ -26,12 +26,12 @@ pub(super) fn regressor<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     )
 }
 
-/// Y over the base parameters.
+/// The function for the regressor of the base parameters; `None` if the robot has none.
 pub(super) fn regressor_base<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
     base_parameters(derivation).map(|base| regressor_over(derivation, &base))
 }
 
-/// Y over base parameters that are known.
+/// The function for the regressor of known base parameters.
 pub(super) fn regressor_over<'g>(
     derivation: &Derivation<'_, 'g>,
     base: &BaseParameters<'g>,
@@ -57,7 +57,7 @@ pub(super) fn regressor_over<'g>(
     function(derivation, FunctionKind::RegressorBase, &doc, &kept)
 }
 
-/// β of the base parameters, from the file's parameters.
+/// The function for the values β of the base parameters.
 pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Function<'g>> {
     let base = base_parameters(derivation)?;
     let mut order = format!("In the order {}.", names(&base));
@@ -95,7 +95,7 @@ const OF_DENAVIT_HARTENBERG: &str = "They refer to Denavit-Hartenberg frames: z 
     these frames SXX, SXY, SYY, SXZ, SYZ, SZZ are the second moments ∫ x² dm, ∫ x y dm and so \
     on, MX, MY, MZ the first moments.";
 
-/// The names of the base parameters, in their order.
+/// The names of the base parameters, in order.
 fn names(base: &BaseParameters<'_>) -> String {
     base.base.iter().map(BaseParameter::name).collect::<Vec<_>>().join(", ")
 }
@@ -156,7 +156,7 @@ fn paragraphs(derivation: &Derivation<'_, '_>, drives: &[String]) -> Vec<String>
     paragraphs
 }
 
-/// The meaning of a drive's column, in words.
+/// The meaning of a drive's column in words; `None` if it is the column of a link.
 fn drive_meaning(
     derivation: &Derivation<'_, '_>,
     place: usize,

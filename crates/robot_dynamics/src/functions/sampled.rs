@@ -1,6 +1,6 @@
-//! A robot in numbers: its mass matrix in any configuration, and bounds on its pivots.
+//! A robot in numbers: its mass matrix in any configuration, and lower bounds on its pivots.
 //!
-//! It decides which code is made, never what the code computes.
+//! These numbers determine which form of code is generated, but never enter the code.
 
 use robot_model::robot::{JointKind, Robot};
 use robot_symbolic::walk::Evaluator;
@@ -9,12 +9,12 @@ use robot_symbolic::{Expr, Graph, Random, SymbolId};
 use super::{Derivation, mass_matrix};
 use crate::mechanism::{Mechanism, MechanismLink, MechanismOptions};
 
-/// The mass matrix of a robot at the nominal values of its parameters; those without a value are 1.
+/// The mass matrix of a robot at the nominal values of its parameters; parameters without a value are set to 1.
 pub(super) struct SampledMassMatrix {
     values: Evaluator,
     order: usize,
     symbols: Vec<Symbol>,
-    /// The assumed range of the coordinates: rad or m.
+    /// The assumed ranges of the coordinates, ± rad or m.
     ranges: Vec<f64>,
     links: Vec<SampledLink>,
 }
@@ -33,15 +33,15 @@ struct SampledLink {
     coordinate: usize,
     ratio: f64,
     mass: f64,
-    /// The inertia about the joint axis, or the mass for a prismatic joint.
+    /// The inertia of the link about the joint axis, or its mass for a prismatic joint.
     own: f64,
-    /// The trace of the tensor about the center of mass.
+    /// The trace of the inertia tensor about the center of mass.
     trace: f64,
-    /// The distance of the center of mass from the frame's origin.
+    /// The distance of the center of mass from the origin of the link's frame.
     arm: f64,
-    /// The distance of the frame's origin from the parent's.
+    /// The distance of the frame's origin from that of the parent's.
     offset: f64,
-    /// The drive's inertia, reflected to the joint.
+    /// The inertia of the drive reflected to the joint.
     reflected: f64,
 }
 
@@ -49,7 +49,7 @@ struct SampledLink {
 pub(super) type Rows = Vec<Vec<f64>>;
 
 impl SampledMassMatrix {
-    /// Derives the mass matrix in a graph of its own, so that no other derivation sees its expressions.
+    /// Derives the mass matrix in a separate graph, so that its expressions do not affect other derivations.
     pub(super) fn new(robot: &Robot) -> SampledMassMatrix {
         let graph = Graph::new();
         let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
@@ -88,18 +88,18 @@ impl SampledMassMatrix {
         self.order
     }
 
-    /// M in a configuration.
+    /// The mass matrix M in a configuration.
     pub(super) fn at(&self, q: &[f64]) -> Rows {
         let values = self.values.values(|symbol| value(symbol, &self.symbols, q));
         values.chunks(self.order.max(1)).map(<[f64]>::to_vec).collect()
     }
 
-    /// A random configuration: angles in ±π, distances in ±0.5 m.
+    /// A random configuration: angles within ±π, distances within ±0.5 m.
     pub(super) fn joint_frame(&self, random: &mut Random) -> Vec<f64> {
         self.ranges.iter().map(|range| random.uniform(-range, *range)).collect()
     }
 
-    /// Whether the links' own inertias keep all pivots above a part of the diagonal of M.
+    /// Whether the links' own inertias keep all pivots above a fraction of the diagonal of M.
     pub(super) fn keeps_pivots_above(&self, part: f64) -> bool {
         let (mut least, mut most) = (vec![0.0; self.order], vec![0.0; self.order]);
         for link in &self.links {
@@ -107,7 +107,7 @@ impl SampledMassMatrix {
             least[link.coordinate] += ratio * (link.own + link.reflected);
             most[link.coordinate] += ratio * link.reflected;
         }
-        // The assumed travel of prismatic joints.
+        // The assumed travel of each prismatic joint: the sum of the distances between consecutive origins.
         let travel: f64 = self.links.iter().map(|link| link.offset).sum();
         for outer in &self.links {
             let mut arm = outer.arm;
@@ -134,7 +134,7 @@ fn value(symbol: SymbolId, symbols: &[Symbol], q: &[f64]) -> f64 {
     }
 }
 
-/// Of each link: the ratio, the mass, the own inertia, the trace, the squares of arm and offset, the drive's
+/// For each link: the ratio, the mass, the own inertia, the trace, the squares of arm and offset, and the drive's
 /// inertia.
 fn expressions<'g>(mechanism: &Mechanism<'g>) -> Vec<[Expr<'g>; 7]> {
     let carries_rotor = |index: usize| {
@@ -156,7 +156,8 @@ fn of_link<'g>(link: &MechanismLink<'g>, carries_rotor: bool) -> [Expr<'g>; 7] {
     [
         link.ratio,
         link.mass,
-        // A rotor may turn against its carrier, whose inertia in the file includes it: no bound.
+        // A rotor may turn against the link that carries it, while that link's inertia in the file includes the rotor;
+        // so there is no bound.
         if carries_rotor { own.graph().zero() } else { own },
         link.inertia.trace(),
         center.dot(center),

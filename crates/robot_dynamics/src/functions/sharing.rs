@@ -1,4 +1,4 @@
-//! Functions of a bundle made from other functions of it, if that is cheaper.
+//! Functions of a bundle that are computed from other functions of the bundle, if this needs fewer operations.
 
 use robot_model::variable::JointVariable;
 use robot_symbolic::Expr;
@@ -6,11 +6,11 @@ use robot_symbolic::Expr;
 use super::{Derivation, Effects, Function, FunctionKind};
 use crate::matrix::SymmetricMatrix;
 
-/// An alternative derivation of a function's first output from other functions; `None` if the bundle lacks one of
-/// them.
+/// An alternative derivation of a function's first output from other functions; `None` if the bundle does not contain
+/// one of them.
 type Reuse = for<'g> fn(&Derivation<'_, 'g>, &[Function<'g>]) -> Option<Vec<Expr<'g>>>;
 
-/// The alternatives, in an order in which each starts from functions that are settled.
+/// The alternatives, in an order in which each one only uses functions whose form is already decided.
 const REUSES: [(FunctionKind, Reuse); 5] = [
     (FunctionKind::CoriolisMatrix, coriolis_matrix),
     (FunctionKind::Bias, bias),
@@ -19,7 +19,7 @@ const REUSES: [(FunctionKind, Reuse); 5] = [
     (FunctionKind::Energies, kinetic_energy),
 ];
 
-/// Applies each alternative that makes the functions together need fewer operations.
+/// Applies each alternative that reduces the number of operations of all functions together.
 pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Function<'g>]) {
     let mut least = derivation.cost(functions);
     derivatives_in_other_forms(derivation, functions, &mut least);
@@ -38,8 +38,8 @@ pub(super) fn share<'g>(derivation: &Derivation<'_, 'g>, functions: &mut [Functi
     }
 }
 
-/// Takes the form of inverse dynamics' derivatives with which the functions together need the fewest operations: one of
-/// them shares its wrenches with inverse dynamics.
+/// Chooses the form of the derivatives of inverse dynamics with which all functions together need the fewest
+/// operations. One of the forms shares its wrenches with inverse dynamics.
 fn derivatives_in_other_forms<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &mut [Function<'g>],
@@ -67,14 +67,14 @@ fn derivatives_in_other_forms<'g>(
     }
 }
 
-/// Exchanges the values of a function's first output.
+/// Exchanges the values of a function's first output with the given ones.
 fn swap<'g>(functions: &mut [Function<'g>], index: usize, values: &mut Vec<Expr<'g>>) {
     if let Some(output) = functions.get_mut(index).and_then(|one| one.outputs.first_mut()) {
         std::mem::swap(&mut output.values, values);
     }
 }
 
-/// The values of an output of a function, if the bundle has it.
+/// The values of an output of a function; `None` if the bundle does not contain it.
 fn values<'f, 'g>(
     functions: &'f [Function<'g>],
     kind: FunctionKind,
@@ -84,7 +84,8 @@ fn values<'f, 'g>(
     Some(&function.outputs.get(output)?.values)
 }
 
-/// ½ ∂τ/∂q̇: C q̇ is a quadratic form in q̇, its coefficients the Christoffel symbols.
+/// ½ ∂τ/∂q̇. This is a Coriolis matrix, because C q̇ is a quadratic form in q̇ whose coefficients are the Christoffel
+/// symbols.
 fn coriolis_matrix<'g>(
     _: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -93,14 +94,14 @@ fn coriolis_matrix<'g>(
     Some(slopes.iter().map(|slope| *slope / 2).collect())
 }
 
-/// C q̇ + g.
+/// The bias torques C q̇ + g, from the Coriolis matrix and the gravity terms.
 fn bias<'g>(derivation: &Derivation<'_, 'g>, functions: &[Function<'g>]) -> Option<Vec<Expr<'g>>> {
     let matrix = values(functions, FunctionKind::CoriolisMatrix, 0)?;
     let gravity = values(functions, FunctionKind::Gravity, 0)?;
     Some(sum(&product(matrix, &derivation.coordinate_symbols(JointVariable::Velocity)), gravity))
 }
 
-/// M q̈ + C q̇ + g.
+/// The joint torques M q̈ + C q̇ + g, from the mass matrix and the bias torques.
 fn inverse_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -110,7 +111,7 @@ fn inverse_dynamics<'g>(
     Some(sum(&product(matrix, &derivation.coordinate_symbols(JointVariable::Acceleration)), bias))
 }
 
-/// The solution of M q̈ = τ − C q̇ − g.
+/// The accelerations q̈, the solution of M q̈ = τ − C q̇ − g.
 fn forward_dynamics<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -131,7 +132,7 @@ fn forward_dynamics<'g>(
     Some(matrix.solve(excess, derivation.pivots_known()))
 }
 
-/// ½ q̇ᵀ M q̇.
+/// The kinetic energy ½ q̇ᵀ M q̇.
 fn kinetic_energy<'g>(
     derivation: &Derivation<'_, 'g>,
     functions: &[Function<'g>],
@@ -142,7 +143,7 @@ fn kinetic_energy<'g>(
     Some(twice.into_iter().map(|twice| twice / 2).collect())
 }
 
-/// A matrix, stored row by row, times a vector.
+/// The product of a matrix, stored row by row, and a vector.
 fn product<'g>(matrix: &[Expr<'g>], vector: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let row = |row: &[Expr<'g>]| row.iter().zip(vector).map(|(a, b)| *a * *b).reduce(|a, b| a + b);
     matrix.chunks(vector.len().max(1)).filter_map(row).collect()

@@ -1,20 +1,21 @@
-//! Accelerations that no joint torques determine because the mass matrix is singular in every configuration.
+//! Accelerations that the joint torques do not determine because the mass matrix is singular in every configuration.
 
 use robot_model::robot::Robot;
 use robot_symbolic::Random;
 
 use super::sampled::{Rows, SampledMassMatrix};
 
-/// Entries below this part of the largest are rounding errors.
+/// Entries below this fraction of the largest entry are taken as rounding errors.
 const NOTHING: f64 = 1e-13;
-/// A coordinate with less than this part in a motion takes no part in it.
+/// A coordinate takes part in a motion if its component exceeds this fraction of the motion.
 const SHARE: f64 = 1e-4;
-/// The number of configurations to try: a robot may be singular in one of them by chance.
+/// The number of configurations to try, because a mass matrix may be singular in a single configuration by chance.
 const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 
-/// The coordinates, from 0, whose accelerations no joint torques determine in any configuration, at the nominal
-/// parameters; empty if the mass matrix is regular somewhere, or a parameter has no nominal value.
+/// The indices, from 0, of the coordinates whose accelerations the joint torques do not determine in any configuration,
+/// at the nominal parameters. Empty if the mass matrix is regular in some configuration, or if a parameter has no
+/// nominal value.
 #[must_use]
 pub fn undetermined(robot: &Robot) -> Vec<usize> {
     if robot.parameters.iter().any(|parameter| parameter.value.is_none()) {
@@ -26,7 +27,7 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     for _ in 0..CONFIGURATIONS {
         let here = of_matrix(&matrix.at(&matrix.joint_frame(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
-        // One regular configuration is enough, and builds call this.
+        // One regular configuration is enough. It is important to stop here, because every build calls this function.
         if found.is_empty() {
             break;
         }
@@ -34,7 +35,7 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     found
 }
 
-/// The coordinates that have a part in the null space of a symmetric matrix.
+/// The coordinates that take part in the null space of a symmetric matrix.
 fn of_matrix(matrix: &Rows) -> Vec<usize> {
     let order = matrix.len();
     let most = (0..order).fold(0.0_f64, |most, row| most.max(matrix[row][row].abs()));
@@ -44,7 +45,7 @@ fn of_matrix(matrix: &Rows) -> Vec<usize> {
     if most == 0.0 {
         return (0..order).collect();
     }
-    // Rotations and translations differ in their units: each by its own inertia.
+    // The units of rotations and translations differ, so each row is scaled by its own inertia.
     let scale: Vec<f64> =
         (0..order).map(|row| matrix[row][row].abs().max(NOTHING * most).sqrt().recip()).collect();
     let vanishes = |row: &usize| matrix[*row][*row].abs() <= NOTHING * most;
@@ -62,7 +63,7 @@ fn of_matrix(matrix: &Rows) -> Vec<usize> {
     (0..order).filter(|one| vanishing.contains(one) || moves(one)).collect()
 }
 
-/// The matrix reduced by Gauss and Jordan with full pivoting: rows whose pivots are 1, and the columns of the
+/// The matrix after Gauss–Jordan elimination with full pivoting: rows whose pivots are 1, and the columns of the
 /// pivots.
 fn reduced(mut matrix: Rows) -> (Rows, Vec<usize>) {
     let order = matrix.len();
@@ -97,7 +98,7 @@ mod tests {
 
     #[test]
     fn a_null_motion_names_the_coordinates_that_take_part() {
-        // The first two turn alike: their difference moves nothing.
+        // The first two coordinates move the same link, so the difference of their motions moves nothing.
         let alike = vec![vec![2.0, 2.0, 0.5], vec![2.0, 2.0, 0.5], vec![0.5, 0.5, 1.0]];
         assert_eq!(of_matrix(&alike), [0, 1]);
         let regular = vec![vec![2.0, 1.0], vec![1.0, 2.0]];

@@ -1,9 +1,9 @@
-//! Limbs that are alike: what hangs on a fixed base and differs in numbers alone.
+//! Identical limbs: parts on a fixed base that differ only in numbers.
 //!
-//! Here a limb is a link on the base with all that it carries: a leg, a finger, one of two arms. A base at rest couples
-//! nothing, so that the joint torques of a limb depend on its own motion alone, and where its first link sits
-//! matters to nothing but its direction to gravity. Limbs that differ in numbers, the signs of mirror images among
-//! them, are one robot with parameters.
+//! Here, a limb is a link on the base together with everything that it carries: a leg, a finger, or one of two arms. A
+//! base at rest couples nothing, so the joint torques of a limb depend only on its own motion, and the placement of its
+//! first link matters only through its orientation relative to gravity. Limbs that differ only in numbers, including
+//! the signs of mirror images, are therefore described by one robot with parameters.
 
 mod numbers;
 
@@ -12,11 +12,11 @@ use robot_symbolic::{Formula, Rational};
 
 use numbers::{Number, numbers};
 
-/// Identical limbs.
+/// A group of limbs that differ only in numbers.
 #[derive(Clone, Debug)]
 pub struct LikeLimbs {
-    /// One of the limbs, alone on the base. The numbers in which the limbs differ are its parameters, with the first
-    /// limb's values.
+    /// One of the limbs, alone on the base. The numbers in which the limbs differ are its parameters, whose nominal
+    /// values are those of the first limb.
     pub robot: Robot,
     /// The limbs, in the order of the robot's links.
     pub limbs: Vec<Limb>,
@@ -25,17 +25,17 @@ pub struct LikeLimbs {
 /// A limb of a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limb {
-    /// Its links, parents before children.
+    /// The indices of its links, parents before children.
     pub links: Vec<usize>,
-    /// Its coordinates; coordinate i of [`LikeLimbs::robot`] is `coordinates[i]` of the whole.
+    /// The indices of its coordinates: coordinate i of [`LikeLimbs::robot`] is `coordinates[i]` of the whole robot.
     pub coordinates: Vec<usize>,
-    /// Its values of the parameters of [`LikeLimbs::robot`].
+    /// The limb's values of the parameters of [`LikeLimbs::robot`].
     pub values: Vec<f64>,
 }
 
-/// The groups of identical limbs of a robot, in the order of their first links.
+/// The groups of limbs of a robot that differ only in numbers, in the order of their first links.
 ///
-/// `None` if the robot has parameters, a coordinate that moves joints of several limbs, or no identical limbs.
+/// `None` if the robot has parameters, if a coordinate moves joints of several limbs, or if no two limbs are alike.
 #[must_use]
 pub fn like_limbs(robot: &Robot) -> Option<Vec<LikeLimbs>> {
     if !robot.parameters.is_empty() {
@@ -59,7 +59,7 @@ pub fn like_limbs(robot: &Robot) -> Option<Vec<LikeLimbs>> {
     are_alike.then(|| kinds.into_iter().map(|(_, limbs)| joined(limbs)).collect())
 }
 
-/// The limbs, without values.
+/// The limbs, without the values of parameters.
 fn limbs(robot: &Robot) -> Vec<Limb> {
     let mut limbs: Vec<Limb> = vec![];
     let mut limb_of = vec![0; robot.links.len()];
@@ -85,7 +85,7 @@ fn limbs(robot: &Robot) -> Vec<Limb> {
     limbs
 }
 
-/// A limb as a robot of its own, without the names and limits that tell it from others.
+/// A limb as a separate robot, without the names and limits that distinguish it from other limbs.
 fn alone(robot: &Robot, limb: &Limb) -> Robot {
     let place = |among: &[usize], index: usize| among.iter().position(|other| *other == index);
     let link = |(number, index): (usize, &usize)| {
@@ -116,12 +116,12 @@ fn alone(robot: &Robot, limb: &Limb) -> Robot {
     }
 }
 
-/// A limb without the numbers that may differ between limbs that are alike.
+/// A limb without the numbers in which similar limbs may differ.
 fn pattern(limb: &Robot) -> Robot {
     let mut pattern = limb.clone();
     for (number, formula) in numbers(&mut pattern.links) {
         let value = formula.evaluate(|_| f64::NAN);
-        // Equal numbers may be written in several ways.
+        // Equal numbers may be written in different ways.
         *formula = match number {
             Number::Shape => {
                 Rational::from_f64(value).map_or(formula.clone(), |value| Formula::number(&value))
@@ -132,7 +132,7 @@ fn pattern(limb: &Robot) -> Robot {
     pattern
 }
 
-/// The limb of several with the numbers in which they differ as parameters.
+/// One robot for several limbs, in which the numbers that differ are parameters.
 fn joined(limbs: Vec<(Limb, Robot)>) -> LikeLimbs {
     let (mut limbs, mut robots): (Vec<Limb>, Vec<Robot>) = limbs.into_iter().unzip();
     let values: Vec<Vec<f64>> = robots.iter_mut().map(values).collect();

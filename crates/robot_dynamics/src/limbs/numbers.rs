@@ -1,18 +1,18 @@
-//! The numbers of links, in one order.
+//! The numbers of links, in a fixed order.
 
 use robot_model::robot::{Body, Drive, Friction, Inertia, Joint, Link, Move, Placement};
 use robot_symbolic::Formula;
 
-/// What a number decides.
+/// The meaning of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Number {
-    /// The directions of joint axes, on which the form of the equations depends.
+    /// An angle or a component that determines the direction of a joint axis; the form of the equations depends on it.
     Shape,
-    /// A length, a mass or the like.
+    /// Any other number, such as a length or a mass.
     Size,
 }
 
-/// All numbers of links, the same places in the same order for links of the same pattern.
+/// All numbers of the links; the order is the same for links with the same pattern.
 pub(super) fn numbers(links: &mut [Link]) -> Vec<(Number, &mut Formula)> {
     links.iter_mut().flat_map(of_link).collect()
 }
@@ -48,7 +48,7 @@ fn of_body(body: &mut Body) -> Vec<(Number, &mut Formula)> {
     found
 }
 
-/// Distances, and angles, which decide `angles`.
+/// The distances and angles of a placement; the angles are of the kind `angles`.
 fn of_placement(placement: &mut Placement, angles: Number) -> Vec<(Number, &mut Formula)> {
     let moves = placement.0.iter_mut().flat_map(|step| match step {
         Move::Translate(by) => by.iter_mut().map(|length| (Number::Size, length)).collect(),

@@ -4,7 +4,7 @@ use robot_symbolic::{Expr, Number, Rational};
 
 use crate::vector::Vector;
 
-/// The vector scaled to length 1; exact for multiples of a coordinate axis. `round` is applied to the
+/// The unit vector in the direction of a vector; exact for multiples of a coordinate axis. `round` is applied to the
 /// norm and to the result.
 pub(super) fn unit_vector<'g>(
     vector: Vector<'g>,
@@ -26,9 +26,9 @@ pub(super) fn unit_vector<'g>(
     }
 }
 
-/// A vector of rational numbers as the shortest one of integers in its direction, so that the length
-/// in the file has no effect; if those need more than a machine word, with the largest component
-/// ±1, so that no square overflows. Other vectors as they are.
+/// Shortens a vector of rational numbers to the shortest vector of integers in its direction, so that its length in the
+/// file has no effect. If these integers exceed a machine word, the vector is scaled so that its largest component is
+/// ±1, which prevents squares from overflowing. Other vectors are returned unchanged.
 fn shortened(vector: Vector<'_>) -> Vector<'_> {
     let numbers = vector.0.map(Expr::as_number);
     let [Some(Number::Rational(x)), Some(Number::Rational(y)), Some(Number::Rational(z))] = numbers
@@ -46,8 +46,8 @@ fn shortened(vector: Vector<'_>) -> Vector<'_> {
     Vector(components.map(|component| graph.number(component)))
 }
 
-/// The components times the least common multiple of their denominators, if the largest is ±1 and
-/// all fit a machine word.
+/// The components multiplied by the least common multiple of their denominators, for a largest component of ±1; `None`
+/// if they exceed a machine word.
 fn integers(components: &[Rational; 3]) -> Option<[Rational; 3]> {
     let mut multiple: i64 = 1;
     for component in components {

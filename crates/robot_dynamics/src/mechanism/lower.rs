@@ -1,4 +1,5 @@
-//! Lowering: formulas to expressions, moves to rotations and translations, bodies to one body.
+//! Lowering: converts formulas to expressions and moves to rotations and translations, and combines the bodies of a
+//! link.
 
 use robot_model::robot::{Axis, Body, Frame, Friction, Inertia, Link, Move, Placement, Robot};
 use robot_model::variable::JointVariable;
@@ -9,14 +10,14 @@ use super::snapped::quarters;
 use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
 use crate::vector::{Matrix, Vector};
 
-/// The robot in symbols of `graph`.
+/// Expresses the robot in symbols of `graph`.
 pub(super) fn lower<'g>(
     robot: &Robot,
     graph: &'g Graph,
     options: &MechanismOptions,
 ) -> Mechanism<'g> {
     let mut lowering = Lowering { graph, options, snapped: vec![] };
-    // The symbols' order is the file's and the mechanism's, whatever the formulas use first.
+    // The symbols are in the order of the mechanism and the file, whatever symbols the formulas use first.
     for symbol in JointVariable::MOTION.into_iter().flat_map(|variable| robot.symbols(variable)) {
         graph.symbol(&symbol);
     }
@@ -52,7 +53,7 @@ impl<'g> Lowering<'g, '_> {
         Vector([0, 1, 2].map(|i| self.value(&formulas[i])))
     }
 
-    /// An irrational constant as a float if code needs it; everything else unchanged.
+    /// An irrational constant as a floating-point number if code needs it; any other expression unchanged.
     fn round(&self, expr: Expr<'g>) -> Expr<'g> {
         let keep = !self.options.rounded || expr.as_number().is_some();
         if keep || !walk::symbols(&[expr]).is_empty() {
@@ -120,7 +121,7 @@ impl<'g> Lowering<'g, '_> {
         }
     }
 
-    /// Rotation and translation of a displacement: x_outer = R x_inner + p.
+    /// The rotation R and translation p of a displacement: x_outer = R x_inner + p.
     fn placement(&mut self, name: &str, placement: &Placement) -> (Matrix<'g>, Vector<'g>) {
         let mut rotation = Matrix::identity(self.graph);
         let mut translation = Vector::zero(self.graph);
@@ -138,9 +139,9 @@ impl<'g> Lowering<'g, '_> {
         (rotation, translation)
     }
 
-    /// A constant angle next to a multiple of π/2 becomes that multiple.
+    /// A constant angle within the tolerance of a multiple of π/2 becomes that multiple.
     fn angle(&mut self, name: &str, formula: &Formula) -> Expr<'g> {
-        // Rounding would make a float of `pi/2`, whose sine is exact.
+        // The exact value is needed, because rounding would make `pi/2` a floating-point number, whose cosine is not 0.
         let exact = formula.lower(self.graph, &mut |name| self.graph.symbol(name));
         let Some(number) = exact.as_number() else {
             return exact;
@@ -163,7 +164,7 @@ impl<'g> Lowering<'g, '_> {
         Matrix::identity(self.graph).column(column)
     }
 
-    /// Mass, center of mass and central inertia of the bodies together.
+    /// The mass, center of mass and inertia tensor about the center of mass of all bodies together.
     fn bodies(&mut self, link: &str, bodies: &[Body]) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
         let parts: Vec<_> = bodies.iter().map(|body| self.body(link, body)).collect();
         if let [single] = parts[..] {

@@ -1,4 +1,4 @@
-//! The robot in symbols: a [`Robot`]'s formulas lowered into a graph, ready for a recursion.
+//! The symbolic robot: the formulas of a [`Robot`] lowered into a graph, ready for a recursion.
 
 mod direction;
 mod lower;
@@ -13,25 +13,25 @@ use robot_symbolic::{Expr, Graph};
 use crate::vector::{Matrix, Vector};
 pub use snapped::snapped;
 
-/// Options for turning a robot's values into expressions.
+/// The options of expressing a robot's values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MechanismOptions {
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple, so that rotations with
-    /// rounded angles are exact; each change is reported in [`Mechanism::snapped`]. With 0, constant angles keep all
-    /// digits of the file.
+    /// The tolerance within which a constant angle becomes a multiple of π/2, rad, so that rotations with rounded
+    /// angles are exact. Each change is reported in [`Mechanism::snapped`]. With 0, constant angles keep all digits of
+    /// the file.
     pub snap: f64,
-    /// Whether irrational constants (the sine of an arbitrary constant angle) become floating-point numbers, as code
-    /// needs them, or stay symbolic, as printed equations need them.
+    /// Whether irrational constants, such as the sine of an arbitrary constant angle, become floating-point numbers.
+    /// Code needs this; printed equations need them to remain symbolic.
     pub rounded: bool,
 }
 
 impl MechanismOptions {
-    /// For print: exact constants.
+    /// The options for printed equations: exact constants.
     pub const EXACT: MechanismOptions = MechanismOptions { snap: snap::DEFAULT, rounded: false };
-    /// For code: irrational constants as floating-point numbers.
+    /// The options for code: irrational constants as floating-point numbers.
     pub const ROUNDED: MechanismOptions = MechanismOptions { snap: snap::DEFAULT, rounded: true };
 
-    /// These options with a tolerance: the one given, else the robot file's, else [`snap::DEFAULT`].
+    /// These options with the given tolerance; if it is `None`, that of the robot file, or else [`snap::DEFAULT`].
     #[must_use]
     pub fn with_snap(self, given: Option<f64>, robot: &Robot) -> MechanismOptions {
         MechanismOptions { snap: given.or(robot.snap).unwrap_or(snap::DEFAULT), ..self }
@@ -40,47 +40,48 @@ impl MechanismOptions {
 
 /// A symbolic robot.
 ///
-/// Coordinates, velocities and accelerations are the symbols `q1`, `qd1`, `qdd1` …; parameters and
-/// wrench components carry the file's names.
+/// Positions, velocities and accelerations are the symbols `q1`, `qd1`, `qdd1` …; parameters and wrench components have
+/// the names in the robot file.
 #[derive(Clone, Debug)]
 pub struct Mechanism<'g> {
     /// The graph of all expressions.
     pub graph: &'g Graph,
-    /// Acceleration of gravity in the base frame, m/s².
+    /// The acceleration of gravity in the base frame, m/s².
     pub gravity: Vector<'g>,
     /// The moving links, parents before children.
     pub links: Vec<MechanismLink<'g>>,
-    /// Named frames.
+    /// The named frames.
     pub frames: Vec<MechanismFrame<'g>>,
     /// The number of generalized coordinates.
     pub degrees_of_freedom: usize,
     /// The constant angles that were snapped.
     pub snapped: Vec<Snap>,
-    /// The motion of the base if it is not at rest: for parts of a robot, which only joint torques are derived of.
+    /// The motion of the base; `None` if it is at rest. It is only used for parts of a robot, of which only joint
+    /// torques are derived.
     pub(crate) base: Option<BaseMotion<'g>>,
 }
 
 /// The motion of a base, in its own axes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BaseMotion<'g> {
-    /// rad/s.
+    /// The angular velocity, rad/s.
     pub(crate) angular_velocity: Vector<'g>,
-    /// rad/s².
+    /// The angular acceleration, rad/s².
     pub(crate) angular_acceleration: Vector<'g>,
-    /// Acceleration of the origin, gravity included as one, m/s².
+    /// The acceleration of the origin, including gravity as an acceleration of the base, m/s².
     pub(crate) acceleration: Vector<'g>,
 }
 
 impl<'g> BaseMotion<'g> {
-    /// At rest, in a field of gravity.
+    /// A base at rest in a field of gravity.
     pub(crate) fn at_rest(gravity: Vector<'g>) -> BaseMotion<'g> {
         let zero = Vector::zero(gravity.0[0].graph());
         BaseMotion { angular_velocity: zero, angular_acceleration: zero, acceleration: -gravity }
     }
 
-    /// Any motion, in symbols of its own.
+    /// An arbitrary motion, given by additional symbols.
     pub(crate) fn any(graph: &'g Graph) -> BaseMotion<'g> {
-        // No parameter has such a name.
+        // These names are not valid for parameters.
         let vector = |letter| {
             Vector(["x", "y", "z"].map(|axis| graph.symbol(&format!("base {letter} {axis}"))))
         };
@@ -95,7 +96,7 @@ impl<'g> BaseMotion<'g> {
 /// A constant angle that was snapped to a multiple of π/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snap {
-    /// The link or frame whose placement has the angle.
+    /// The name of the link or frame whose placement contains the angle.
     pub name: String,
     /// The angle in the file, rad.
     pub angle: f64,
@@ -103,66 +104,66 @@ pub struct Snap {
     pub change: f64,
 }
 
-/// A symbolic link. Vectors are in the link's own frame unless said otherwise.
+/// A symbolic link. Vectors are in the link's own frame unless stated otherwise.
 #[derive(Clone, Debug)]
 pub struct MechanismLink<'g> {
-    /// The parent link; `None` for the base.
+    /// The index of the parent link; `None` for the base.
     pub parent: Option<usize>,
-    /// Rotation of the frame at joint position 0: link components to parent components.
+    /// The rotation of the frame at joint position 0, from link components to parent components.
     pub rotation: Matrix<'g>,
-    /// Origin of the frame at joint position 0, parent components, m.
+    /// The origin of the frame at joint position 0, in parent components, m.
     pub translation: Vector<'g>,
-    /// Rotation or translation.
+    /// The kind of the joint.
     pub kind: JointKind,
-    /// Unit vector of the joint axis; the same in the frame before and after the joint's motion.
+    /// The unit vector of the joint axis, which is the same in the frame before and after the joint's motion.
     pub axis: Vector<'g>,
     /// The coordinate that moves the joint.
     pub coordinate: usize,
     /// The joint's position per unit of the coordinate.
     pub ratio: Expr<'g>,
-    /// Joint position, rad or m.
+    /// The joint position, rad or m.
     pub position: Expr<'g>,
-    /// Joint velocity, rad/s or m/s.
+    /// The joint velocity, rad/s or m/s.
     pub velocity: Expr<'g>,
-    /// Joint acceleration, rad/s² or m/s².
+    /// The joint acceleration, rad/s² or m/s².
     pub acceleration: Expr<'g>,
-    /// Mass, kg.
+    /// The mass, kg.
     pub mass: Expr<'g>,
-    /// Center of mass, m.
+    /// The center of mass, m.
     pub center_of_mass: Vector<'g>,
-    /// Inertia tensor about the center of mass, kg m².
+    /// The inertia tensor about the center of mass, kg m².
     pub inertia: Matrix<'g>,
-    /// Friction.
+    /// The friction in the joint.
     pub friction: MechanismFriction<'g>,
-    /// Inertia of the drive reflected to the joint: armature + N² × rotor inertia, kg m² or kg.
+    /// The inertia of the drive reflected to the joint: armature + N² × rotor inertia, kg m² or kg.
     pub reflected_inertia: Expr<'g>,
-    /// N × rotor inertia if the drive is gyroscopic and its carrier, the parent link, moves; 0
-    /// otherwise. The rotor's angular momentum against its carrier is this times the joint's
-    /// velocity, about the joint axis: kg m² per rad or m of the joint.
+    /// N × rotor inertia if the drive is gyroscopic and its carrier, the parent link, moves; otherwise 0. The product
+    /// of this and the joint velocity is the rotor's angular momentum relative to its carrier, about the joint axis: kg
+    /// m² per rad or m of the joint.
     pub rotor_coupling: Expr<'g>,
 }
 
-/// Friction in symbols; see [`robot_model::robot::Friction`].
+/// The friction in a joint in symbols; see [`robot_model::robot::Friction`].
 #[derive(Clone, Debug)]
 pub struct MechanismFriction<'g> {
-    /// b of equation (4).
+    /// The coefficient b of equation (4).
     pub viscous: Expr<'g>,
-    /// c of equation (5).
+    /// The coefficient c of equation (5).
     pub coulomb: Expr<'g>,
-    /// d of equation (5), m.
+    /// The diameter d in equation (5), m.
     pub spindle_diameter: Expr<'g>,
-    /// Constant dry friction for positive velocities.
+    /// The constant dry friction at positive velocities.
     pub coulomb_positive: Expr<'g>,
-    /// Constant dry friction for negative velocities.
+    /// The constant dry friction at negative velocities.
     pub coulomb_negative: Expr<'g>,
-    /// Constant offset.
+    /// A constant offset.
     pub offset: Expr<'g>,
-    /// Width of the smooth sign.
+    /// The width of the smooth sign; `None` for the exact sign.
     pub smoothing: Option<Expr<'g>>,
 }
 
 impl<'g> MechanismFriction<'g> {
-    /// The direction of a velocity: its sign, or the smooth one.
+    /// The sign of a velocity, exact or smooth.
     pub(crate) fn sign(&self, velocity: Expr<'g>) -> Expr<'g> {
         match self.smoothing {
             Some(width) => (velocity / width).tanh(),
@@ -174,27 +175,27 @@ impl<'g> MechanismFriction<'g> {
 /// A symbolic named frame.
 #[derive(Clone, Debug)]
 pub struct MechanismFrame<'g> {
-    /// The name.
+    /// The name of the frame.
     pub name: String,
-    /// The link that carries it; `None` for the base.
+    /// The index of the link that carries it; `None` for the base.
     pub link: Option<usize>,
-    /// Rotation: frame components to link components.
+    /// The rotation from frame components to link components.
     pub rotation: Matrix<'g>,
-    /// Origin, link components, m.
+    /// The origin, in link components, m.
     pub translation: Vector<'g>,
-    /// Force and moment that the frame exerts on its surroundings, frame components, if it is a
-    /// tip; N and N m.
+    /// The force and moment that a tip exerts on its surroundings, in frame components, N and N m; `None` if the frame
+    /// is not a tip.
     pub wrench: Option<(Vector<'g>, Vector<'g>)>,
 }
 
 impl<'g> Mechanism<'g> {
-    /// The robot in symbols of `graph`.
+    /// Expresses the robot in symbols of `graph`.
     #[must_use]
     pub fn new(robot: &Robot, graph: &'g Graph, options: &MechanismOptions) -> Mechanism<'g> {
         lower::lower(robot, graph, options)
     }
 
-    /// The generalized coordinate of that index (from 0), `q1` for the first.
+    /// The generalized coordinate with the given index from 0: `q1` for the first.
     #[must_use]
     pub fn coordinate(&self, index: usize) -> Expr<'g> {
         self.graph.symbol(&JointVariable::Position.symbol(index))
@@ -207,8 +208,8 @@ impl<'g> Mechanism<'g> {
 }
 
 impl<'g> MechanismLink<'g> {
-    /// The rotation of the link's frame, including the joint's motion: \[R\]ᵢⁱ⁻¹ of the paper, link components to
-    /// parent components.
+    /// The rotation of the link's frame, including the joint's motion, from link components to parent components:
+    /// \[R\]ᵢⁱ⁻¹ of the paper.
     #[must_use]
     pub fn joint_rotation(&self) -> Matrix<'g> {
         match self.kind {
@@ -220,13 +221,13 @@ impl<'g> MechanismLink<'g> {
         }
     }
 
-    /// Unit vector of the joint axis in parent components.
+    /// The unit vector of the joint axis in parent components.
     #[must_use]
     pub fn axis_in_parent(&self) -> Vector<'g> {
         self.rotation * self.axis
     }
 
-    /// The origin of the link's frame, including the joint's motion, in parent components: r̄ᵢⁱ⁻¹.
+    /// The origin of the link's frame, including the joint's motion, in parent components: r̄ᵢⁱ⁻¹ of the paper.
     #[must_use]
     pub fn joint_translation(&self) -> Vector<'g> {
         match self.kind {

@@ -8,12 +8,12 @@ use robot_symbolic::{Expr, Polynomial, PolynomialOptions};
 use super::Mechanism;
 use crate::vector::Vector;
 
-/// Where a joint stands in its group.
+/// The position of a joint in its group.
 #[derive(Clone, Copy)]
 struct Member {
     group: usize,
     place: usize,
-    /// Whether its axis points against that of the group's first joint.
+    /// Whether its axis is opposite to that of the group's first joint.
     opposite: bool,
 }
 
@@ -53,8 +53,8 @@ impl<'g> Mechanism<'g> {
         groups
     }
 
-    /// Whether a revolute joint turns by minus its coordinate; `None` if it turns by anything but the coordinate, up
-    /// to its sign and a constant, or does not turn.
+    /// Whether a revolute joint turns by the negative of its coordinate, apart from a constant. `None` if it turns by
+    /// neither the coordinate nor its negative, or if it is not revolute.
     fn reversed(&self, index: usize) -> Option<bool> {
         let link = self.links.get(index)?;
         match link.kind {
@@ -68,7 +68,7 @@ impl<'g> Mechanism<'g> {
         })
     }
 
-    /// The next revolute joint towards the base if its axis is parallel, and whether it points the other way.
+    /// The next revolute joint toward the base if its axis is parallel, and whether the two axes are opposite.
     fn parallel_parent(&self, index: usize) -> Option<(usize, bool)> {
         let link = self.links.get(index)?;
         let mut axis = link.axis_in_parent();

@@ -1,4 +1,4 @@
-//! Constant angles next to multiples of π/2.
+//! Snapping of constant angles to multiples of π/2.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -7,8 +7,8 @@ use robot_symbolic::{Formula, Number};
 
 use super::Snap;
 
-/// The multiple of π/2, in quarter turns, that a constant angle is within the tolerance of, and the multiple minus the
-/// angle, rad.
+/// The multiple of π/2, in quarter turns, from which a constant angle differs by at most the tolerance, and the
+/// multiple minus the angle, rad.
 pub(super) fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
     let value = angle.to_f64();
     let quarters = (value / FRAC_PI_2).round();
@@ -20,8 +20,8 @@ pub(super) fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
     Some((quarters as i64, change))
 }
 
-/// The robot in which the constant angles of poses within `tolerance` (rad) of a multiple of π/2 are replaced by
-/// `pi/2` and so on, and the angles that this changes.
+/// The robot with all constant angles of placements within `tolerance` (rad) of a multiple of π/2 replaced by `pi/2`
+/// and so on, and the angles that this changes.
 #[must_use]
 pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
     let mut robot = robot.clone();
@@ -52,7 +52,7 @@ fn place(name: &str, placement: &mut Placement, tolerance: f64, snaps: &mut Vec<
     }
 }
 
-/// `-pi/2`, `3*pi/2`, `2*pi`
+/// The text of a multiple of π/2: `-pi/2`, `3*pi/2`, `2*pi`.
 fn multiple_text(quarters: i64) -> String {
     let sign = if quarters < 0 { "-" } else { "" };
     let (count, below) = match quarters.unsigned_abs() {

@@ -8,8 +8,8 @@ use robot_model::functions::{Effects, FunctionKind};
 use robot_numeric::Mechanism;
 use robot_symbolic::{Graph, Polynomial, PolynomialOptions, walk};
 
-/// Torques of a robot whose first axis is `axis`, from the numeric solver and from the expressions of
-/// the code, and its printed equations.
+/// The torques of a robot whose first joint axis is `axis`, from the numeric solver and from the expressions of the
+/// code, and the robot's printed equations.
 fn of_axis(axis: &str) -> (Vec<f64>, Vec<f64>, String) {
     let body = "mass = 1.0\ncenter_of_mass = [0.1, 0.2, 0.3]\n\
                 inertia = { xx = 0.01, yy = 0.012, zz = 0.013 }\n";

@@ -1,4 +1,4 @@
-//! The regressor's columns of base parameters, times the base parameters: the joint torques with friction.
+//! Checks that the regressor of the base parameters, times the base parameters, gives the joint torques with friction.
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
@@ -18,11 +18,11 @@ fn output<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'
     functions.flat_map(|function| function.outputs).flat_map(|output| output.values).collect()
 }
 
-/// The number of base parameters.
+/// Checks a robot and returns the number of its base parameters.
 fn check(robot: &Robot, name: &str, seed: u64) -> usize {
     let mut robot = robot.clone();
     for link in &mut robot.links {
-        // What grows with the contact force is not linear in the parameters.
+        // Friction that depends on the contact force is not linear in the parameters.
         link.friction.coulomb = Formula::number(&Rational::ZERO);
     }
     let graph = Graph::new();
@@ -58,7 +58,7 @@ fn base_parameters_give_the_joint_torques() {
     }
 }
 
-/// The numbers of arms that are in the literature.
+/// Checks the numbers of base parameters of arms that are known from the literature.
 #[test]
 fn base_parameters_are_as_many_as_known() {
     for (name, count) in [("puma560", 36), ("stanford", 33)] {

@@ -1,4 +1,5 @@
-//! Every form of the torques' derivatives and of the Coriolis matrix, also those that no function takes: under random plans.
+//! Checks every form of the torques' derivatives and of the Coriolis matrix with random plans, including forms that no
+//! function uses.
 
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;

@@ -1,4 +1,4 @@
-//! The energy of what regrouping moves to the base.
+//! The potential energy of inertia that regrouping moves to the base.
 
 use robot_dynamics::economical::{Plan, Recursion};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -8,7 +8,7 @@ use robot_symbolic::Graph;
 use robot_testing::plans::random_plan;
 use robot_testing::read;
 
-/// V = m g z of a post that turns about the vertical: no joint feels it, and it is constant.
+/// V = m g z of a post that turns about the vertical: the energy is constant and affects no joint.
 #[test]
 fn what_no_joint_feels_has_potential_energy() {
     let text = "format = 1\n[robot]\nname = \"a\"\n[[link]]\nname = \"1\"\n\

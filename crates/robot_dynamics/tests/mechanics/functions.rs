@@ -1,4 +1,4 @@
-//! Every function that the numeric solver has, under the default plan and plans drawn at random.
+//! Compares every function that the numeric solver has, with the default plan and with random plans.
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::functions::{Derivation, Output};
@@ -15,13 +15,13 @@ use robot_testing::plans::random_plan;
 use robot_testing::solver::{expected, state};
 use robot_testing::{evaluate, magnitude};
 
-/// All functions but those over base parameters, which are in `base_parameters.rs`.
+/// All functions except those of base parameters, which `base_parameters.rs` tests.
 fn kinds(robot: &Robot) -> impl Iterator<Item = FunctionKind> {
     let over_base = [FunctionKind::RegressorBase, FunctionKind::BaseParameters];
     FunctionKind::of_robot(robot).into_iter().filter(move |kind| !over_base.contains(kind))
 }
 
-/// The outputs that the solver has: of the regressor the columns of the links.
+/// The outputs that the solver can compute; of the regressor, only the columns of the links.
 fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
     let functions = derivation.functions(kind).into_iter();
     let mut outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
@@ -61,7 +61,7 @@ fn functions_agree_with_the_numeric_solver() {
                 }
             };
             hold(&usual, None);
-            // The several ways to the derivatives are compared by the operations, which takes long.
+            // The forms of the derivatives are compared by their operations, which takes long.
             if kind != FunctionKind::InverseDynamicsDerivatives {
                 drawn.iter().for_each(|(derivation, plan)| hold(derivation, Some(plan)));
             }
@@ -69,8 +69,8 @@ fn functions_agree_with_the_numeric_solver() {
     }
 }
 
-/// From nine coordinates on the mass matrix has the form with the fewest operations: of chains about any axes at most
-/// seventeen an entry, and of forty joints fewer than forward dynamics.
+/// From nine coordinates on, the mass matrix has the form with the fewest operations: at most seventeen for each entry
+/// of chains about arbitrary axes, and fewer than forward dynamics for forty joints.
 #[test]
 fn mass_matrices_of_many_joints() {
     let recipes = [
@@ -112,8 +112,9 @@ fn mass_matrices_of_many_joints() {
     }
 }
 
-/// Forward dynamics of long chains takes so many operations a joint, for joints are eliminated one by one: with the mass matrix they
-/// would grow with the third power. Where a coordinate moves two joints that is not possible.
+/// The number of operations of forward dynamics is proportional to the length of a chain, because joints are eliminated
+/// one by one. With the mass matrix, it would grow with the third power. If a coordinate moves two joints, elimination
+/// is not possible.
 #[test]
 fn forward_dynamics_of_many_joints_is_linear_in_them() {
     let cost = |recipe: &Recipe| {
@@ -130,7 +131,8 @@ fn forward_dynamics_of_many_joints_is_linear_in_them() {
     assert!(many < 32 * 700, "{many}");
 }
 
-/// The pivots of M = Lᵀ D L: their product is its determinant, the outermost is the last entry of the diagonal.
+/// The product of the pivots of M = Lᵀ D L is the determinant of M, and the outermost pivot is the last entry of the
+/// diagonal.
 #[test]
 fn pivots_multiply_to_the_determinant() {
     let mut count = 0;
@@ -162,7 +164,8 @@ fn pivots_multiply_to_the_determinant() {
     assert!(count > 60, "{count}");
 }
 
-/// The forms of the torques' derivatives and of the Coriolis matrix differ in their operations: none is another one.
+/// The forms of the torques' derivatives and of the Coriolis matrix differ in their operations, so no form is
+/// redundant.
 #[test]
 fn forms_of_derivatives_differ() {
     let robot = robot_testing::robot("puma560");
@@ -183,7 +186,7 @@ fn forms_of_derivatives_differ() {
     assert_eq!((costs.len(), coriolis.len()), (3, 2), "{costs:?} {coriolis:?}");
 }
 
-/// The lower triangle of a robot of two legs: what couples one with the other is left out.
+/// The lower triangle for a robot with two legs does not contain the entries that couple one leg with the other.
 #[test]
 fn entries_between_branches_are_left_out() {
     let mut robot = robots::robot(&mut Random::new(1), &Recipe::serial(4));

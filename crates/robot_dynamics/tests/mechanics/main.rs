@@ -1,6 +1,6 @@
-//! The mechanics in symbols against the numeric solver, which shares nothing with them: both recursions,
-//! every function and the base parameters, for a few robots of each kind. What the tests of the whole
-//! project hold for hundreds of robots (`tests/solver/recursions.rs` and so on) is held here in seconds.
+//! Compares the symbolic mechanics with the numeric solver, which shares no code with them: both recursions, every
+//! function and the base parameters, for a few robots of each kind. These tests take seconds; the tests of the whole
+//! project make the same comparisons for hundreds of robots (`tests/solver/recursions.rs` and others).
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
 mod axes;
@@ -17,14 +17,14 @@ use robot_numeric::robots;
 
 use robot_testing::with_free_axes;
 
-/// States at which values are held.
+/// The number of states in which values are compared.
 const STATES: usize = 3;
 
-/// How far values may be off, in parts of the largest.
+/// The maximum error of values, relative to the largest value.
 const TOLERANCE: f64 = 1e-11;
 
-/// Robot files, chains, trees with drives, friction, joints that follow and fixed links, robots whose
-/// values are parameters, and robots whose joint axes are: a name and a seed for states with each.
+/// Robots from files, chains, trees with drives, friction, mimic joints and fixed links, robots whose values are
+/// parameters, and robots whose joint axes are parameters, each with a name and a seed for states.
 fn robots() -> Vec<(String, Robot, u64)> {
     let files = ["trttr1", "scara", "stanford", "puma560"];
     let files = files.map(|name| (name.to_owned(), robot_testing::robot(name), 3));

@@ -1,9 +1,10 @@
-//! Groups of parallel joints: which joints, in which direction, after which.
+//! Groups of parallel joints: which joints belong to them, in which direction, and in which order.
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_symbolic::{Graph, print};
 
-/// The groups of a robot of these links, as `q1`, `-q2 after q1`; a joint is `kind axis parent more`.
+/// The groups of a robot with the given joints, written as `q1`, `-q2 after q1`. A joint is given as
+/// `kind axis parent more`.
 fn groups(joints: &[(&str, &str, &str, &str)]) -> Vec<Vec<String>> {
     let mut text = "format = 1\n[robot]\nname = \"arm\"\n".to_owned();
     for (place, (kind, axis, parent, more)) in joints.iter().enumerate() {
@@ -36,10 +37,10 @@ fn joints_with_parallel_axes_are_a_group() {
     let revolute = |axis: &'static str| ("revolute", axis, "", "");
     let chain = [revolute("\"z\""), revolute("\"z\""), revolute("\"z\"")];
     assert_eq!(groups(&chain), [["q1", "q2 after q1", "q3 after q2"]]);
-    // An axis that points back, in its frame or by a joint in between.
+    // An axis in the opposite direction, in its own frame or because of a joint in between.
     let back = [revolute("\"z\""), revolute("[0, 0, -1]"), revolute("\"z\"")];
     assert_eq!(groups(&back), [["q1", "-q2 after q1", "q3 after q2"]]);
-    // A prismatic joint does not turn; another axis ends the group.
+    // A prismatic joint does not turn; a joint with another axis ends the group.
     let sliding = [revolute("\"y\""), ("prismatic", "\"x\"", "", ""), revolute("\"y\"")];
     assert_eq!(groups(&sliding), [["q1", "q3 after q1"]]);
     let two = [revolute("\"y\""), revolute("\"y\""), revolute("\"x\""), revolute("\"x\"")];
@@ -51,10 +52,11 @@ fn joints_with_parallel_axes_are_a_group() {
 #[test]
 fn branches_and_followers_of_a_group() {
     let revolute = |parent: &'static str| ("revolute", "\"z\"", parent, "");
-    // Two joints behind the first.
+    // Two joints follow the first one.
     let tree = [revolute(""), revolute("parent = \"l1\""), revolute("parent = \"l1\"")];
     assert_eq!(groups(&tree), [["q1", "q2 after q1", "q3 after q1"]]);
-    // A follower with a ratio that is neither 1 nor −1 belongs to none; one of ratio −1 turns back, in a group of its own.
+    // A mimic joint with a ratio other than 1 and −1 belongs to no group; one with the ratio −1 turns back, in a
+    // separate group.
     let following = |ratio: &str| {
         let more = format!(", mimic = {{ joint = \"l1\", ratio = {ratio} }}");
         let more: &'static str = Box::leak(more.into_boxed_str());

@@ -1,4 +1,4 @@
-//! The steps of a list as instructions of cranelift.
+//! Translation of the steps of a list to instructions of cranelift.
 
 use cranelift_codegen::cursor::FuncCursor;
 use cranelift_codegen::ir::condcodes::FloatCC;
@@ -7,10 +7,10 @@ use cranelift_codegen::ir::{Endianness, InstBuilder, MemFlagsData, Type, Value};
 
 use crate::list::{Binary, Home, Id, Instruction, List, Step, needed};
 
-/// The bytes of a number.
+/// The size of a number, in bytes.
 const NUMBER: i32 = 8;
 
-/// Steps for which a value that memory has keeps its register; it is read again after.
+/// The number of steps for which a value that is also in memory keeps its register; later uses read it again.
 const KEPT: usize = 24;
 
 /// The arguments of a function.
@@ -19,7 +19,8 @@ pub(super) struct Pointers {
     pub(super) inputs: Value,
     pub(super) outputs: Value,
     pub(super) pool: Value,
-    /// In code for columns the bytes from their start to the state at hand; else inputs and outputs are rows.
+    /// In code for columns, the number of bytes from the start of a column to the current state. If `None`, inputs and
+    /// outputs are rows.
     pub(super) state: Option<Value>,
 }
 
@@ -27,16 +28,16 @@ struct Body<'l, 'b, 'f> {
     list: &'l List,
     cursor: &'b mut FuncCursor<'f>,
     pointers: Pointers,
-    /// The type of values, and of their bits.
+    /// The type of values; `integer` is that of their bits.
     float: Type,
     integer: Type,
-    /// For each step its value, and after which step it is read again if memory has it.
+    /// For each step, its value and the last step that may use it; later steps read it again from memory.
     values: Vec<Option<(Value, usize)>>,
-    /// The step at hand.
+    /// The index of the current step.
     position: usize,
 }
 
-/// Appends the steps, of `lanes` numbers: one or two.
+/// Writes the instructions of the list's steps at the cursor; each value has `lanes` numbers, one or two.
 pub(super) fn write(
     list: &List,
     cursor: &mut FuncCursor<'_>,
@@ -67,12 +68,12 @@ pub(super) fn write(
 }
 
 impl Body<'_, '_, '_> {
-    /// Memory that is there, at least aligned as a number is.
+    /// The flags of accesses to memory that exists and is aligned at least as a number.
     fn memory() -> MemFlagsData {
         MemFlagsData::new().with_notrap()
     }
 
-    /// Where an entry of inputs or outputs is.
+    /// Returns the pointer and offset of an entry of the inputs or outputs.
     fn entry(&mut self, pointers: Value, entry: u32) -> (Value, i32) {
         let offset = NUMBER * entry as i32;
         match self.pointers.state {
@@ -115,7 +116,7 @@ impl Body<'_, '_, '_> {
         self.cursor.ins().bitcast(to, flags, value)
     }
 
-    /// An operation on the bits.
+    /// Appends an operation on the bits of values.
     fn on_bits(
         &mut self,
         values: [Value; 2],

@@ -1,4 +1,4 @@
-//! A function for cranelift: its arguments, and the loop over states.
+//! A function of cranelift: its arguments, and the loop over states.
 
 use cranelift_codegen::control::ControlPlane;
 use cranelift_codegen::cursor::{Cursor, FuncCursor};
@@ -13,12 +13,13 @@ use super::body::{self, Pointers};
 use crate::emit::{Addressing, Fault};
 use crate::list::List;
 
-/// What cranelift says.
+/// Converts an error of cranelift.
 fn said(error: impl std::fmt::Display) -> Fault {
     Fault::Encoding(error.to_string())
 }
 
-/// Code for one state, or in a loop for `lanes` states side by side, and the bytes of the stack that it uses.
+/// Makes code for one state, or with a loop over several states, `lanes` at a time; also returns the size of its stack
+/// in bytes.
 pub(crate) fn encode(
     list: &List,
     lanes: usize,
@@ -43,10 +44,10 @@ pub(crate) fn encode(
     Ok((compiled.code_buffer().to_vec(), stack))
 }
 
-/// The processor at hand.
+/// Describes the current processor to cranelift.
 fn processor() -> Result<OwnedTargetIsa, Fault> {
     let is_arm = cfg!(target_arch = "aarch64");
-    // Of every x86-64 with AVX2 and FMA.
+    // Extensions that every x86-64 with AVX2 and FMA has.
     let extensions: &[&str] = if is_arm {
         &[]
     } else {
@@ -63,7 +64,7 @@ fn processor() -> Result<OwnedTargetIsa, Fault> {
     builder.finish(settings::Flags::new(flags)).map_err(said)
 }
 
-/// That of the types in `memory.rs`.
+/// The calling convention of the function types in `memory.rs`.
 fn calling_convention(isa: &OwnedTargetIsa) -> CallConv {
     if cfg!(target_arch = "x86_64") { CallConv::SystemV } else { isa.default_call_conv() }
 }

@@ -1,7 +1,7 @@
-//! Code of 128-bit registers, made by cranelift: for processors that `emit` has no instructions of.
+//! Code with 128-bit registers, made by cranelift, for processors that `emit` does not support.
 //!
-//! A list becomes a function of cranelift step by step, in its order, of `f64` or of two of them side by side. Cranelift
-//! gives registers and puts values aside on the stack, so that the working memory is not used.
+//! A list is translated step by step, in its order, to a function of cranelift on `f64` or on vectors of two. Cranelift
+//! allocates registers and spills values to the stack, so the working memory is not used.
 
 #[cfg(any(target_arch = "aarch64", feature = "cranelift"))]
 mod body;
@@ -11,7 +11,7 @@ mod function;
 #[cfg(any(target_arch = "aarch64", feature = "cranelift"))]
 pub(crate) use self::function::encode;
 
-/// There is no code for registers that no machine of this architecture has.
+/// Returns an error if cranelift is not compiled in; no machine then has registers that need it.
 #[cfg(not(any(target_arch = "aarch64", feature = "cranelift")))]
 pub(crate) fn encode(
     _: &crate::list::List,

@@ -1,14 +1,14 @@
-//! The instructions by the registers that they work on.
+//! The instructions for each kind of registers.
 
 use iced_x86::Code;
 
 use super::{Shape, Vectors};
 use crate::list::Binary;
 
-/// One instruction for each shape: AVX2 on one number and on four, AVX-512 on one, four and eight.
+/// An instruction for each shape: AVX2 on one number and on four, AVX-512 on one, four and eight.
 pub(super) type Codes = [Code; 5];
 
-/// The instruction for a shape.
+/// Returns the instruction for a shape.
 pub(super) fn code(codes: &Codes, shape: Shape) -> Code {
     codes[match (shape.vectors, shape.lanes) {
         (Vectors::Avx2, 1) => 0,
@@ -19,7 +19,7 @@ pub(super) fn code(codes: &Codes, shape: Shape) -> Code {
     }]
 }
 
-/// The instructions on two values.
+/// Returns the instructions of an operation on two values.
 pub(super) fn binary(binary: Binary) -> &'static Codes {
     match binary {
         Binary::Add => &ADD,
@@ -134,7 +134,7 @@ codes! {
         EVEX_Vpsubq_ymm_k1z_ymm_ymmm256b64,
         EVEX_Vpsubq_zmm_k1z_zmm_zmmm512b64,
     ];
-    // AVX-512 compares into other registers: there the sign is spread instead.
+    // AVX-512 compares into mask registers, so the sign is spread instead.
     GREATER_INTEGER: [
         VEX_Vpcmpgtq_xmm_xmm_xmmm128,
         VEX_Vpcmpgtq_ymm_ymm_ymmm256,
@@ -156,7 +156,7 @@ codes! {
         EVEX_Vpsllq_ymm_k1z_ymmm256b64_imm8,
         EVEX_Vpsllq_zmm_k1z_zmmm512b64_imm8,
     ];
-    // For one number it has three operands.
+    // The instruction for one number has three operands.
     SQRT: [
         VEX_Vsqrtsd_xmm_xmm_xmmm64,
         VEX_Vsqrtpd_ymm_ymmm256,
@@ -171,7 +171,7 @@ codes! {
         EVEX_Vmovupd_ymm_k1z_ymmm256,
         EVEX_Vmovupd_zmm_k1z_zmmm512,
     ];
-    // Constants, of which AVX2 has every lane in memory.
+    // Constants; for AVX2, all lanes are in memory.
     SPREAD: [
         VEX_Vmovsd_xmm_m64,
         VEX_Vmovupd_ymm_ymmm256,

@@ -1,4 +1,4 @@
-//! Bytes of single instructions. Code uses no stack: all memory is given to it by pointers.
+//! Encoding of single instructions. The code does not use the stack: it gets pointers to all memory that it uses.
 
 use iced_x86::{Code, Encoder, IcedError, Instruction, MemoryOperand, Register};
 
@@ -6,20 +6,20 @@ use super::codes::{self, Codes, code};
 use super::{Addressing, Shape, Vectors};
 use crate::list::{Binary, Home, WIDE};
 
-/// The arguments of a function, as the ABI of System V has them.
+/// The registers of the arguments of a function in the System V ABI.
 const INPUTS: Register = Register::RDI;
 const OUTPUTS: Register = Register::RSI;
 const POOL: Register = Register::RDX;
 const WORKING: Register = Register::RCX;
 const STATE: Register = Register::R8;
 const END: Register = Register::R9;
-/// For pointers to columns.
+/// The register for pointers to columns.
 const COLUMN: Register = Register::RAX;
 
-/// The bytes of a number.
+/// The size of a number, in bytes.
 const NUMBER: i64 = 8;
 
-/// What an instruction reads beside its registers.
+/// The last operand of an instruction.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Operand {
     Register(u8),
@@ -30,11 +30,11 @@ pub(super) enum Operand {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Memory {
     Home(Home),
-    /// A register that was put aside, at this number of the working memory.
+    /// A spilled value, at this number of the working memory.
     Spill(u32),
 }
 
-/// The forms of a multiply-add, named as the processor does: `first` is replaced by the result.
+/// The forms of a multiply-add, named as for the processor; the result replaces `first`.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Form {
     /// first · third + second
@@ -51,17 +51,17 @@ pub(super) struct Bytes {
     pub(super) length: u64,
     /// The shape of values that are not wide.
     narrow: Shape,
-    /// The shape of the instruction at hand.
+    /// The shape of the current instruction.
     pub(super) shape: Shape,
     pub(super) addressing: Addressing,
-    /// The number at which the rows of constants lie.
+    /// The number in the pool at which the rows of constants start.
     rows: usize,
-    /// The numbers by which the pointers to working memory and constants are moved, so that displacements of one byte
-    /// reach twice as many.
+    /// The numbers by which the pointers to working memory and constants are advanced, so that displacements of one
+    /// byte reach twice as many numbers.
     reach: [i64; 2],
-    /// Where the code of a state begins.
+    /// The offset at which the code of a state starts.
     start: u64,
-    /// The first thing that had no encoding.
+    /// The first error of the encoder.
     error: Option<IcedError>,
 }
 
@@ -82,7 +82,7 @@ impl Bytes {
         }
     }
 
-    /// Moves the pointers of long code.
+    /// Advances the pointers of long code.
     pub(super) fn extend_reach(&mut self) {
         const STEPS: i64 = 128;
         self.reach = [STEPS * self.narrow.lanes as i64, STEPS];
@@ -93,12 +93,12 @@ impl Bytes {
         self.start = self.length;
     }
 
-    /// The numbers of a value.
+    /// The number of numbers in a value.
     pub(super) fn numbers(&self, wide: bool) -> u32 {
         if wide { WIDE as u32 } else { self.narrow.lanes as u32 }
     }
 
-    /// What follows is on values that are wide, or not.
+    /// Sets whether the next instructions are on wide values.
     pub(super) fn widen(&mut self, wide: bool) {
         self.shape.lanes = self.numbers(wide) as usize;
     }
@@ -127,8 +127,8 @@ impl Bytes {
         first + u32::from(register)
     }
 
-    /// The numbers between constants in memory. AVX2 has no instruction that spreads one, so that there
-    /// they fill a register, a wide one in code for one state.
+    /// The distance between constants in memory, in numbers. AVX2 has no operands that spread a number over all lanes,
+    /// so that each constant fills a register there, a wide one in code for one state.
     pub(super) fn constant_numbers(narrow: Shape) -> usize {
         match narrow.vectors {
             Vectors::Avx512 => 1,
@@ -146,7 +146,7 @@ impl Bytes {
         MemoryOperand::new(COLUMN, STATE, NUMBER as u32, 0, 0, false, Register::None)
     }
 
-    /// The address; `spread` where the instruction is to spread one number over its lanes.
+    /// The address of a place; `spread` says that the instruction spreads one number over its lanes.
     fn memory(&mut self, memory: Memory, spread: bool) -> MemoryOperand {
         match memory {
             Memory::Spill(number) => Bytes::at(WORKING, i64::from(number) - self.reach[0], spread),
@@ -166,7 +166,7 @@ impl Bytes {
         }
     }
 
-    /// An operand of an instruction that computes numbers (`arithmetic`) or bits of whole registers.
+    /// The memory operand of an instruction on numbers (`arithmetic`) or on the bits of whole registers.
     fn third(&mut self, memory: Memory, arithmetic: bool) -> MemoryOperand {
         let is_constant = matches!(memory, Memory::Home(Home::Constant(_)));
         let spread = match self.shape.vectors {
@@ -177,27 +177,27 @@ impl Bytes {
         self.memory(memory, spread)
     }
 
-    /// Whether an instruction may read this memory itself.
+    /// Whether an instruction can read this memory as its operand.
     pub(super) fn reads(&self, memory: Memory, arithmetic: bool) -> bool {
         let Shape { vectors, lanes } = self.shape;
         let is_constant = matches!(memory, Memory::Home(Home::Constant(_)));
-        // Masks for one number would read beyond it.
+        // Bit operations on a single number would read beyond it.
         arithmetic || lanes > 1 || vectors == Vectors::Avx512 || is_constant
     }
 
-    /// The encoding of an instruction on these registers and memory.
+    /// Returns the encoding of an instruction on these registers and memory.
     fn encoding(&self, codes: &Codes, registers: [u8; 2], memory: Option<&MemoryOperand>) -> Code {
         code(codes, self.short(registers, memory))
     }
 
-    /// The shape with whose encoding the instruction is short: that of AVX2 has no registers beyond the sixteenth, and
-    /// spreads no numbers of memory.
+    /// Returns the shape whose encoding is shorter. The encoding of AVX2 has only sixteen registers, and cannot spread
+    /// numbers from memory.
     fn short(&self, registers: [u8; 2], memory: Option<&MemoryOperand>) -> Shape {
         let is_short = self.shape.vectors == Vectors::Avx512
             && self.shape.lanes <= WIDE
             && registers.iter().all(|register| *register < 16)
             && memory.is_none_or(|memory| {
-                // The long encoding scales displacements of one byte by what it reads.
+                // The long encoding multiplies displacements of one byte by the size of the operand.
                 let step = NUMBER * self.shape.lanes as i64;
                 let byte = |displacement: i64| i8::try_from(displacement).is_ok();
                 let displacement = memory.displacement;
@@ -268,7 +268,7 @@ impl Bytes {
         let spreads = matches!(memory, Memory::Home(Home::Constant(_)));
         let memory = self.memory(memory, false);
         let code = match self.shape {
-            // Short or not, constants of AVX-512 are spread.
+            // With AVX-512, constants are spread in either encoding.
             shape if spreads && shape.lanes > 1 => code(&codes::SPREAD, shape),
             _ => self.encoding(&codes::LOAD, [to; 2], Some(&memory)),
         };
@@ -280,7 +280,7 @@ impl Bytes {
         self.put(Instruction::with2(code, memory, self.vector(from)));
     }
 
-    /// Puts a register aside.
+    /// Spills a register to working memory.
     pub(super) fn spill(&mut self, slot: u32, from: u8) {
         let memory = self.memory(Memory::Spill(slot), false);
         self.store_to(memory, from);
@@ -294,7 +294,7 @@ impl Bytes {
         self.store_to(memory, from);
     }
 
-    /// The first numbers of two values side by side.
+    /// Puts the first numbers of two values into the lanes of one.
     pub(super) fn pair(&mut self, to: u8, a: u8, b: Operand) {
         let other = if let Operand::Register(b) = b { b } else { 0 };
         let is_long = self.short([to.max(a), other], None).vectors == Vectors::Avx512;
@@ -317,7 +317,7 @@ impl Bytes {
         self.put(instruction);
     }
 
-    /// The first two numbers of two values side by side.
+    /// Puts the first two numbers of two values into the lanes of one.
     pub(super) fn join(&mut self, to: u8, a: u8, b: u8) {
         let [to, a] = [to, a].map(|register| Register::YMM0 + u32::from(register));
         let code = match self.shape.vectors {
@@ -327,7 +327,7 @@ impl Bytes {
         self.put(Instruction::with4(code, to, a, Register::XMM0 + u32::from(b), 1));
     }
 
-    /// The second number of a value.
+    /// Moves the second number of a value to the first lane.
     pub(super) fn second(&mut self, to: u8, a: u8) {
         let [to, a] = [to, a].map(|register| Register::XMM0 + u32::from(register));
         let code = match self.shape.vectors {
@@ -337,7 +337,7 @@ impl Bytes {
         self.put(Instruction::with3(code, to, a, a));
     }
 
-    /// The third and fourth number of a value.
+    /// Moves the third and fourth numbers of a value to the first lanes.
     pub(super) fn upper(&mut self, to: u8, a: u8) {
         let code = match self.shape.vectors {
             Vectors::Avx2 => Code::VEX_Vextractf128_xmmm128_ymm_imm8,
@@ -347,7 +347,7 @@ impl Bytes {
         self.put(Instruction::with3(code, to, a, 1));
     }
 
-    /// Goes on with the next states, back at the start, until all are done.
+    /// Appends the end of the loop, which continues with the next states until all are done.
     pub(super) fn repeat(&mut self) {
         let lanes = self.narrow.lanes as i32;
         self.put(Instruction::with2(Code::Add_rm64_imm8, STATE, lanes));

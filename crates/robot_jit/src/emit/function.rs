@@ -1,4 +1,4 @@
-//! The code of a function: its lists one after the other.
+//! The code of a function, made from its list.
 
 use iced_x86::IcedError;
 use robot_codegen::module::Function;
@@ -9,17 +9,17 @@ use crate::cranelift;
 use crate::list::{List, Missing, Model, Pool, Sines, Writer, lower};
 use crate::processor::Registers;
 
-/// Code with what it needs of memory.
+/// The code of a function, with the sizes of the memory that it uses.
 #[derive(Debug)]
 pub(crate) struct Entry {
     pub(crate) code: Vec<u8>,
-    /// What the pointer to the constants points to.
+    /// The constants, to which the code gets a pointer.
     pub(crate) pool: Vec<u64>,
-    /// The numbers of the working memory.
+    /// The size of the working memory, in numbers.
     pub(crate) working: usize,
-    /// The entries of all inputs: the code reads no others.
+    /// The number of entries of all inputs; the code reads no others.
     pub(crate) inputs: usize,
-    /// The entries of all outputs: the code writes no others.
+    /// The number of entries of all outputs; the code writes no others.
     pub(crate) outputs: usize,
     /// The registers that the machine must have.
     pub(crate) registers: Registers,
@@ -38,13 +38,13 @@ fn inputs(function: &Function) -> usize {
     function.inputs.iter().map(|input| input.symbols.len()).sum()
 }
 
-/// Why there is no code.
+/// A reason why there is no code.
 #[derive(Debug)]
 pub(crate) enum Fault {
     Missing,
-    /// What the encoder says.
+    /// The message of the encoder.
     Encoding(String),
-    /// A function whose code would take more than this of the stack.
+    /// The code of the function would take this many bytes of the stack, which is too many.
     Stack(u32),
 }
 
@@ -60,7 +60,7 @@ impl From<IcedError> for Fault {
     }
 }
 
-/// Code for states side by side, in columns, as many as a register has numbers, until all are done.
+/// Makes code for states in columns; it loops over them, as many at a time as a register has lanes.
 pub(crate) fn emit_lanes(
     function: &Function,
     fields: &[f64],
@@ -69,7 +69,7 @@ pub(crate) fn emit_lanes(
     emit(function, fields, target, Addressing::Columns).map(LanesEntry)
 }
 
-/// Code for one state.
+/// Makes code for one state.
 pub(crate) fn emit_single(
     function: &Function,
     fields: &[f64],
@@ -78,14 +78,14 @@ pub(crate) fn emit_single(
     emit(function, fields, target, Addressing::Row).map(SingleEntry)
 }
 
-/// The most bytes of the stack that code may use: a thread of Rust has 2 MiB.
+/// The most bytes of the stack that code may use; threads of Rust have 2 MiB.
 const MOST_STACK: u32 = 256 << 10;
 
-/// Steps from which on displacements are long.
+/// The number of steps above which code advances its pointers, because displacements are long.
 const LONG: usize = 1000;
 
-/// The bytes of code from which on it takes the time to fetch it: then an order that puts fewer registers aside is
-/// faster than one that waits less. Panda's derivatives of forward dynamics took 530 ns in place of 640.
+/// The size of code, in bytes, above which its time is that of fetching it. An order that spills fewer registers is
+/// then faster than one that waits less: Panda's derivatives of forward dynamics took 530 ns instead of 640 ns.
 const CACHED: usize = 24 << 10;
 
 fn emit(
@@ -131,14 +131,14 @@ fn emit(
     })
 }
 
-/// The code of a list in a better order, and the numbers of working memory that it uses.
+/// Reorders a list and encodes it; returns the code and the size of its working memory, in numbers.
 fn ordered(
     list: &List,
     pool: &Pool,
     shape: Shape,
     addressing: Addressing,
 ) -> Result<(Vec<u8>, u32), IcedError> {
-    // Of 32 registers 24, of 16 twelve: a few are left for operands from memory.
+    // 24 of 32 registers, or 12 of 16: a few are left for operands from memory.
     let registers = shape.vectors.count() / 4 * 3;
     let overlap = if addressing == Addressing::Row { 3 } else { 4 };
     let scheduled = list.scheduled(Model { registers, overlap });
@@ -149,7 +149,7 @@ fn ordered(
     Ok(found)
 }
 
-/// The code of a list, and the numbers of working memory that it uses.
+/// Encodes a list; returns the code and the size of its working memory, in numbers.
 fn encode(
     list: &List,
     pool: &Pool,

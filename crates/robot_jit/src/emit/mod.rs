@@ -1,4 +1,4 @@
-//! Machine code from lists: of x86-64 here, of other processors by cranelift.
+//! Machine code from lists: for x86-64 here, for other processors by cranelift.
 
 mod codes;
 mod encoder;
@@ -8,15 +8,15 @@ mod registers;
 pub(crate) use self::function::{Entry, Fault, LanesEntry, SingleEntry, emit_lanes, emit_single};
 use crate::processor::Registers;
 
-/// What code is made for.
+/// The target of code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Target {
     pub(crate) registers: Registers,
-    /// Whether multiply-adds of sines round once.
+    /// Whether multiply-adds in sines and cosines round once.
     pub(crate) fused: bool,
 }
 
-/// Instructions of x86-64.
+/// The vector instructions of x86-64.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Vectors {
     Avx2,
@@ -24,7 +24,7 @@ pub(crate) enum Vectors {
 }
 
 impl Vectors {
-    /// The instructions on registers, if they are of x86-64 and code is made for them here.
+    /// Returns the instructions for these registers, if they are registers of x86-64 that are supported here.
     fn of(registers: Registers) -> Option<Vectors> {
         match registers {
             Registers::Avx2 => Some(Vectors::Avx2),
@@ -33,7 +33,7 @@ impl Vectors {
         }
     }
 
-    /// How many registers there are.
+    /// The number of registers.
     const fn count(self) -> usize {
         match self {
             Vectors::Avx2 => 16,
@@ -42,18 +42,18 @@ impl Vectors {
     }
 }
 
-/// The instructions, and how many numbers one computes: 1, 4 or 8.
+/// The instructions, and the number of lanes on which each computes: 1, 4 or 8.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {
     pub(crate) vectors: Vectors,
     pub(crate) lanes: usize,
 }
 
-/// Where the entries of inputs and outputs are.
+/// The layout of the entries of inputs and outputs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Addressing {
     /// One after the other.
     Row,
-    /// Each in a column of its own; the columns are given by pointers, and a register has the state.
+    /// Each in a column of its own. The arguments point to pointers to the columns, and a register has the state.
     Columns,
 }

@@ -1,26 +1,26 @@
-//! Which value is in which register.
+//! Register allocation.
 //!
-//! A list has no branches, so that it is known when each value is needed next. Of the values in registers the one
-//! that is needed last makes room (L. A. Belady, "A study of replacement algorithms for a virtual-storage
-//! computer", IBM Systems Journal 5(2), 1966); it is stored unless memory has it already.
+//! A list has no branches, so it is known when each value is needed next. If a register is needed, the value in
+//! registers whose next use is farthest away is removed (L. A. Belady, "A study of replacement algorithms for a
+//! virtual-storage computer", IBM Systems Journal 5(2), 1966); it is stored unless it is in memory already.
 
 use super::encoder::{Bytes, Form, Memory, Operand};
 use crate::list::{Binary, Home, Id, Instruction, List, Step, needed, operands};
 
 const NEVER: u32 = u32::MAX;
 const NOWHERE: u8 = u8::MAX;
-/// Steps within which a value must be done to be given a low register, which short encodings have.
+/// A value whose last use is within this number of steps gets a low register, which has shorter encodings.
 const SOON: u32 = 30;
 
 /// The steps that use each value, in order.
 struct Uses {
     steps: Vec<u32>,
-    /// For each value the next of its steps, and the end of them.
+    /// For each value, the index of its next step in `steps`, and the end of its steps there.
     next: Vec<(u32, u32)>,
 }
 
 impl Uses {
-    /// The uses by steps that something stored depends on, and for each step whether it is one.
+    /// Finds the uses by steps on which a stored value depends, and for each step whether it is one of these.
     fn new(list: &List) -> (Uses, Vec<bool>) {
         let needed = needed(list);
         let mut next = vec![(0, 0); list.steps.len()];
@@ -44,19 +44,19 @@ impl Uses {
         (Uses { steps, next }, needed)
     }
 
-    /// The next step that uses the value.
+    /// The next step that uses a value.
     fn next(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at < end { self.steps[at as usize] } else { NEVER }
     }
 
-    /// The last step that uses the value.
+    /// The last step that uses a value.
     fn last(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at < end { self.steps[end as usize - 1] } else { NEVER }
     }
 
-    /// The one after it.
+    /// The step that uses a value after the next one.
     fn after(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at + 1 < end { self.steps[at as usize + 1] } else { NEVER }
@@ -73,21 +73,21 @@ struct Body<'a> {
     list: &'a List,
     bytes: &'a mut Bytes,
     uses: Uses,
-    /// For each value its register.
+    /// For each value, its register.
     register: Vec<u8>,
-    /// For each value where it was put aside.
+    /// For each value, its place in the working memory if it was spilled.
     slot: Vec<Option<u32>>,
-    /// For each register its value.
+    /// For each register, its value.
     value: Vec<Option<Id>>,
-    /// Places in the working memory that are free, by whether they are for wide values.
+    /// The free places in the working memory: those for other values, and those for wide values.
     free_slots: [Vec<u32>; 2],
-    /// The numbers of the working memory.
+    /// The size of the working memory, in numbers.
     working: u32,
-    /// The step at hand.
+    /// The index of the current step.
     position: u32,
 }
 
-/// Appends the code of a list; the numbers of working memory that it uses.
+/// Appends the code of a list; returns the size of its working memory, in numbers.
 pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
     let (uses, needed) = Uses::new(list);
     let count = list.steps.len();
@@ -134,11 +134,11 @@ impl Body<'_> {
         }
     }
 
-    /// Where a value lies that no register has.
+    /// The place in memory of a value that is not in a register.
     fn memory(&self, value: Id) -> Memory {
         match (self.home(value), self.slot[value.index()]) {
             (Some(home), _) => Memory::Home(home),
-            // A value leaves its register for a slot alone.
+            // A value that was removed from its register has a slot.
             (None, slot) => Memory::Spill(slot.unwrap_or_default()),
         }
     }
@@ -156,7 +156,7 @@ impl Body<'_> {
         self.value[usize::from(register)] = Some(value);
     }
 
-    /// The register whose value is needed last, and when; none of those of `kept`.
+    /// Returns the register whose value has the farthest next use, and this use; registers of `kept` are excluded.
     fn farthest(&self, kept: &[Id]) -> (u8, u32) {
         let mut best = (0, 0);
         for (register, value) in self.value.iter().enumerate() {
@@ -172,7 +172,7 @@ impl Body<'_> {
         best
     }
 
-    /// A register without a value, if there is one: a low one for a value that is done soon.
+    /// Returns a free register, if there is one: a low one for a value whose last use is near.
     fn free(&self, value: Id) -> Option<u8> {
         let mut free = (0..self.value.len()).filter(|register| self.value[*register].is_none());
         let is_soon = self.uses.last(value).saturating_sub(self.position) <= SOON;
@@ -180,7 +180,7 @@ impl Body<'_> {
         register.map(|register| register as u8)
     }
 
-    /// A register without a value; if there is none, one is cleared that holds no value of `kept`.
+    /// Returns a free register. If there is none, clears one, except those with values of `kept`.
     fn vacant(&mut self, value: Id, kept: &[Id]) -> u8 {
         if let Some(register) = self.free(value) {
             return register;
@@ -201,14 +201,14 @@ impl Body<'_> {
         let wide = self.list.wide[value.index()];
         self.free_slots[usize::from(wide)].pop().unwrap_or_else(|| {
             let numbers = self.bytes.numbers(wide);
-            // Aligned, so that no register crosses a cache line.
+            // Aligned, so that no stored register crosses a cache line.
             let slot = self.working.next_multiple_of(numbers);
             self.working = slot + numbers;
             slot
         })
     }
 
-    /// Moves a value as wide as it is, amid an instruction that may be wider or not.
+    /// Appends instructions on a value with its own width, which can differ from that of the current instruction.
     fn for_value(&mut self, value: Id, then: impl FnOnce(&mut Bytes)) {
         let shape = self.bytes.shape;
         self.bytes.widen(self.list.wide[value.index()]);
@@ -222,7 +222,7 @@ impl Body<'_> {
         }
     }
 
-    /// The value in a register.
+    /// Returns the register of a value, after loading it if necessary.
     fn loaded(&mut self, value: Id, kept: &[Id]) -> u8 {
         if let Some(register) = self.held(value) {
             return register;
@@ -234,7 +234,7 @@ impl Body<'_> {
         register
     }
 
-    /// The value in a register, or in memory where that is as good.
+    /// Returns a value as an operand: in a register, or in memory if that is equally fast.
     fn operand(&mut self, value: Id, kept: &[Id], arithmetic: bool) -> Operand {
         if let Some(register) = self.held(value) {
             return Operand::Register(register);
@@ -251,8 +251,8 @@ impl Body<'_> {
         Operand::Register(self.loaded(value, kept))
     }
 
-    /// Takes the registers from values that are not needed after this step; their slots, which are free once it is
-    /// encoded.
+    /// Frees the registers of values that are not needed after this step; returns their slots, which are free after
+    /// the step is encoded.
     fn release(&mut self, values: &[Id]) -> [Option<Freed>; 3] {
         let mut freed = [const { None }; 3];
         for (index, value) in values.iter().enumerate() {
@@ -318,7 +318,7 @@ impl Body<'_> {
         self.free_slot(freed);
     }
 
-    /// The operands of a sum or product so that the second is the one to be read from memory.
+    /// Orders the operands of a sum or product so that the second can be read from memory.
     fn ordered(&self, a: Id, b: Id) -> (Id, Id) {
         let stays = |value| self.is_constant(value) || self.dies(value);
         match (self.held(a), self.held(b)) {
@@ -340,7 +340,7 @@ impl Body<'_> {
         freed
     }
 
-    /// The result replaces one of the three: one that is not needed any more, else a copy of the addend.
+    /// Appends a multiply-add. The result replaces an operand that is no longer needed, or else a copy of the addend.
     fn multiply_add(&mut self, result: Id, a: Id, b: Id, c: Id) -> [Option<Freed>; 3] {
         let (a, b) = self.ordered(a, b);
         let kept = [a, b, c];

@@ -1,5 +1,5 @@
-//! The functions of the runtime in vector instructions: the same operations in the same order, by masks of bits
-//! where the runtime has them.
+//! The functions of the runtime as vector instructions: the same operations in the same order, with bit masks
+//! where the runtime uses them.
 
 use robot_runtime::FUSED;
 use robot_runtime::tanh::TANH_F64;
@@ -14,11 +14,11 @@ use crate::processor::Registers;
 
 const SIGN: u64 = 1 << 63;
 const INFINITE: u64 = f64::INFINITY.to_bits();
-/// The bits of the fraction, without those of exponent and sign.
+/// The number of bits of the fraction, without those of the exponent and the sign.
 const FRACTION: u8 = 52;
 
 impl Writer<'_> {
-    /// A function of a value; not sine or cosine, which come in pairs.
+    /// Appends a function of a value, except sine and cosine, which are computed in pairs.
     pub(super) fn call(&mut self, function: Function, x: Id) -> Id {
         match function {
             Function::Sin => self.sin_cos(x).0,
@@ -41,7 +41,7 @@ impl Writer<'_> {
         self.binary(And, x, mask)
     }
 
-    /// All bits where the sign is set.
+    /// Sets all bits in lanes with the sign bit set, none in others.
     fn spread_sign(&mut self, x: Id) -> Id {
         match self.registers {
             Registers::Avx2 => {
@@ -58,7 +58,7 @@ impl Writer<'_> {
         self.binary(Add, product, c)
     }
 
-    /// a b + c as the runtime of this build has it: its hyperbolic tangent is fused where the target is.
+    /// a b + c as in the runtime of this build, whose hyperbolic tangent is fused if the target fuses.
     fn as_built(&mut self, a: Id, b: Id, c: Id) -> Id {
         match FUSED {
             true => self.value(Instruction::MulAdd(a, b, c)),
@@ -66,7 +66,7 @@ impl Writer<'_> {
         }
     }
 
-    /// a b + c of sines and cosines.
+    /// a b + c as in sines and cosines.
     fn multiply_add(&mut self, a: Id, b: Id, c: Id) -> Id {
         match self.fused {
             true => self.value(Instruction::MulAdd(a, b, c)),
@@ -105,7 +105,7 @@ impl Writer<'_> {
         self.turned(shifted, sine, cosine)
     }
 
-    /// x, and NaN where its magnitude is not below the limit.
+    /// x, or NaN in lanes in which its magnitude is not below the limit.
     fn nan_unless_below(&mut self, x: Id, limit: f64) -> Id {
         let magnitude = self.abs(x);
         let offset = self.bits(SIGN - limit.to_bits());
@@ -114,7 +114,7 @@ impl Writer<'_> {
         self.binary(Or, beyond, x)
     }
 
-    /// The polynomial in Estrin's order.
+    /// A polynomial in Estrin's order.
     fn polynomial(&mut self, c: &[f64; 6], z: Id, z2: Id) -> Id {
         let [low, middle, high] = [0, 2, 4].map(|at| {
             let (low, high) = (self.number(c[at]), self.number(c[at + 1]));
@@ -124,7 +124,7 @@ impl Writer<'_> {
         self.multiply_add(upper, z2, low)
     }
 
-    /// Sine and cosine of r + k·π/2 from those of r; the low bits of `k` are those of k.
+    /// Sine and cosine of r + k·π/2 from those of r; the low bits of the value `k` are those of the integer k.
     fn turned(&mut self, k: Id, sine: Id, cosine: Id) -> (Id, Id) {
         let sign = self.bits(SIGN);
         let odd = self.value(Instruction::ShiftLeft(k, 63));
@@ -148,7 +148,7 @@ impl Writer<'_> {
         let (zero, infinite) = (self.bits(0), self.bits(INFINITE));
         let signed = self.binary(And, x, sign);
         let unit = self.binary(Or, signed, one);
-        // The sign of either difference of integers, as neither magnitude has its sign set.
+        // The sign of each integer difference says which is larger, because magnitudes do not have the sign bit set.
         let magnitude = self.abs(x);
         let not_zero = self.binary(SubInteger, zero, magnitude);
         let not_zero = self.spread_sign(not_zero);
@@ -188,7 +188,7 @@ impl Writer<'_> {
             r = self.as_built(n, part, r);
         }
         let mut coefficients = numbers.exponential.iter();
-        // 0 · r + c is c, and NaN if r is, which all that follows keeps.
+        // The first step 0 · r + c would be c, or NaN if r is, and later steps also give NaN then.
         let mut e = self.number(coefficients.next().copied().unwrap_or_default());
         for coefficient in coefficients {
             let coefficient = self.number(*coefficient);

@@ -1,4 +1,4 @@
-//! Lists from programs.
+//! Translation of programs to lists.
 
 use robot_codegen::module::Function;
 use robot_codegen::program::{Operation, Program, Source};
@@ -7,16 +7,16 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::{Binary, Home, Id, Instruction, WIDE, Writer};
 
-/// How the sines and cosines of the angles of a function are computed.
+/// The way in which the sines and cosines of a function's angles are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Sines {
-    /// Each before it is first used.
+    /// Each by itself, before it is first used.
     Single,
-    /// At the start, several side by side in wide values.
+    /// At the start, several at a time in wide values.
     SideBySide,
 }
 
-/// Something that a program loads and does not exist.
+/// The program loads a value that does not exist.
 #[derive(Debug)]
 pub(crate) struct Missing;
 
@@ -32,7 +32,7 @@ struct Lowering<'w, 'p, 'f> {
     calls: FxHashMap<Id, (Id, Id)>,
 }
 
-/// Appends a function.
+/// Appends the steps of a function.
 pub(crate) fn lower(
     writer: &mut Writer<'_>,
     function: &Function,
@@ -60,7 +60,7 @@ pub(crate) fn lower(
     };
     results.sort_unstable();
     let mut results = results.into_iter().peekable();
-    // Stored as soon as they are known.
+    // Results are stored as soon as they are known.
     lowering.values(&function.core, |writer, position, value| {
         while let Some((_, entry)) = results.next_if(|(result, _)| *result == position) {
             writer.store(value, entry);
@@ -70,7 +70,7 @@ pub(crate) fn lower(
 }
 
 impl Lowering<'_, '_, '_> {
-    /// Rows of outputs that are constants, by their first entries.
+    /// Finds rows of neighboring outputs that are constants; each has the index of its first entry.
     fn constant_rows(&self) -> Vec<(u32, [u64; WIDE])> {
         let results = self.function.core.results().iter();
         let bits: Vec<Option<u64>> = results
@@ -99,7 +99,7 @@ impl Lowering<'_, '_, '_> {
         rows
     }
 
-    /// Positions of values and the entries that they are, but for those of rows.
+    /// The positions of results with the entries of the outputs that they are, except entries in rows.
     fn results(&self, rows: &[(u32, [u64; WIDE])]) -> Vec<(usize, u32)> {
         let of_rows: FxHashSet<u32> =
             rows.iter().flat_map(|(entry, _)| *entry..entry + WIDE as u32).collect();
@@ -108,7 +108,7 @@ impl Lowering<'_, '_, '_> {
         results.map(|(value, entry)| (value.index(), entry)).collect()
     }
 
-    /// The values of a program; `then` is called after each with its position.
+    /// Appends the values of a program; `then` is called after each with its position.
     fn values(
         &mut self,
         program: &Program,
@@ -149,7 +149,7 @@ impl Lowering<'_, '_, '_> {
 
     fn load(&mut self, source: Source) -> Result<Id, Missing> {
         Ok(match source {
-            // The interpreter gives the same: functions load fields.
+            // Does not occur, because functions load fields instead; the interpreter also returns NaN.
             Source::Parameter(_) => self.writer.number(f64::NAN),
             Source::Field(index) => {
                 let value = *self.fields.get(index as usize).ok_or(Missing)?;
@@ -171,7 +171,7 @@ impl Lowering<'_, '_, '_> {
         pair
     }
 
-    /// Sine and cosine of an angle of the function.
+    /// Returns the sine and cosine of an angle of the function.
     fn angle(&mut self, index: u32) -> Result<(Id, Id), Missing> {
         let known = self.pairs.get(index as usize).ok_or(Missing)?;
         if let Some(pair) = known {

@@ -1,7 +1,7 @@
-//! Lists of vector instructions on values, before these have registers.
+//! Lists of vector instructions on values, before registers are allocated.
 //!
-//! All is one kind of value: a vector register, of which code for one state uses the first lane. A function of a
-//! program is a few instructions of the list, so that registers are given to sines as to sums.
+//! All values are of one kind: a vector register, of which code for one state uses the first lane. A function call in a
+//! program becomes a few instructions of the list, so that registers are allocated for sines as for sums.
 
 mod functions;
 mod lower;
@@ -30,32 +30,32 @@ impl Id {
     }
 }
 
-/// A place in memory that values are read from.
+/// A place in memory from which values are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Home {
     /// A constant of the pool, the same in all lanes.
     Constant(u32),
     /// A row of different constants of the pool, for a wide value.
     Row(u32),
-    /// An entry of the inputs; of a wide value the first.
+    /// An entry of the inputs; for a wide value, the first entry.
     Input(u32),
 }
 
-/// Instructions on two values; of the floating-point numbers, of their bits, or of these as integers.
+/// Instructions on two values: on floating-point numbers, on their bits, or on these as integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Binary {
     Add,
     Sub,
     Mul,
     Div,
-    /// The first if it is less than the second, else the second: this one too if either is NaN.
+    /// The first if it is less than the second, otherwise the second, also if either is NaN.
     Min,
     And,
     Or,
     Xor,
     AddInteger,
     SubInteger,
-    /// All bits where the first is greater as a signed integer.
+    /// All bits in lanes in which the first is greater as a signed integer, otherwise none.
     GreaterInteger,
 }
 
@@ -65,7 +65,7 @@ impl Binary {
         matches!(self, Add | Mul | And | Or | Xor | AddInteger)
     }
 
-    /// Whether the instruction for one state reads one number of memory, and not all lanes of a register.
+    /// Whether the instruction for one state reads a single number from memory, not all lanes of a register.
     pub(crate) fn is_arithmetic(self) -> bool {
         use Binary::*;
         matches!(self, Add | Sub | Mul | Div | Min)
@@ -75,24 +75,24 @@ impl Binary {
 /// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Instruction {
-    /// A value that is in memory, to be read where it is used.
+    /// A value that is in memory and is read where it is used.
     Home(Home),
     Binary(Binary, Id, Id),
     /// Square root.
     Sqrt(Id),
-    /// The bits moved up.
+    /// The bits shifted to the left.
     ShiftLeft(Id, u8),
-    /// The sign in all bits; AVX2 has it not.
+    /// The sign bit in all bits; AVX2 does not have this instruction.
     SpreadSign(Id),
     /// a b + c, rounded once.
     MulAdd(Id, Id, Id),
-    /// The first numbers of two values, side by side.
+    /// The first numbers of two values, in the lanes of one.
     Pair(Id, Id),
-    /// The first two numbers of two values, side by side.
+    /// The first two numbers of two values, in the lanes of one.
     Join(Id, Id),
     /// The second number of a value, as the first.
     Second(Id),
-    /// The third and fourth number of a value, as the first and second.
+    /// The third and fourth numbers of a value, as the first and second.
     Upper(Id),
 }
 
@@ -119,18 +119,18 @@ impl Instruction {
 pub(crate) enum Step {
     /// Computes the value at this position.
     Value(Instruction),
-    /// Stores a value to an entry of the outputs, a wide one to it and the next ones; the position has none.
+    /// Stores a value in an entry of the outputs, or a wide value in it and the next entries. This step has no value.
     Store(Id, u32),
 }
 
-/// The numbers of a wide value.
+/// The number of numbers in a wide value.
 pub(crate) const WIDE: usize = 4;
 
 /// Instructions in their order.
 #[derive(Debug, Default)]
 pub(crate) struct List {
     pub(crate) steps: Vec<Step>,
-    /// Whether the value of each step is wide: in code for one state, several numbers side by side.
+    /// For each step, whether its value is wide: in code for one state, several numbers in lanes.
     pub(crate) wide: Vec<bool>,
     homes: FxHashMap<(Home, bool), Id>,
 }
@@ -161,7 +161,7 @@ impl Pool {
         index
     }
 
-    /// A row of constants.
+    /// Adds a row of constants and returns its index.
     pub(crate) fn row(&mut self, row: [u64; WIDE]) -> u32 {
         let known = self.rows.iter().position(|known| *known == row);
         let index = known.unwrap_or(self.rows.len());
@@ -171,26 +171,26 @@ impl Pool {
         index as u32
     }
 
-    /// How many constants there are beside the rows.
+    /// The number of constants, without the rows.
     pub(crate) fn count(&self) -> usize {
         self.bits.len()
     }
 
-    /// Each constant so many times, one after the other, and the rows.
+    /// The contents of the pool: each constant repeated `times` times, followed by the rows.
     pub(crate) fn spread(&self, times: usize) -> Vec<u64> {
         let constants = self.bits.iter().flat_map(|bits| std::iter::repeat_n(*bits, times));
         constants.chain(self.rows.iter().flatten().copied()).collect()
     }
 }
 
-/// A list under construction: its constants, and what it is for.
+/// A list under construction, with its constants and its target.
 pub(crate) struct Writer<'p> {
     pub(crate) list: List,
     pub(crate) pool: &'p mut Pool,
     pub(crate) registers: Registers,
-    /// Whether multiply-adds of sines round once.
+    /// Whether multiply-adds in sines and cosines round once.
     pub(crate) fused: bool,
-    /// Whether values are wide.
+    /// Whether the next values are wide.
     wide: bool,
 }
 
@@ -207,7 +207,7 @@ impl<'p> Writer<'p> {
         self.list.push(Step::Store(value, entry), self.wide);
     }
 
-    /// Stores constants to neighboring entries.
+    /// Stores constants in neighboring entries.
     fn store_row(&mut self, entry: u32, row: [u64; WIDE]) {
         self.wide = true;
         let row = Home::Row(self.pool.row(row));

@@ -1,4 +1,4 @@
-//! The order of the steps of a list. Not a bit changes.
+//! The order of the steps of a list, which does not affect the bits of results.
 
 use super::{Id, Instruction, List, Step};
 
@@ -30,7 +30,7 @@ pub(crate) fn operands(step: Step) -> impl Iterator<Item = Id> {
     found.into_iter().take(count)
 }
 
-/// For each step whether something stored depends on it.
+/// For each step, whether a stored value depends on it.
 pub(crate) fn needed(list: &List) -> Vec<bool> {
     let mut needed = vec![false; list.steps.len()];
     for (position, step) in list.steps.iter().enumerate().rev() {
@@ -43,17 +43,17 @@ pub(crate) fn needed(list: &List) -> Vec<bool> {
 }
 
 impl List {
-    /// Whether a value is in memory, so that it needs no register before it is used.
+    /// Whether a value is in memory, so that it does not need a register before it is used.
     pub(super) fn is_home(&self, value: Id) -> bool {
         matches!(self.steps[value.index()], Step::Value(Instruction::Home(_)))
     }
 
-    /// The steps at these positions, each after its operands.
+    /// Returns the list of the steps at these positions, which must be ordered so that each is after its operands.
     pub(super) fn in_order(&self, order: &[usize]) -> List {
         let mut moved = vec![None; self.steps.len()];
         let mut list = List::default();
         for position in order {
-            // Operands come before, so that all are there.
+            // Operands come first, so that all have been moved.
             let at = |id: Id| moved[id.index()].unwrap_or(id);
             let step = match self.steps[*position] {
                 Step::Store(value, entry) => Step::Store(at(value), entry),
@@ -64,8 +64,9 @@ impl List {
         list
     }
 
-    /// Depth first from what is stored, of operands first the one that needs more registers (R. Sethi and J. D. Ullman,
-    /// "The generation of optimal code for arithmetic expressions", J. ACM 17(4), 1970), so that values live briefly.
+    /// Orders the steps depth first from the stores, so that values are alive for a short time. Of the operands, the
+    /// one that needs more registers comes first (R. Sethi and J. D. Ullman, "The generation of optimal code for
+    /// arithmetic expressions", J. ACM 17(4), 1970).
     pub(crate) fn depth_first(&self) -> List {
         let registers = self.registers();
         let mut done = vec![false; self.steps.len()];
@@ -81,7 +82,7 @@ impl List {
                     pending.extend(missing.filter(|operand| !done[*operand]));
                 }
                 if pending.len() > waiting {
-                    // The last goes first.
+                    // The last of `pending` is taken first.
                     pending[waiting..].sort_by_key(|operand| registers[*operand]);
                 } else {
                     pending.pop();
@@ -95,7 +96,7 @@ impl List {
         self.in_order(&order)
     }
 
-    /// The registers that each value needs if nothing were shared.
+    /// Returns the number of registers that each value would need if no values were shared.
     fn registers(&self) -> Vec<u32> {
         let mut registers: Vec<u32> = Vec::with_capacity(self.steps.len());
         for (position, step) in self.steps.iter().enumerate() {

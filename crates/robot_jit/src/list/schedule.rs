@@ -1,27 +1,27 @@
 //! List scheduling (R. L. Graham, "Bounds on multiprocessing timing anomalies", SIAM J. Appl. Math. 17(2), 1969): the
 //! order in which a simple processor would start the steps.
 //!
-//! A processor looks a few hundred instructions ahead. Here the step whose results are waited for longest starts first,
-//! sines among the rest, and so does, while more values than registers are alive, one that ends the lives of others.
-//! The model starts two products, two sums and four other steps a cycle. Latencies are those of Zen 4 and Zen 5 divided
-//! by a number: calls, and even more so the states of lanes, overlap with the next ones, so that waiting costs less
-//! than it takes.
+//! A processor looks only a few hundred instructions ahead. Here, the step for which results wait longest starts first,
+//! including the steps of sines; while more values are alive than there are registers, steps that end the lives of
+//! others start first. The model starts two products, two sums and four other steps in each cycle. Latencies are those
+//! of Zen 4 and Zen 5, divided by a number, because calls, and even more the states of lanes, overlap with the next
+//! ones.
 
 use std::cmp::Reverse;
 
 use super::order::{needed, operands};
 use super::{Binary, Id, Instruction, List, Step};
 
-/// What starts a step: the units for products, for sums, and for all else.
+/// The number of units that start steps: for products, for sums, and for all others.
 const UNITS: [u8; 3] = [2, 2, 4];
 const PRODUCTS: usize = 0;
 const SUMS: usize = 1;
 const OTHERS: usize = 2;
 
-/// How many steps of each unit are looked at for one that ends lives: the time to compile goes with them.
+/// The number of steps of each unit among which one that ends lives is searched. The time to compile grows with it.
 const LOOKED_AT: usize = 48;
 
-/// Cycles until the result is there, and the unit.
+/// The cycles until the result of a step is known, and its unit.
 fn cost(step: Step) -> (u32, usize) {
     let Step::Value(instruction) = step else { return (1, OTHERS) };
     match instruction {
@@ -35,26 +35,27 @@ fn cost(step: Step) -> (u32, usize) {
     }
 }
 
-/// How a list is scheduled.
+/// The model of a processor for scheduling.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Model {
-    /// Values alive, from which on those that end lives go first.
+    /// The number of live values from which on steps that end lives go first.
     pub(crate) registers: usize,
-    /// What latencies are divided by.
+    /// The number by which latencies are divided.
     pub(crate) overlap: u32,
 }
 
-/// A step by the cycles that are waited for it, the one waited for longest being the greatest, and then the first.
+/// A step that is ready. Steps are ordered by the cycles for which results wait for them; among equals, the earlier
+/// step is greater.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Ready {
     height: u32,
     position: Reverse<u32>,
 }
 
-/// No operand.
+/// Stands for no operand.
 const NONE: u32 = u32::MAX;
 
-/// More cycles than any step takes.
+/// A number of cycles larger than the latency of any step.
 const CYCLES: usize = 32;
 
 struct Scheduler<'l> {
@@ -62,34 +63,34 @@ struct Scheduler<'l> {
     model: Model,
     /// Cycles from the start of each step to the last store that waits for it.
     height: Vec<u32>,
-    /// The operands of each step that are computed, and then `NONE`.
+    /// For each step, its computed operands, followed by `NONE`.
     operands: Vec<[u32; 3]>,
-    /// The steps that use values, each once, value by value.
+    /// The users of all values, value by value; each user occurs once for a value.
     users: Vec<u32>,
-    /// For each value where its users begin, and at last where they end.
+    /// For each value, the index of its first user in `users`; the last entry is the end of all users.
     first_user: Vec<u32>,
-    /// For each step, the operands that have not started.
+    /// For each step, the number of operands that have not started.
     missing: Vec<u32>,
-    /// For each value, the steps that still need it.
+    /// For each value, the number of steps that still need it.
     uses: Vec<u32>,
-    /// The values whose lives each step would end now, less the one that it begins.
+    /// For each step, the number of values whose lives it would end now, minus one if it starts a value.
     ended: Vec<i8>,
-    /// The cycle in which the operands of each step are there.
+    /// For each step, the cycle in which its operands are known.
     start: Vec<u32>,
-    /// For each unit the steps whose operands are there, in order.
+    /// For each unit, the steps whose operands are known, in order.
     ready: [Vec<Ready>; 3],
-    /// Steps whose operands have started, by the last digits of the cycle in which they are there.
+    /// Steps whose operands have started, by the cycle in which the operands are known, modulo `CYCLES`.
     waiting: [Vec<u32>; CYCLES],
     now: u32,
     alive: usize,
     order: Vec<usize>,
     is_started: Vec<bool>,
-    /// How many steps have not started.
+    /// The number of steps that have not started.
     left: usize,
 }
 
 impl List {
-    /// The steps as a processor would start them.
+    /// Orders the steps as a processor would start them.
     pub(crate) fn scheduled(&self, model: Model) -> List {
         let mut scheduler = Scheduler::new(self, model);
         while scheduler.left > 0 {
@@ -151,7 +152,7 @@ impl<'l> Scheduler<'l> {
         scheduler
     }
 
-    /// Fills in the users, of the steps in their order.
+    /// Fills in the users of all values, in the order of the steps.
     fn find_users(&mut self, steps: impl Iterator<Item = usize>) {
         let mut end = 0;
         for (first, uses) in self.first_user.iter_mut().zip(&self.uses) {
@@ -171,7 +172,7 @@ impl<'l> Scheduler<'l> {
         }
     }
 
-    /// The operands of a step that are computed.
+    /// The computed operands of a step.
     fn computed(&self, position: usize) -> impl Iterator<Item = usize> + use<> {
         let operands = self.operands[position].into_iter();
         operands.take_while(|operand| *operand != NONE).map(|operand| operand as usize)
@@ -181,7 +182,7 @@ impl<'l> Scheduler<'l> {
         cost(step).0.div_ceil(self.model.overlap)
     }
 
-    /// Starts what can start in a cycle.
+    /// Starts the steps that can start in one cycle.
     fn cycle(&mut self) {
         let slot = self.now as usize % CYCLES;
         let mut due = std::mem::take(&mut self.waiting[slot]);
@@ -195,7 +196,7 @@ impl<'l> Scheduler<'l> {
         self.now += 1;
     }
 
-    /// The step to start next, if a unit is free for one.
+    /// Returns the step to start next, if a unit is free for one.
     fn next(&self, units: [u8; 3]) -> Option<usize> {
         let free = || self.ready.iter().zip(units).filter(|(_, free)| *free > 0);
         let first = free().filter_map(|(ready, _)| ready.last()).max()?;
@@ -208,7 +209,7 @@ impl<'l> Scheduler<'l> {
         best.map(|ready| ready.position.0 as usize)
     }
 
-    /// The unit of a step, and its place among those that are ready.
+    /// The unit of a step, and its rank among the ready steps.
     fn place(&self, position: usize) -> (usize, Ready) {
         let unit = cost(self.list.steps[position]).1;
         (unit, Ready { height: self.height[position], position: Reverse(position as u32) })
@@ -235,7 +236,7 @@ impl<'l> Scheduler<'l> {
         for value in self.computed(position) {
             self.uses[value] -= 1;
             if self.uses[value] == 1 {
-                // One step is left that needs it, and would end its life.
+                // Only one remaining step needs the value, and would end its life.
                 let users =
                     self.users[self.range_of_users(value)].iter().map(|user| *user as usize);
                 let last = users.into_iter().find(|user| !self.is_started[*user]);

@@ -1,9 +1,10 @@
-//! Sines and cosines of the angles of one state, several in a wide value.
+//! Sines and cosines of the angles of one state, several at a time in a wide value.
 
 use super::{Home, Id, Instruction, Step, WIDE, Writer};
 
 impl Writer<'_> {
-    /// Sines and cosines of angles, in their order; a function has so many entries of inputs.
+    /// Appends the sines and cosines of angles, in their order. `inputs` is the number of entries of the function's
+    /// inputs.
     pub(super) fn side_by_side(&mut self, angles: &[Id], inputs: u32) -> Vec<(Id, Id)> {
         let mut pairs = vec![];
         for chunk in angles.chunks(WIDE) {
@@ -22,10 +23,11 @@ impl Writer<'_> {
         pairs
     }
 
-    /// A wide value that has some values side by side, and the place of the first.
+    /// Appends a wide value that contains these values in consecutive lanes; returns it and the lane of the first.
     fn packed(&mut self, values: &[Id], inputs: u32) -> (Id, usize) {
         if let Some(first) = self.neighbors(values).filter(|_| inputs >= WIDE as u32) {
-            // A window of the inputs that has them: it may begin before the first, never end behind the last input.
+            // Load a window of the inputs that contains them. It can start before the first, but must not end after the
+            // last input.
             let start = first.min(inputs - WIDE as u32);
             self.wide = true;
             let packed = self.home(Home::Input(start));
@@ -35,7 +37,7 @@ impl Writer<'_> {
         self.wide = true;
         let mut pairs = values.chunks(2).map(|pair| match *pair {
             [a, b] => self.value(Instruction::Pair(a, b)),
-            // A number next to itself: what is computed of it is not used.
+            // The number is repeated; the results of the second lane are not used.
             _ => self.value(Instruction::Pair(pair[0], pair[0])),
         });
         let (lower, upper) = (pairs.next(), pairs.next());
@@ -48,7 +50,7 @@ impl Writer<'_> {
         (packed, 0)
     }
 
-    /// The first entry of the inputs, if values are entries one after the other.
+    /// Returns the first entry of the inputs, if the values are consecutive entries.
     fn neighbors(&self, values: &[Id]) -> Option<u32> {
         let entry = |value: Id| match self.list.steps[value.index()] {
             Step::Value(Instruction::Home(Home::Input(entry))) => Some(entry),
@@ -59,14 +61,14 @@ impl Writer<'_> {
         values.iter().all(|value| entry(*value) == expected.next()).then_some(first)
     }
 
-    /// The numbers of a wide value; those that nothing uses cost nothing.
+    /// Splits a wide value into its numbers; unused ones cost nothing.
     fn lanes(&mut self, value: Id) -> [Id; WIDE] {
         self.wide = true;
         let upper = self.value(Instruction::Upper(value));
         self.wide = false;
         let second = self.value(Instruction::Second(value));
         let fourth = self.value(Instruction::Second(upper));
-        // The first number is where an instruction on one number takes it from.
+        // Instructions on one number read the first lane, so the wide value itself stands for its first number.
         [value, second, upper, fourth]
     }
 }

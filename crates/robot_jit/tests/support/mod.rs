@@ -1,22 +1,22 @@
-//! What the tests share.
+//! Code that the tests share.
 
 #![allow(dead_code)]
 
 use robot_codegen::Callable;
 use robot_jit::{Function, Registers};
 
-/// The registers that this machine has. None on others than x86-64, where there is nothing to compare.
+/// The registers that this machine has. Empty if it has none for which code is made, so that nothing is compared.
 pub(crate) fn registers() -> Vec<Registers> {
     let both = [Registers::Avx2, Registers::Avx512, Registers::Bits128].into_iter();
     both.filter(|registers| registers.check().is_ok()).collect()
 }
 
-/// Equal bits, or both NaN, whose bits differ by the order of operands.
+/// Whether two numbers have equal bits or are both NaN, whose bits depend on the order of operands.
 pub(crate) fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
 
-/// Compares all ways to call a function, at the states that columns have.
+/// Compares all ways to call a function at the states in these columns.
 #[track_caller]
 pub(crate) fn assert_same_function(
     place: &str,
@@ -25,7 +25,7 @@ pub(crate) fn assert_same_function(
     columns: &[Vec<f64>],
     states: usize,
 ) {
-    // A function without inputs has as many states as its outputs.
+    // The number of states of a function without inputs is that of its outputs.
     let inputs: Vec<&[f64]> = columns.iter().map(Vec::as_slice).collect();
     let mut outputs = [(); 2].map(|()| vec![vec![0.0; states]; expected.output_size()]);
     let [ours, theirs] = &mut outputs;

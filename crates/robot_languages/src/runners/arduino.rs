@@ -1,4 +1,4 @@
-//! The library of Arduino: its example as C++ on the processor, and compiled for a Cortex-M4.
+//! The Arduino library: its example is run as C++ on the processor, and compiled for a Cortex-M4.
 
 use std::path::Path;
 
@@ -11,10 +11,10 @@ use super::{Found, Runner};
 use crate::files;
 use crate::work::Work;
 
-/// The example of a library. It compares no bits: check values that are not met are an error.
+/// The runner of the library's example. It does not compare bits: wrong check values are an error.
 pub(super) struct Arduino;
 
-/// What the example takes of Arduino, for any compiler.
+/// The parts of Arduino that the example uses, for any compiler.
 const SHIM: &str = "#include <math.h>
 #include <stdio.h>
 struct {
@@ -44,7 +44,7 @@ impl Runner for Arduino {
         false
     }
 
-    /// Three functions stand for all, whose header other runners compile.
+    /// Runs only three functions, because other runners compile the header with all of them.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         let functions = vec![
             FunctionKind::InverseDynamics(Effects::default()),

@@ -1,4 +1,4 @@
-//! C, by several compilers.
+//! C, with several compilers.
 
 use std::path::Path;
 
@@ -11,11 +11,11 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// A compiler of C.
+/// A C compiler.
 struct C {
     name: &'static str,
     compiler: &'static str,
-    /// The standard, and the processor.
+    /// The options for the standard and the processor.
     options: &'static [&'static str],
     /// The ending of the program's source.
     source: &'static str,
@@ -25,8 +25,8 @@ struct C {
 pub(super) const WARNINGS: [&str; 5] =
     ["-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
 
-/// gcc 12 fuses products with pairs of a sum and a difference even with `-ffp-contract=off`, where it makes vectors of
-/// straight code.
+/// Even with `-ffp-contract=off`, gcc 12 fuses products with pairs of a sum and a difference if it vectorizes
+/// straight-line code.
 const NO_PAIRS: &str = "-fno-tree-slp-vectorize";
 
 /// All compilers.
@@ -79,25 +79,25 @@ impl Runner for C {
     }
 }
 
-/// How a program calls functions with the interface of C.
+/// The way in which a program calls functions through the C interface.
 pub(super) struct Calls {
     /// The ending of the header.
     pub(super) ending: &'static str,
-    /// Lines at the top.
+    /// Lines at the top of the program.
     pub(super) top: &'static str,
     /// The model as an argument of the form over states.
     pub(super) model: &'static str,
-    /// What stands before the call of the form over states.
+    /// The text before the call of the form over states.
     pub(super) before: &'static str,
-    /// Whether a function has that form.
+    /// Whether a function has the form over states.
     pub(super) has_batch: fn(&Function<'_>) -> bool,
 }
 
-/// Calls of C itself.
+/// Calls in C itself.
 pub(super) const C_CALLS: Calls =
     Calls { ending: "h", top: "", model: "&model, ", before: "", has_batch: c::has_batch };
 
-/// A program that reads states, calls every function in both ways and writes the results.
+/// Prints a program that reads states, calls every function in both ways and writes the results.
 pub(super) fn program(work: &Work, tree: &Tree<'_>, way: &Calls) -> String {
     let names = Names::new(&tree.name);
     let real = if work.options.scalar == Scalar::F64 { "double" } else { "float" };
@@ -126,7 +126,7 @@ pub(super) fn program(work: &Work, tree: &Tree<'_>, way: &Calls) -> String {
     text
 }
 
-/// The calls of one function.
+/// Prints the calls of one function.
 fn block(
     tree: &Tree<'_>,
     function: &Function<'_>,
@@ -182,7 +182,7 @@ fn block(
     text
 }
 
-/// The call of the form over states, and the writing of its results.
+/// Prints the call of the form over states, and the writing of its results.
 fn columns(
     tree: &Tree<'_>,
     function: &Function<'_>,

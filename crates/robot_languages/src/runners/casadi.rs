@@ -1,4 +1,4 @@
-//! The external functions of CasADi, by its Python package.
+//! The external functions for CasADi, called through its Python package.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// A shared library of C with the interface of CasADi.
+/// The runner of a shared C library with the interface of CasADi.
 pub(super) struct Casadi;
 
 impl Runner for Casadi {
@@ -29,7 +29,7 @@ impl Runner for Casadi {
         scalar == Scalar::F64
     }
 
-    /// Besides the values, the Jacobians are compared: with differences of the values, and at all states with the functions
+    /// Compares the values and also the Jacobians: with differences of values, and at all states with the functions
     /// that compute them.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         write_package(work, Language::C, folder)?;
@@ -106,7 +106,7 @@ for name, symbol, has_jacobian, count in calls:
             compare(name, function, x, state == 0)
 "#;
 
-/// A program that calls every function at every state and writes the results.
+/// Prints a program that calls every function at every state and writes the results.
 fn program(work: &Work, casadi: &c::Casadi) -> String {
     let mut text = format!(
         "parameters = {:?}\nnominal = {:?}\ncalls = [\n",

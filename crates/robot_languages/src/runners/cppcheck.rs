@@ -1,5 +1,5 @@
-//! cppcheck with its addon of MISRA C:2012 over C. It compares no bits: what it finds beside the documented deviations is
-//! an error.
+//! cppcheck with its addon for MISRA C:2012 on printed C. It does not compare bits: all findings except the documented
+//! deviations are errors.
 
 use std::path::Path;
 
@@ -12,10 +12,10 @@ use super::{Found, Runner};
 use crate::files;
 use crate::work::Work;
 
-/// A checker of C.
+/// The runner of cppcheck.
 pub(super) struct Cppcheck;
 
-/// The rules from which printed C deviates. `docs/users/languages.md` says why.
+/// The rules from which printed C deviates, for reasons given in `docs/users/languages.md`.
 const DEVIATIONS: &[&str] = &["2.2", "2.5", "10.4", "10.8", "12.1", "12.3", "17.7", "21.15"];
 
 impl Runner for Cppcheck {
@@ -36,7 +36,7 @@ impl Runner for Cppcheck {
         false
     }
 
-    /// Three functions stand for all, for cppcheck takes minutes over long ones.
+    /// Checks only three functions, because cppcheck takes minutes for long ones.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         let functions = vec![
             FunctionKind::InverseDynamics(Effects::default()),

@@ -1,4 +1,4 @@
-//! CUDA C++, without a device: run on the processor as C++, and compiled for a device by NVRTC.
+//! CUDA C++ without a device: it is run on the processor as C++, and compiled for a device by NVRTC.
 
 use std::path::Path;
 
@@ -14,10 +14,11 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// The header as C++: words of CUDA are defined away, and a kernel is called for each thread of a grid.
+/// The runner of the header as C++: keywords of CUDA are defined as empty, and a kernel is called for each thread of a
+/// grid.
 pub(super) struct Cuda;
 
-/// Words of CUDA and of its library, for g++.
+/// Definitions of keywords and library functions of CUDA for g++.
 const SHIMS: &str = "#pragma once
 #include <cstdlib>
 #define __host__
@@ -45,7 +46,7 @@ inline cudaError_t cudaDeviceSynchronize() { return cudaSuccess; }
 inline const char *cudaGetErrorString(cudaError_t) { return \"\"; }
 ";
 
-/// Fewer threads than states, so that threads take several, and blocks of different ones.
+/// The loop over a grid with fewer threads than states, so that each thread computes several states, in several blocks.
 const GRID: &str = "for (unsigned thread = 0; gridDim.x = 3, blockDim.x = 7, thread < 21; thread++) \
                     blockIdx.x = thread / 7, threadIdx.x = thread % 7, ";
 
@@ -70,7 +71,7 @@ impl Runner for Cuda {
         true
     }
 
-    /// Without optimization, which takes a fifth of the time; g++ by itself has optimized the same functions.
+    /// Compiles without optimization, which takes a fifth of the time; the runner of g++ optimizes the same functions.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         write_package(work, Language::Cuda, folder)?;
         let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
@@ -103,11 +104,11 @@ impl Runner for Cuda {
     }
 }
 
-/// The header compiled to PTX by NVRTC of its Python package. It compares no bits: a kernel that is missing or a product
-/// that is fused is an error.
+/// The runner that compiles the header to PTX with NVRTC from its Python package. It does not compare bits: missing
+/// kernels and fused products are errors.
 pub(super) struct Nvrtc;
 
-/// Says where the library of the Python package lies.
+/// Finds the library in the Python package.
 const LIBRARY: &str = "import importlib.util, pathlib
 folder = importlib.util.find_spec('nvidia.cuda_nvrtc').submodule_search_locations[0]
 library = next((pathlib.Path(folder) / 'lib').glob('libnvrtc.so*'))
@@ -155,7 +156,7 @@ impl Runner for Nvrtc {
         false
     }
 
-    /// Three functions stand for all, for the compiler takes minutes over long ones.
+    /// Compiles only three functions, because the compiler takes minutes for long ones.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         let functions = vec![
             FunctionKind::InverseDynamics(Effects::default()),

@@ -1,4 +1,4 @@
-//! The tests of packages in C and C++ under options of compilers that change results: each must fail and name the option.
+//! The tests of C and C++ packages with compiler options that change results: each must fail and name the option.
 
 use std::path::Path;
 
@@ -9,20 +9,22 @@ use super::{Found, Runner, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// Compiles tests of packages with good and with bad options. It compares no bits: what it finds is an error.
+/// The runner that compiles tests of packages with good and with bad options. It does not compare bits: its findings
+/// are errors.
 pub(super) struct Flags;
 
-/// Compilers, with their language, its standard and the test's file.
+/// The compilers, with their language, its standard and the file of the test.
 const COMPILERS: [(&str, Language, &str, &str); 3] = [
     ("gcc", Language::C, "-std=c99", "test.c"),
     ("clang", Language::C, "-std=c99", "test.c"),
     ("g++", Language::Cpp, "-std=c++17", "test.cpp"),
 ];
 
-/// As the README says.
+/// The options that the README recommends.
 const GOOD: &[&str] = &["-O2", "-ffp-contract=off"];
 
-/// Options that change results, and what must be named: the first only where the processor has multiply-adds that round once.
+/// Options that change results, with the option that the test must name. The first has an effect only if the processor
+/// has fused multiply-adds.
 const BAD: [(&[&str], &str); 3] = [
     (&["-O2", "-march=native", "-ffp-contract=fast"], "-ffp-contract=off"),
     (
@@ -32,7 +34,7 @@ const BAD: [(&[&str], &str); 3] = [
     (&["-O2", "-ffast-math"], "-ffast-math"),
 ];
 
-/// The robots: one is enough, for the tests are printed alike.
+/// The robot; one is enough, because all tests are printed in the same way.
 const ROBOT: &str = "planar_2r.toml";
 
 impl Runner for Flags {

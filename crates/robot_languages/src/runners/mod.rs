@@ -21,22 +21,22 @@ use crate::work::Work;
 
 /// Runs the functions of a robot in a language.
 pub trait Runner: Sync {
-    /// Its name.
+    /// The name of the runner.
     fn name(&self) -> &'static str;
 
-    /// Why it cannot run here, if so.
+    /// The reason why it cannot run here, if there is one.
     fn missing(&self) -> Option<String>;
 
     /// Whether the language has the number type.
     fn has(&self, scalar: Scalar) -> bool;
 
-    /// Whether the language has sines of a library of its own, and they are compared.
+    /// Whether sines of the language's own library are compared.
     fn has_standard_sines(&self) -> bool {
         true
     }
 
-    /// How far results may be from the interpreter's, in units in the last place of the largest output, if the language
-    /// promises no bits.
+    /// The largest permitted distance of results from those of the interpreter, in units in the last place of the
+    /// largest output, if the language does not promise bits.
     fn bound(&self) -> Option<f64> {
         None
     }
@@ -45,15 +45,15 @@ pub trait Runner: Sync {
     ///
     /// # Errors
     ///
-    /// What a tool says.
+    /// The messages of a tool that failed.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String>;
 }
 
-/// What a runner found in one way of calling.
+/// The results of a runner for one way of calling.
 pub struct Found {
     /// The way: one state after the other, or several at once.
     pub way: &'static str,
-    /// The results of each function, state by state; nothing of those that do not have the way.
+    /// The results of each function, state by state; `None` for functions that cannot be called in this way.
     pub results: Vec<Option<Vec<f64>>>,
 }
 
@@ -76,7 +76,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     runners
 }
 
-/// The results of functions from the bytes that a program wrote.
+/// Reads the results of functions from the bytes that a program wrote.
 fn results(
     work: &Work,
     bytes: &[u8],
@@ -117,7 +117,7 @@ fn write_package(
     files::write(folder, "states.bin", &work.input_bytes())
 }
 
-/// The bytes of a file that a program wrote.
+/// Reads the bytes of a file that a program wrote.
 fn read(folder: &Path, name: &str) -> Result<Vec<u8>, String> {
     std::fs::read(folder.join(name)).map_err(|error| format!("{name}: {error}"))
 }

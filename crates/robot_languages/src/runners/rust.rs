@@ -11,7 +11,7 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// A generated crate, compiled for any processor.
+/// The runner of a generated crate, compiled for any processor.
 pub(super) struct Rust;
 
 impl Runner for Rust {
@@ -30,7 +30,7 @@ impl Runner for Rust {
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         write_package(work, Language::Rust, folder)?;
         files::write(folder, "examples/calls.rs", program(work).as_bytes())?;
-        // A package of its own, whatever folder it lies in.
+        // The package is its own workspace, in any folder.
         let manifest = String::from_utf8_lossy(&read(folder, "Cargo.toml")?).into_owned();
         files::write(folder, "Cargo.toml", (manifest + "\n[workspace]\n").as_bytes())?;
         files::run(folder, "cargo", &["run", "--offline", "--quiet", "--example", "calls"])?;
@@ -39,7 +39,7 @@ impl Runner for Rust {
     }
 }
 
-/// A program that reads states, calls every function and writes the results.
+/// Prints a program that reads states, calls every function and writes the results.
 fn program(work: &Work) -> String {
     let module = &work.programs.module;
     let names = names(&work.programs);

@@ -1,4 +1,4 @@
-//! Languages that need no compiler: Python with and without NumPy, Octave, and JavaScript in node.
+//! Languages without a compiler: Python with and without NumPy, Octave, and JavaScript in Node.js.
 
 use std::path::Path;
 
@@ -11,12 +11,12 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// An interpreter with a program of ours.
+/// The runner of an interpreter, with its program.
 struct Script {
     name: &'static str,
     language: Language,
     interpreter: &'static str,
-    /// Arguments with which the interpreter only says whether all is there.
+    /// Arguments with which the interpreter only shows whether it and its packages are installed.
     probe: &'static [&'static str],
     arguments: &'static [&'static str],
     /// The name of the program's file.
@@ -26,7 +26,7 @@ struct Script {
     ways: &'static [&'static str],
 }
 
-/// All of them.
+/// All these runners.
 pub(super) fn all() -> Vec<Box<dyn Runner>> {
     let scripts = [
         Script {
@@ -106,8 +106,8 @@ impl Runner for Script {
 }
 
 impl Script {
-    /// Once more with sines and cosines of the system's library, which the interpreter takes: then all bits are the same. What
-    /// differs with the sines of the language comes from these alone.
+    /// Runs again with sines and cosines of the system's library, which the interpreter uses; then all bits must be the
+    /// same. So differences in the first run come only from the sines of the language.
     fn run_with_sines_of_the_system(&self, work: &Work, folder: &Path) -> Result<(), String> {
         let angles = read(folder, "angles.bin")?;
         let angles = angles.as_chunks::<8>().0.iter().map(|angle| f64::from_le_bytes(*angle));
@@ -131,8 +131,8 @@ impl Script {
     }
 }
 
-/// For each function, a line that calls a procedure of the script with the function's name, the lengths of its inputs,
-/// those of its outputs, and the number of states.
+/// Prints for each function a line that calls a procedure of the script with the function's name, the lengths of its
+/// inputs and outputs, and the number of states.
 fn lines(work: &Work, tree: &Tree<'_>, line: impl Fn(&str, &str, &str, usize) -> String) -> String {
     let functions = tree.functions.iter().zip(&work.functions);
     let lines = functions.map(|(function, calls)| {
@@ -146,7 +146,7 @@ fn lines(work: &Work, tree: &Tree<'_>, line: impl Fn(&str, &str, &str, usize) ->
     lines.collect()
 }
 
-/// `name: value` for all parameters.
+/// The names and values of all parameters, with a separator such as `: ` between them.
 fn parameters(work: &Work, tree: &Tree<'_>, between: &str) -> Vec<String> {
     let fields = tree.parameters.iter().zip(&work.parameters);
     fields.map(|(field, value)| format!("{field}{between}{value:?}")).collect()
@@ -290,7 +290,7 @@ end
     text
 }
 
-/// Takes sines and cosines from a table if there is one, and else collects the angles.
+/// Code that takes sines and cosines from a table if there is one, and otherwise collects the angles.
 const SINES: &str = "
 const angles = new Set();
 const table = new Map();
@@ -311,7 +311,7 @@ if (fs.existsSync(\"sines.bin\")) {
 }
 ";
 
-/// Writes the angles.
+/// Code that writes the angles.
 const ANGLES: &str =
     "fs.writeFileSync(\"angles.bin\", new Uint8Array(Float64Array.from(angles).buffer));
 ";

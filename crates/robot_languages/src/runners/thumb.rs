@@ -12,7 +12,7 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// A microcontroller.
+/// The runner of the microcontroller.
 pub(super) struct Thumb;
 
 const COMPILER: &str = "arm-none-eabi-gcc";
@@ -21,7 +21,8 @@ const MACHINE: &str = "qemu-system-arm";
 const TARGET: [&str; 5] =
     ["-std=c99", "-mthumb", "-mcpu=cortex-m4", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"];
 
-/// Loops over angles become straight code, over whose constants nothing jumps, and functions that are equal stay apart.
+/// Options with which loops over angles become straight-line code, which does not jump over its constants, and equal
+/// functions are not merged.
 const STRAIGHT: [&str; 10] = [
     "-O2",
     "-ffp-contract=off",
@@ -35,7 +36,7 @@ const STRAIGHT: [&str; 10] = [
     "max-completely-peeled-insns=10000",
 ];
 
-/// Clears memory, enables the floating-point unit, and runs `main`.
+/// Code that clears memory, enables the floating-point unit, and runs `main`.
 const STARTUP: &str = "
 extern unsigned stack_top, bss_begin, bss_end;
 extern void initialise_monitor_handles(void);
@@ -59,7 +60,7 @@ void _fini(void) {}
 __attribute__((section(\".vectors\"), used)) static void *const vectors[] = {&stack_top, (void *)reset};
 ";
 
-/// The memory of qemu's machine mps2-an386: code at 0, data in 16 MB of PSRAM.
+/// The memory of QEMU's machine mps2-an386: code at 0, data in 16 MB of PSRAM.
 const MEMORY: &str = "
 ENTRY(reset)
 MEMORY { CODE : ORIGIN = 0, LENGTH = 4M  DATA : ORIGIN = 0x21000000, LENGTH = 16M }
@@ -117,8 +118,8 @@ impl Runner for Thumb {
     }
 }
 
-/// Compiles each function for itself and reads that its machine code has no call and no branch but the return. Very
-/// long ones call their parts.
+/// Compiles each function separately and checks that its machine code has no calls and no branches except the return.
+/// Very long functions call their parts.
 fn straight(tree: &Tree<'_>, folder: &Path) -> Result<(), String> {
     let names = Names::new(&tree.name);
     let mut text = format!("#include \"{}.h\"\n", tree.name);
@@ -143,7 +144,7 @@ fn straight(tree: &Tree<'_>, folder: &Path) -> Result<(), String> {
     }
 }
 
-/// A function that others can call.
+/// Prints a function with external linkage that calls a printed one.
 fn alone(tree: &Tree<'_>, function: &Function<'_>, names: &Names) -> String {
     let mut parameters = vec![];
     let mut arguments = vec![];
@@ -164,7 +165,7 @@ fn alone(tree: &Tree<'_>, function: &Function<'_>, names: &Names) -> String {
     )
 }
 
-/// The instructions of a listing of objdump that go elsewhere, other than returns.
+/// The instructions in a listing of objdump that jump, except returns.
 fn jumps(listing: &str) -> Vec<String> {
     let is_jump = |line: &&str| {
         let Some(instruction) = line.split('\t').nth(2) else { return false };

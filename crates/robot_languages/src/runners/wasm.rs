@@ -1,4 +1,4 @@
-//! WebAssembly, in node.
+//! WebAssembly in Node.js.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// The package, tested and called in node.
+/// The runner of the package, which is tested and called in Node.js.
 pub(super) struct Wasm;
 
 impl Runner for Wasm {
@@ -48,8 +48,8 @@ impl Runner for Wasm {
     }
 }
 
-/// A program that reads states, calls every function in both ways and writes the results. Columns are read and written
-/// in the module's memory, one state more apart than there are.
+/// Prints a program that reads states, calls every function in both ways and writes the results. Columns are read and
+/// written in the module's memory, and their distance is the number of states plus one.
 fn program(work: &Work) -> String {
     let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
     let tree = wasm::tree(&work.programs.module, &options);

@@ -1,4 +1,4 @@
-//! WGSL: validated by naga, and run on the device that the Python package `wgpu` finds, which may be the processor.
+//! WGSL, validated by naga, and run on the device that the Python package `wgpu` finds, which can be the processor.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
 
-/// The validator of naga's command. It compares no bits: what it finds is an error.
+/// The runner of naga's validator. It does not compare bits: its findings are errors.
 pub(super) struct Naga;
 
 impl Runner for Naga {
@@ -39,17 +39,18 @@ impl Runner for Naga {
     }
 }
 
-/// Kernels on a device, and the test of the package.
+/// The runner of kernels on a device, and of the package's test.
 pub(super) struct Wgsl;
 
-/// How far single precision on a device may be from double precision, in units in the last place of the function's
-/// largest output. The farthest that was seen on lavapipe are the derivatives of forward dynamics of the Panda, 90.5.
+/// The largest permitted distance of single precision on a device from double precision, in units in the last place of
+/// the function's largest output. The largest distance on lavapipe so far was 90.5, for the derivatives of the Panda's
+/// forward dynamics.
 const BOUND: f64 = 128.0;
 
-/// Finds a device.
+/// Code that finds a device.
 const PROBE: &str = "import numpy, wgpu; wgpu.gpu.request_adapter_sync()";
 
-/// Calls every kernel.
+/// Code that calls every kernel.
 const CALLS: &str = "import numpy
 import test
 

@@ -8,7 +8,7 @@ use robot_build::{Errors, Problem, RobotFile, generate, pin_path, read_with};
 
 use crate::arguments::Arguments;
 
-/// The module, or the errors.
+/// Returns the module or the compile errors.
 pub(crate) fn include_robot(input: TokenStream) -> TokenStream {
     let expanded = syn::parse2(input).and_then(|arguments: Arguments| {
         let package = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
@@ -34,11 +34,12 @@ fn expand(arguments: &Arguments, package: &Path) -> syn::Result<TokenStream> {
         let message = format!("{}: the path of the file is not UTF-8; rename it", path.display());
         syn::Error::new(span, message)
     })?;
-    // Makes the compiler watch the file, also if there is something wrong with it.
+    // Makes the compiler track the file, even if it contains errors.
     let mut watch = quote!(
         const _: &[u8] = ::core::include_bytes!(#absolute);
     );
-    // A plan that is not there cannot be watched: `robot-symbolic search` sets the robot file's time.
+    // A plan that does not exist cannot be tracked; `robot-symbolic search` therefore updates the time of the robot
+    // file.
     let pin = pin_path(&file.path);
     if let Some(pin) = pin.to_str().filter(|_| pin.is_file()) {
         watch.extend(quote!(
@@ -63,15 +64,15 @@ fn expand(arguments: &Arguments, package: &Path) -> syn::Result<TokenStream> {
     Ok(tokens)
 }
 
-/// The path as the compiler shows its own: from the folder in which it runs, which for a member of a workspace
-/// is that of the workspace. `None` if the file lies elsewhere.
+/// The path in the form in which the compiler shows paths: relative to the folder in which it runs, which for a member
+/// of a workspace is the folder of the workspace. `None` if the file is elsewhere.
 fn shown(file: &Path, folder: &Path) -> Option<String> {
     let path = file.strip_prefix(folder.canonicalize().ok()?).ok()?;
     path.to_str().map(str::to_owned)
 }
 
-/// An error for each thing that is wrong. The first line says what and where: it is all that lists of problems
-/// and `--message-format short` show.
+/// Returns one error for each problem. The first line contains the problem and its place, because lists of problems and
+/// `--message-format short` show only this line.
 fn failed(span: Span, errors: &Errors) -> syn::Error {
     let problems = errors.problems().into_iter();
     let each = problems.map(|Problem { headline, details }| {

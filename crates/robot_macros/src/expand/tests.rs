@@ -10,7 +10,7 @@ fn expanded(input: TokenStream) -> String {
     tokens.unwrap_or_else(|error| error.to_compile_error()).to_string()
 }
 
-/// An empty folder of a test.
+/// Creates an empty folder for a test.
 fn folder_of(test: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("robot_macros-{}-{test}", std::process::id()));
     let _ = std::fs::remove_dir_all(&folder);
@@ -82,7 +82,7 @@ fn all_wrong_options_are_named() {
 fn what_is_wrong_with_a_file_is_shown_and_the_file_watched() {
     let shown = expanded(quote!("Cargo.toml"));
     assert!(shown.contains("compile_error"), "{shown}");
-    // The first line is all that many tools show.
+    // Many tools show only the first line.
     let message = shown.split("compile_error ! { \"").nth(1).unwrap();
     assert!(message.starts_with("Cargo.toml:1:1: error R"), "{shown}");
     assert!(shown.contains("include_bytes"), "{shown}");
@@ -120,7 +120,7 @@ fn a_plan_is_watched_where_there_is_one() {
     let arguments: Arguments = syn::parse2(quote!("arm.toml")).unwrap();
     let expanded = || expand(&arguments, &folder).unwrap().to_string();
     assert!(!expanded().contains("arm.plan"));
-    // Also one that stops the build, so that a better one is seen.
+    // A plan with an error is tracked too, so that a corrected one is noticed.
     std::fs::write(folder.join("arm.plan"), "garbage").unwrap();
     let shown = expanded();
     assert!(shown.contains("compile_error ! { \"arm.plan: TOML parse error"), "{shown}");

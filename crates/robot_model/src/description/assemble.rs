@@ -1,4 +1,4 @@
-//! The robot from the links in order: fixed links merge into those that carry them.
+//! Builds the robot from its links in order: fixed links are merged into the links that carry them.
 
 use super::draft::{Draft, DraftFrame, DraftLink, DraftPayload, Parent};
 use super::locations::{DroppedBody, FrameLocation, Locations, ParameterLocation};
@@ -8,7 +8,8 @@ use super::placement::without_rests;
 use super::reader::{Named, Reader};
 use crate::robot::{Coordinate, Frame, Joint, JointKind, Link, Parameter, Placement, Robot};
 
-/// The moving link that carries a link of the file, and the link's own frame in the carrier's.
+/// The moving link that carries a link of the file (`None` for the base), and the frame of the link in that of its
+/// carrier.
 #[derive(Clone)]
 struct Carried {
     by: Option<usize>,
@@ -21,7 +22,7 @@ impl Carried {
     }
 }
 
-/// Builds the robot of links whose parents are resolved. Wrong mimics are reported.
+/// Builds the robot from links whose parents are resolved, and reports wrong mimics.
 pub(super) fn robot(
     reader: &mut Reader<'_>,
     draft: Draft,
@@ -84,14 +85,14 @@ fn parent(parent: &Parent, carried: &[Carried]) -> Carried {
     }
 }
 
-/// The relation of a coordinate to a joint.
+/// The motion of a joint: its kind, and its relation to the coordinate that moves it.
 struct Motion {
     kind: JointKind,
     following: Following,
 }
 
-/// Numbers the coordinates in the order of the links. One motion for each link in order; `None`
-/// for a fixed one.
+/// Numbers the coordinates in the order of the links. Returns the motion of each link in this order, `None` for a fixed
+/// link.
 fn coordinates(
     reader: &mut Reader<'_>,
     robot: &mut Robot,
@@ -164,7 +165,7 @@ fn moving(
     Carried { by: Some(index), frame: link.after }
 }
 
-/// A fixed link becomes a body of the link that carries it, and a named frame.
+/// Merges a fixed link into the link that carries it, as a body and a named frame.
 fn fixed(robot: &mut Robot, locations: &mut Locations, link: DraftLink, on: Carried) -> Carried {
     let own = Carried { by: on.by, frame: on.frame.then(&link.before).then(&link.after) };
     if let Some((mut body, place)) = link.body {

@@ -12,7 +12,7 @@ use crate::robot::{Body, Move, Placement};
 const MASS: Quantity = quantity("the mass", 1, 0, 0);
 const CENTER: Quantity = quantity("the center of mass", 0, 1, 0);
 
-/// Reads the body of a link; `None` if the link has no mass, which a moving link must say.
+/// Reads the body of a link; `None` if the link has no mass. A moving link without mass must say so explicitly.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     table: &mut Table<'_>,

@@ -1,4 +1,4 @@
-//! `[[budget]]`: what generated code may cost.
+//! `[[budget]]`: limits on the operations and the stack of generated code.
 
 use super::frames::tables;
 use super::reader::{Named, Reader};
@@ -23,13 +23,13 @@ pub struct Budget {
 /// A limit with its place in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Limit {
-    /// The limit.
+    /// The value of the limit.
     pub value: u64,
-    /// Its place.
+    /// Its place in the file.
     pub place: Span,
 }
 
-/// Reads every `[[budget]]`; those of bundles name one of the file.
+/// Reads every `[[budget]]`. A budget of a bundle must name one of `bundles`.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     root: &mut Table<'_>,
@@ -40,7 +40,7 @@ pub(super) fn read(
     tables.into_iter().map(|table| budget(reader, table, bundles)).collect()
 }
 
-/// A budget, and the name of its function if it is that of a frame.
+/// Reads a budget. The name is returned too if it may be that of a function of one frame, which is resolved later.
 fn budget(
     reader: &mut Reader<'_>,
     mut table: Table<'_>,
@@ -49,7 +49,7 @@ fn budget(
     let named = table.get("function").and_then(|entry| function(reader, entry.value, bundles));
     let max_operations = table.get("max_operations").and_then(|entry| limit(reader, &entry));
     let max_stack = table.get("max_stack").and_then(|entry| limit(reader, &entry));
-    // A misspelt key is reported by itself.
+    // A table with a misspelled key is not empty; `finish` reports the key.
     if table.len() == usize::from(table.has("function")) {
         reader.report(
             Diagnostic::error(code::MISSING_KEY, "the budget sets no limit")
@@ -64,7 +64,7 @@ fn budget(
     (Budget { function, max_operations, max_stack }, of_frame)
 }
 
-/// The budgets, the functions of frames under their own names; those that the robot lacks are reported.
+/// Returns the budgets with the full names of functions of single frames, and reports functions that the robot lacks.
 pub(super) fn of_robot(
     reader: &mut Reader<'_>,
     robot: &Robot,
@@ -81,7 +81,7 @@ pub(super) fn of_robot(
     budgets.into_iter().map(own).collect()
 }
 
-/// A whole number that is not negative.
+/// Reads a non-negative whole number.
 fn limit(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Limit> {
     let place = entry.value.span();
     let number = reader.number(entry.value, "a whole number")?.to_f64();

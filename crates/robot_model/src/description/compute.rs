@@ -1,9 +1,9 @@
-//! Formulas of formulas: exact numbers if all parts are numbers, else text.
+//! Formulas computed from formulas: exact numbers if all operands are numbers, otherwise text.
 
 use robot_symbolic::{Formula, Rational};
 
-/// A formula of formulas: a number if all of them are, else `pattern` with each `#i` replaced
-/// by the text of the i-th; `None` if the text grows beyond what a formula may be.
+/// Computes a formula from `operands`: a number if all of them are numbers, otherwise `pattern` with each `#i` replaced
+/// by the text of operand i. `None` if the text is longer than a formula may be.
 pub(super) fn compute(
     operands: &[&Formula],
     pattern: &str,
@@ -22,12 +22,12 @@ pub(super) fn compute(
     Formula::parse(&text).ok()
 }
 
-/// a · b.
+/// The product a · b; `None` if its text is too long.
 pub(super) fn product(a: &Formula, b: &Formula) -> Option<Formula> {
     compute(&[a, b], "(#0)*(#1)", |v| v[0] * v[1])
 }
 
-/// a + b.
+/// The sum a + b; `None` if its text is too long.
 pub(super) fn sum(a: &Formula, b: &Formula) -> Option<Formula> {
     compute(&[a, b], "(#0) + (#1)", |v| v[0] + v[1])
 }

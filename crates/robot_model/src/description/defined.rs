@@ -1,16 +1,17 @@
-//! Whether an expression has a value: no division by 0, or by a value that rounding cannot distinguish from 0.
+//! Checks whether an expression has a value: no division by 0, nor by a value that rounding errors make
+//! indistinguishable from 0.
 
 use robot_symbolic::formula::Step;
 use robot_symbolic::{Formula, Function, Rational};
 
 use super::reader::Reader;
 
-/// A divisor must be so many times what rounding may have changed it by: it has three digits then.
+/// A divisor must exceed its rounding error by this factor, so that at least three digits of it are significant.
 const DIGITS: f64 = 1e3;
-/// An angle that rounding may have changed by more than this, rad, has no sine.
+/// The largest rounding error of an angle whose sine can be computed, rad.
 const ANGLE: f64 = 1e-6;
 
-/// A value and what rounding may have changed it by.
+/// A value and a bound on its rounding error.
 #[derive(Clone, Copy)]
 struct Rounded {
     value: f64,
@@ -69,7 +70,7 @@ impl Rounded {
             Function::Sqrt if value < -DIGITS * error => {
                 return Err("the square root of a negative number");
             }
-            // A value that rounding has made negative is 0.
+            // A square root's operand that is negative only because of rounding is taken as 0.
             Function::Sqrt if value <= 0.0 => Rounded { value: 0.0, error: error.sqrt() },
             Function::Sqrt => Rounded::new(result, error / result),
             Function::Sign => Rounded { value: result, error: 0.0 },
@@ -87,17 +88,16 @@ impl Rounded {
 }
 
 impl Reader<'_> {
-    /// Why the expression has no value at the nominal values of the parameters; `None` if it has
-    /// one, or parameters without a value decide.
+    /// The reason why the expression has no value at the nominal values of the parameters. `None` if it has a value, or
+    /// if this depends on parameters without nominal values.
     pub(super) fn undefined(&self, formula: &Formula) -> Option<&'static str> {
         let mut reason = None;
-        // An operand that is not known is `None` within.
+        // In the fold, an operand with an unknown value is `None`.
         formula.fold(|step| self.rounded(&step).map_err(|found| reason = Some(found)).ok());
         reason
     }
 
-    /// Whether the expression is 0 at the nominal values of the parameters, or as near to it as rounding can
-    /// decide.
+    /// Whether the expression is 0 at the nominal values of the parameters, to within rounding errors.
     pub(super) fn vanishes(&self, formula: &Formula) -> bool {
         let value = formula.fold(|step| self.rounded(&step).ok()).flatten();
         value.is_some_and(Rounded::is_zero)

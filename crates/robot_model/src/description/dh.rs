@@ -8,7 +8,7 @@ use super::table;
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::JointKind;
 
-/// The rows, given out one by one in the order of the links.
+/// The rows of the table, handed out one by one in the order of the links.
 pub(super) struct Table {
     convention: Convention,
     rows: std::vec::IntoIter<LinkRow>,
@@ -18,7 +18,7 @@ pub(super) struct Table {
     taken: usize,
 }
 
-/// A row with what belongs to it.
+/// A row of Denavit–Hartenberg parameters with its convention, joint type and place in the file.
 pub(super) struct LinkRow {
     pub(super) convention: Convention,
     /// `None` for a fixed link.
@@ -27,11 +27,11 @@ pub(super) struct LinkRow {
     pub(super) place: Span,
 }
 
-/// Reads the table if the file has it.
+/// Reads the table, if the file has one.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
     let entry = root.get("dh")?;
     let mut table = reader.table(entry.value, &DH_TABLE)?;
-    // The placeholder for an invalid convention: the error is reported.
+    // An invalid convention has been reported; this placeholder stands in for it.
     let convention = convention(reader, &mut table).unwrap_or(Convention::Standard);
     let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
     let rows = table.require(reader, "rows", example);
@@ -67,7 +67,7 @@ fn link_row(
 }
 
 impl Table {
-    /// The row of the next link; one that says nothing if the rows are used up.
+    /// The row of the next link. If all rows are used up, an empty placeholder.
     pub(super) fn next_row(&mut self) -> LinkRow {
         self.taken += 1;
         self.rows.next().unwrap_or_else(|| LinkRow {
@@ -83,20 +83,19 @@ impl Table {
         })
     }
 
-    /// Reports rows that no link took, and links that found no row.
+    /// Reports it if the table has more rows or fewer rows than there are links to take them.
     pub(super) fn finish(self, reader: &mut Reader<'_>) {
         if self.count == self.taken {
             return;
         }
         let (rows, links) = (self.count, self.taken);
         let message = format!(
-            "the DH table has {rows} rows, but the number of links without a frame of their own \
-             is {links}"
+            "the DH table has {rows} rows, but the number of links that take a row is {links}"
         );
         reader.report(
             Diagnostic::error(code::WRONG_COUNT, message)
                 .at(&self.place, "this table")
-                .help("give one row for each `[[link]]` without `origin` and `dh`"),
+                .help("give one row for each `[[link]]` that has neither `origin` nor `dh`"),
         );
     }
 }

@@ -1,13 +1,13 @@
 //! Dimensions of expressions, from the units of their parameters.
 //!
-//! The parameters of an expression and the operations on them give it a dimension. Of the numbers it
-//! is not known whether they carry units: in `m1*0.2^2/12` the 0.2 is a length. So
+//! The parameters of an expression and the operations on them give it a dimension. A number may carry a unit that the
+//! file does not state: in `m1*0.2^2/12` the 0.2 is a length. The rules are therefore:
 //!
-//! - a number takes the dimension that is needed if it is alone, and in a sum the other term's;
+//! - a number by itself takes the dimension that its place requires, and a number in a sum that of the other terms;
 //! - an expression whose only factors are parameters must have the dimension of its place;
-//! - one with small whole numbers and halves as factors, which are unlikely to have units, is
-//!   warned of;
-//! - with other numbers as factors it may have any dimension.
+//! - an expression of a wrong dimension causes a warning if it has small whole numbers or halves as factors, which are
+//!   unlikely to carry units;
+//! - an expression with other numbers as factors may have any dimension.
 //!
 //! Nothing is concluded from parameters without a unit.
 
@@ -19,13 +19,14 @@ use super::value::Quantity;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::unit::Dimension;
 
-/// Whole numbers and halves up to this are counts and fractions, as in `m*l^2/12`.
+/// Whole numbers and halves up to this limit count as dimensionless factors, as in `m*l^2/12`.
 const COUNT: i64 = 12;
 
-/// The kind of factors in an expression; the last that occurs counts.
+/// The kinds of factors that an expression may contain, in ascending order; an expression has the highest kind that
+/// occurs in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Factors {
-    /// Parameters, π and functions: the dimension is certain.
+    /// Only parameters, π and functions: the dimension is certain.
     Certain,
     /// Also small whole numbers and halves.
     Counts,
@@ -39,7 +40,7 @@ pub(super) struct Dimensioned {
     /// `None` if a parameter has no unit.
     pub(super) dimension: Option<Dimension>,
     pub(super) factors: Factors,
-    /// Whether it contains no parameter, so that it takes any dimension.
+    /// Whether it contains no parameter, so that it can take any dimension.
     is_number: bool,
 }
 
@@ -63,12 +64,12 @@ impl Dimensioned {
         }
     }
 
-    /// The dimension that a value certainly has, if its factors are known so far.
+    /// The dimension of the value; `None` for a number, which can take any dimension, and if a parameter has no unit.
     fn known(self) -> Option<Dimension> {
         self.dimension.filter(|_| !self.is_number)
     }
 
-    /// A sum; the dimensions and factors that do not go together.
+    /// The dimension of a sum, or an error if the dimensions of the two terms differ.
     fn sum(self, other: Dimensioned) -> Result<Dimensioned, Clash> {
         let factors = self.factors.max(other.factors);
         let surer = if other.factors < self.factors { other } else { self };
@@ -85,7 +86,7 @@ impl Dimensioned {
         }
     }
 
-    /// A function of a pure number.
+    /// The result of a function that takes a pure number, or an error if the operand has a dimension.
     fn of_number(self) -> Result<Dimensioned, Clash> {
         match self.known() {
             Some(here) if here != Dimension::NONE && self.factors != Factors::Numbers => {
@@ -104,11 +105,11 @@ impl Dimensioned {
     }
 }
 
-/// Dimensions that must be the same and are not.
+/// Two dimensions that should be equal but are not.
 #[derive(Clone, Copy)]
 pub(super) struct Clash {
     factors: Factors,
-    /// Whether the two are terms of a sum; otherwise a function needs a pure number.
+    /// Whether the two are terms of a sum; otherwise the operand of a function must be a pure number.
     summed: bool,
     here: Dimension,
     there: Dimension,
@@ -127,7 +128,7 @@ impl Clash {
     }
 }
 
-/// An error if factors are parameters alone; a warning if a number may carry the unit.
+/// Returns an error if all factors are parameters, and a warning if a number may carry the unit.
 fn reported(factors: Factors, message: String) -> Diagnostic {
     match factors {
         Factors::Certain => Diagnostic::error(code::DIMENSION, message)
@@ -166,7 +167,7 @@ fn in_units(dimension: Dimension) -> String {
 }
 
 impl Reader<'_> {
-    /// Reports an expression whose dimension does not fit its place; returns whether it can be kept.
+    /// Reports an expression whose dimension does not suit its place. Returns whether the expression can be kept.
     pub(super) fn fits(&mut self, formula: &Formula, quantity: Quantity, span: &Span) -> bool {
         let found = match self.dimension(formula) {
             Ok(found) => found,
@@ -198,7 +199,7 @@ impl Reader<'_> {
         found.factors != Factors::Certain
     }
 
-    /// The message about a parameter that is alone.
+    /// The message about an expression that is a single parameter.
     fn alone(
         &self,
         formula: &Formula,
@@ -214,7 +215,7 @@ impl Reader<'_> {
         Some(diagnostic.help("use another parameter, or correct the unit"))
     }
 
-    /// The dimension of an expression, or what does not go together in it.
+    /// The dimension of an expression, or the first clash of dimensions that was found in it.
     pub(super) fn dimension(&self, formula: &Formula) -> Result<Dimensioned, Clash> {
         let mut wrong = None;
         let found = formula
@@ -252,8 +253,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Reports components of a vector that are in different dimensions; its length has a meaning in
-    /// one alone.
+    /// Reports a vector whose components have different dimensions: its length would have no meaning.
     pub(super) fn same_dimension(&mut self, vector: &[Formula; 3], what: &str, span: &Span) {
         let certain = |formula: &Formula| {
             let found = self.dimension(formula).ok()?;

@@ -1,6 +1,6 @@
-//! A robot file after lowering: checked values, names unresolved, fixed links still apart.
+//! The draft of a robot: values are checked, names are not yet resolved, and fixed links are not yet merged.
 //!
-//! Whatever the format of the file, this is where the formats meet.
+//! The readers of all formats produce this draft.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -28,7 +28,7 @@ pub(super) struct Draft {
 pub(super) enum Parent {
     Base,
     Link(usize),
-    /// A name that is still to be found.
+    /// A name that is not resolved yet.
     Name(Named),
 }
 
@@ -40,13 +40,12 @@ pub(super) struct DraftLink {
     pub(super) joint: DraftJoint,
     /// From the parent's frame to the joint's frame at joint position 0.
     pub(super) before: Placement,
-    /// From the joint's frame to the link's own frame, if the file's convention puts them
-    /// apart.
+    /// From the joint's frame to the link's own frame, if the file's convention distinguishes them.
     pub(super) after: Placement,
-    /// Placed in the link's own frame; `None` if the link has no mass.
+    /// The body, placed in the link's own frame; `None` if the link has no mass.
     pub(super) body: Option<(Body, BodyLocation)>,
     pub(super) friction: Friction,
-    /// Friction that the file has and the robot has not.
+    /// Friction that the file contains but that is not part of the robot.
     pub(super) left_out: Option<Friction>,
     pub(super) drive: Drive,
     pub(super) places: LinkLocation,
@@ -63,12 +62,12 @@ pub(super) struct DraftJoint {
     pub(super) mimic: Option<Mimic>,
 }
 
-/// Joint position = `ratio` × that of `joint` + `offset`.
+/// The law of a mimic joint: joint position = `ratio` × position of `joint` + `offset`.
 #[derive(Clone)]
 pub(super) struct Mimic {
     pub(super) joint: Named,
     pub(super) ratio: Formula,
-    /// The place of the ratio, if the file has one.
+    /// The place of the ratio, if the file states one.
     pub(super) of_ratio: Option<Span>,
     pub(super) offset: Formula,
 }
@@ -87,7 +86,7 @@ pub(super) struct DraftFrame {
 #[derive(Clone)]
 pub(super) struct DraftPayload {
     pub(super) parent: Parent,
-    /// From the parent's frame to that of the payload's values.
+    /// The payload's frame relative to the parent's frame.
     pub(super) placement: Placement,
     pub(super) place: Span,
 }

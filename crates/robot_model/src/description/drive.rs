@@ -10,7 +10,7 @@ use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::{Drive, Friction, JointKind};
 
-/// The signs that a value may have.
+/// The admissible signs of a value.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Sign {
     Any,
@@ -19,14 +19,14 @@ enum Sign {
     NotZero,
 }
 
-/// Entries of one table.
+/// The entries of one table that is being read.
 struct Entries<'r, 'f, 'a> {
     reader: &'r mut Reader<'f>,
     table: Table<'a>,
 }
 
 impl Entries<'_, '_, '_> {
-    /// Stores the value of a key in its place if the file has it; returns the key's place.
+    /// Stores the value of a key in `target` if the file has the key; returns the place of the key.
     fn read(
         &mut self,
         key: &'static str,
@@ -114,7 +114,8 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     friction
 }
 
-/// Equation (5): dry friction of a revolute joint acts at the journal's surface.
+/// Checks that the keys of equation (5) occur together: dry friction of a revolute joint acts at the surface of the
+/// journal.
 fn spindle(
     entries: &mut Entries<'_, '_, '_>,
     kind: JointKind,

@@ -1,4 +1,4 @@
-//! A draft as a robot file in TOML: the links in order with the source's names and values.
+//! Writes a draft as a robot file in TOML: the links in order, with the names and values of the source.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -13,7 +13,7 @@ use crate::diagnostic::quote;
 use crate::physics::{Verdict, judge};
 use crate::robot::{Axis, Body, Friction, Inertia, JointKind, Move, Placement};
 
-/// The draft as text. Frames of the draft must be placed by `xyz` and `rpy`, as those of URDF are.
+/// The draft as text. The frames of the draft must be placed by `xyz` and `rpy`, as they are in URDF.
 pub(super) fn to_toml(lowered: &Lowered, name: &str) -> String {
     let Lowered { draft, order, .. } = lowered;
     let file = Path::new(name).file_name().and_then(|name| name.to_str()).unwrap_or(name);
@@ -43,8 +43,8 @@ fn line(text: &mut String, line: &str) {
     text.push('\n');
 }
 
-/// Writes a link. `before` is the link that was written before it; `stands` says that it is fixed to
-/// the base, so that its mass has no effect.
+/// Writes a link. `before` is the link that was written before it; `stands` is whether the link is fixed to the base,
+/// so that its mass has no effect.
 fn push_link(
     text: &mut String,
     draft: &Draft,
@@ -146,7 +146,7 @@ fn joint(link: &DraftLink) -> String {
     format!("{{ {} }}", parts.join(", "))
 }
 
-/// `"z"` if the axis is one of the frame, else the vector.
+/// The axis as `"z"` if it is an axis of the frame, otherwise as a vector.
 fn axis(axis: &[Formula; 3]) -> String {
     let along: Vec<usize> =
         (0..3).filter(|index| axis.get(*index).is_some_and(|one| !Reader::is_zero(one))).collect();
@@ -173,7 +173,7 @@ fn friction(friction: &Friction, kind: Option<JointKind>) -> String {
     format!("{{ {} }}", parts.join(", "))
 }
 
-/// The translation and the angles of a placement, if they are there.
+/// The translation and the angles of a placement, each `None` if the placement has none.
 fn xyz_rpy(placement: &Placement) -> [Option<[Formula; 3]>; 2] {
     let (mut xyz, mut rpy) = (None, None);
     for step in &placement.0 {
@@ -201,7 +201,7 @@ fn angles(angles: &[Formula; 3]) -> String {
     format!("[{}]", angles.each_ref().map(angle).join(", "))
 }
 
-/// The angle as a multiple of π/2 if it is one to the last digit of floating point.
+/// The angle as a multiple of π/2 if the two are equal in floating point, otherwise as its value.
 fn angle(angle: &Formula) -> String {
     const TURNS: &[&str] = &["pi/2", "-pi/2", "pi", "-pi", "3*pi/2", "-3*pi/2", "2*pi", "-2*pi"];
     let value = angle.evaluate(|_| f64::NAN);
@@ -226,7 +226,7 @@ fn formula_text(formula: &Formula) -> String {
     }
 }
 
-/// A decimal number of TOML with exactly this value, the shortest if floating point has it.
+/// A decimal number in TOML with exactly this value: the shortest one if a floating-point number has the value.
 fn number(value: &Rational) -> String {
     if let Some(integer) = value.to_integer().filter(|integer| integer.unsigned_abs() < 1 << 53) {
         return integer.to_string();
@@ -238,9 +238,10 @@ fn number(value: &Rational) -> String {
     scientific(value)
 }
 
-/// All digits with an exponent.
+/// The number with all its digits and an exponent.
 fn scientific(value: &Rational) -> String {
-    /// Decimal text has no more places: its digits and its exponent are limited.
+    /// The maximum number of decimal places; the limits on digits and exponents of decimal text ensure that none has
+    /// more.
     const MAX_PLACES: usize = 3100;
     let ten = Rational::integer(10);
     let mut scaled = value.clone();
@@ -259,8 +260,8 @@ fn scientific(value: &Rational) -> String {
     format!("\"{value}\"")
 }
 
-/// `digits` · 10^−`places`. Exponents of decimal text end at ±400: digits of more places have the point
-/// behind the first of them, and the exponent is the number's own.
+/// The decimal text of `digits` · 10^−`places`. Exponents of decimal text are limited to ±400, so a number with more
+/// places has the decimal point after its first digit.
 fn below_one(digits: &str, places: usize) -> String {
     const MAX_EXPONENT: usize = 400;
     let first = if digits.starts_with('-') { 2 } else { 1 };

@@ -1,5 +1,5 @@
-//! The whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames, `[payload]`,
-//! `[code]` and budgets.
+//! Reads a whole file: `format`, `[robot]`, `[parameters]`, `[dh]`, `[[link]]`, tips, frames, `[payload]`, `[code]` and
+//! budgets.
 
 use robot_symbolic::{Formula, Rational};
 use toml::de::DeValue;
@@ -18,10 +18,10 @@ use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::BaseFrames;
 use crate::snap;
 
-/// The format that this reader reads.
+/// The version of the format that this reader accepts.
 const FORMAT: i64 = 1;
 
-/// Lowers the text of a file; what is wrong with it is reported.
+/// Lowers the text of a file and reports the errors in it.
 pub(super) fn lower(reader: &mut Reader<'_>) -> Option<Lowered> {
     let (tables, found) = syntax::parse(reader.text);
     if !found.is_empty() {
@@ -47,7 +47,7 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     if let Some(dh) = dh {
         dh.finish(reader);
     }
-    // Without its name a link cannot be a parent: complaints of that would be one too many.
+    // A link without a name cannot be a parent; the errors that would follow from this are not reported.
     if !complete {
         return None;
     }
@@ -67,7 +67,7 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
     Some(Lowered { draft, order, parameters, wanted, budgets })
 }
 
-/// Checks `format`; nothing else is read of a file of another format.
+/// Checks `format`; returns false if it is another format, of which nothing else is read.
 fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
     let Some(entry) = root.require(reader, "format", "format = 1") else {
         return true;
@@ -133,7 +133,7 @@ fn head(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Head {
     head
 }
 
-/// `snap = 1e-6`: an angle, rad.
+/// Reads `snap`, an angle in rad, such as `snap = 1e-6`.
 fn tolerance(reader: &mut Reader<'_>, value: Value<'_>) -> Option<f64> {
     let tolerance = reader.number(value, "an angle in radians, `snap = 1e-6`")?.to_f64();
     if snap::check(tolerance).is_ok() {
@@ -152,7 +152,7 @@ fn tolerance(reader: &mut Reader<'_>, value: Value<'_>) -> Option<f64> {
     None
 }
 
-/// Reads every `[[link]]`; whether all of them came through.
+/// Reads every `[[link]]`. The flag is whether all of them could be read.
 fn links(
     reader: &mut Reader<'_>,
     root: &mut Table<'_>,

@@ -3,7 +3,7 @@
 use toml::de::DeValue;
 
 use super::draft::{DraftFrame, Parent};
-use super::limits::MAX_LINKS;
+use super::input_limits::MAX_LINKS;
 use super::link::named_parent;
 use super::locations::FrameLocation;
 use super::names::Kind;
@@ -32,7 +32,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>, links: usize) 
     found
 }
 
-/// A table, or several of them.
+/// The tables of a key whose value is one table or a list of tables.
 pub(super) fn tables<'a>(
     reader: &mut Reader<'_>,
     entry: &Entry<'a>,
@@ -123,10 +123,10 @@ fn origin(
     }
 }
 
-/// A component's name and its LaTeX.
+/// The name of a component and its LaTeX, if the file has one.
 type Component = (String, Option<String>);
 
-/// `{ force = ["Fx", "Fy", "Fz"], moment = ["Mx", "My", "Mz"] }`.
+/// Reads names such as `{ force = ["Fx", "Fy", "Fz"], moment = ["Mx", "My", "Mz"] }`.
 fn named_wrench(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Wrench> {
     let mut table = reader.table(value, &WRENCH)?;
     let mut names = |key: &'static str, example: &str, expected: &str| {
@@ -158,7 +158,7 @@ fn wrench(force: [Component; 3], moment: [Component; 3]) -> Wrench {
     Wrench { force: [fx, fy, fz], moment: [mx, my, mz], latex: [a, b, c, d, e, f] }
 }
 
-/// `"Fx6"` or `{ name = "Fx6", latex = "F_x^6" }`.
+/// Reads a component: `"Fx6"` or `{ name = "Fx6", latex = "F_x^6" }`.
 fn component(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Component> {
     let (value, latex) = match value.get_ref() {
         DeValue::Table(_) => {
@@ -178,8 +178,7 @@ fn component(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Component> {
     Some((named.name, latex))
 }
 
-/// The names of a wrench that the file does not name: `Fx` … `Mz`, with the tip's name if there
-/// are several tips.
+/// The default names of a wrench, `Fx` … `Mz`, followed by the tip's name if there are several tips.
 fn plain_wrench(reader: &mut Reader<'_>, tip: &Named, alone: bool) -> Option<Wrench> {
     let suffix: String = tip
         .name

@@ -1,5 +1,5 @@
-//! A base that has mass and carries several branches: most likely it is free to move, but robots here have
-//! a fixed base.
+//! Detects a base that has mass and carries several branches. Most likely it is free to move, but a robot here has a
+//! fixed base.
 
 use std::collections::BTreeSet;
 
@@ -11,10 +11,10 @@ use crate::diagnostic::significant;
 use crate::diagnostic::{Diagnostic, code};
 use crate::robot::Robot;
 
-/// Warns of such a base; whether there is one.
+/// Warns about such a base; returns whether the robot has one.
 pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) -> bool {
     let on_base = robot.links.iter().filter(|link| link.parent.is_none());
-    // Branches that one coordinate drives are parts of one mechanism, not legs.
+    // Branches that one coordinate drives are parts of one mechanism, not separate legs.
     let branches: BTreeSet<usize> = on_base.map(|link| link.joint.coordinate).collect();
     let Some(first) = locations.dropped.first().filter(|_| branches.len() > 1) else {
         return false;
@@ -27,7 +27,7 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     let message = format!("the base{mass} is fixed, and {} branches move on it", branches.len());
     reader.report(
         Diagnostic::warning(code::FREE_BASE, message)
-            .at(&place, "has no effect")
+            .at(&place, "this body has no effect")
             .because(
                 "the base is fixed in this model; if it is free, like the trunk of a legged \
                  robot, the torques and accelerations are those of the robot with its trunk held \

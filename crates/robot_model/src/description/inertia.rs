@@ -1,4 +1,4 @@
-//! Inertia tensors: reading, the shift to the center of mass, and what no body can have.
+//! Inertia tensors: reading, the shift to the center of mass, and the check that a body can have them.
 
 use robot_symbolic::Formula;
 
@@ -15,7 +15,7 @@ use crate::robot::{Axis, Inertia, Move};
 
 const MOMENT: Quantity = quantity("a moment of inertia", 1, 2, 0);
 
-/// A tensor about the center of mass, and the turns from the link's axes to its own.
+/// A tensor about the center of mass, and the rotations from the link's axes to the axes of the tensor.
 pub(super) struct Tensor {
     pub(super) inertia: Inertia,
     pub(super) turns: Vec<Move>,
@@ -37,7 +37,7 @@ impl Tensor {
     }
 }
 
-/// Reads `inertia` of a body of that mass and center of mass.
+/// Reads `inertia` of a body with the given mass and center of mass.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     entry: &Entry<'_>,
@@ -87,7 +87,7 @@ pub(super) fn read(
     tensor
 }
 
-/// The six entries; products are 0 if they are left out, and so is all of an unchecked tensor.
+/// Reads the six entries. Products of inertia default to 0; in an unchecked tensor, all entries do.
 fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> Inertia {
     let mut entry = |key: &'static str, needed: bool| {
         let entry = if needed && !unchecked {
@@ -112,7 +112,7 @@ fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> I
     }
 }
 
-/// Whether the tensor is about the origin of the link's frame.
+/// Reads `about`: whether the tensor is about the origin of the link's frame.
 fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     let Some(entry) = table.get("about") else {
         return false;
@@ -128,7 +128,7 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     origin && !turned
 }
 
-/// Steiner: I_c = I_o − m (c·c 1 − c cᵀ).
+/// Shifts a tensor to the center of mass by the parallel axis theorem: I_c = I_o − m (c·c 1 − c cᵀ).
 fn shift(about_origin: &Inertia, mass: &Formula, [x, y, z]: &[Formula; 3]) -> Option<Inertia> {
     let moment = |own: &Formula, a: &Formula, b: &Formula| {
         let squares = compute(&[a, b], "(#0)^2 + (#1)^2", |v| &(v[0] * v[0]) + &(v[1] * v[1]))?;
@@ -147,7 +147,7 @@ fn shift(about_origin: &Inertia, mass: &Formula, [x, y, z]: &[Formula; 3]) -> Op
     })
 }
 
-/// Reports an entry that the shift has carried beyond the range of numbers.
+/// Reports a shifted entry that exceeds the range of floating-point numbers.
 fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
     let known = inertia.entries().map(|entry| reader.known(entry));
     if known.iter().flatten().all(|value| value.is_finite()) {
@@ -163,8 +163,8 @@ fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
     );
 }
 
-/// Reports a tensor that no body has. Symbols without nominal values are left alone; all zeros are
-/// a point mass.
+/// Reports a tensor that no body can have. Tensors with symbols that have no nominal values are not checked; a tensor
+/// of zeros describes a point mass.
 fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool) {
     let Some(tensor) = values(reader, inertia) else {
         return;

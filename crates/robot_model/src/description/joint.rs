@@ -1,4 +1,4 @@
-//! The joint of a link: its type, axis, limits, and the joint that it follows.
+//! The joint of a link: its type, axis, limits, and the joint that it mimics.
 
 use std::array;
 
@@ -16,7 +16,7 @@ use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, code};
 use crate::robot::JointKind;
 
-/// Reads `type`: `Some(None)` for a fixed link, `None` for an error.
+/// Reads `type`: `Some(None)` for a fixed link, `None` if the type is invalid.
 pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<JointKind>> {
     if let DeValue::String(word) = entry.value.get_ref()
         && let Some(help) = elsewhere(word)
@@ -35,7 +35,7 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
     })
 }
 
-/// The replacement for a type that other descriptions have.
+/// The advice for a joint type that other formats use.
 fn elsewhere(word: &str) -> Option<&'static str> {
     match word {
         "continuous" => Some("write \"revolute\" and leave out `limits`"),
@@ -56,8 +56,8 @@ fn elsewhere(word: &str) -> Option<&'static str> {
     }
 }
 
-/// Reads `joint`. `row` is the type that a DH table gives, and `dh` says that a DH row places the
-/// joint, so that its axis is z.
+/// Reads `joint`. `row` is the type that a DH table gives; `dh` is whether a DH row places the joint, so that its axis
+/// is z.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     table: &mut Table<'_>,
@@ -67,7 +67,7 @@ pub(super) fn read(
     places: &mut LinkLocation,
 ) -> DraftJoint {
     let mut joint = DraftJoint {
-        // If the type is wrong, the placeholder lets the rest of the link be checked.
+        // If the type is wrong, this placeholder lets the rest of the link be checked.
         kind: row.unwrap_or(Some(JointKind::Revolute)),
         name: link.clone(),
         axis: [zero(), zero(), Formula::number(&Rational::ONE)],
@@ -90,7 +90,7 @@ pub(super) fn read(
         let example = "type = \"revolute\"";
         match table.require(reader, "type", example).and_then(|entry| kind(reader, &entry)) {
             Some(kind) => joint.kind = kind,
-            // Nothing can be said of the rest.
+            // Without a type, the other keys cannot be checked.
             None => return joint,
         }
     }
@@ -139,7 +139,7 @@ fn moving(
     }
 }
 
-/// Says of keys that mean nothing on this joint why they do not, and then the unknown ones.
+/// Reports keys that have no meaning for this joint, with the reason, and then the unknown keys.
 fn finish(reader: &mut Reader<'_>, mut table: Table<'_>, kind: Option<JointKind>, dh: bool) {
     let reason = match (kind, dh) {
         (None, _) => "the joint is fixed",
@@ -165,7 +165,7 @@ fn finish(reader: &mut Reader<'_>, mut table: Table<'_>, kind: Option<JointKind>
     table.finish(reader);
 }
 
-/// `"x"`, `"-z"`, or a vector of any length but 0.
+/// Reads an axis: `"x"`, `"-z"`, or a nonzero vector.
 fn axis(reader: &mut Reader<'_>, value: Value<'_>) -> [Formula; 3] {
     const EXPECTED: &str = "a joint axis: \"x\", \"-z\" or `[x, y, z]`";
     let vector = match value.get_ref() {
@@ -222,7 +222,7 @@ fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
 }
 
 fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> Option<Mimic> {
-    // Its dimension is known with the joint that leads.
+    // The dimension is checked once the leading joint is known.
     const RATIO: Quantity = Quantity { what: "the ratio", dimension: None };
     let kind = kind.unwrap_or(JointKind::Revolute);
     let offset_of_joint = by_kind("the offset", kind, (0, 0, 0), (0, 1, 0));
@@ -256,7 +256,7 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> 
     Some(Mimic { joint: joint?, ratio, of_ratio, offset })
 }
 
-/// The quantity with the dimension for a rotation or a translation.
+/// The quantity with the dimension for a revolute or for a prismatic joint.
 pub(super) const fn by_kind(
     what: &'static str,
     kind: JointKind,

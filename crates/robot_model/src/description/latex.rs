@@ -1,4 +1,4 @@
-//! LaTeX of a symbol in a robot file.
+//! The LaTeX that a robot file gives for a symbol.
 
 use super::reader::Reader;
 use super::strings;
@@ -7,7 +7,7 @@ use crate::diagnostic::{Diagnostic, code};
 use crate::signs::check_latex;
 
 impl Reader<'_> {
-    /// The LaTeX of a symbol.
+    /// Reads the LaTeX of a symbol.
     pub(super) fn latex(&mut self, value: Value<'_>) -> Option<String> {
         let text = self.string(value, "the LaTeX for a symbol, in quotes")?;
         let Err(error) = check_latex(text) else {

@@ -13,7 +13,7 @@ use super::table::Table;
 use crate::diagnostic::{Diagnostic, code};
 use crate::robot::{Drive, Friction};
 
-/// Reads the link at `index` of the file; `None` if it has no name to go by.
+/// Reads the link at `index` of the file; `None` if it has no valid name.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     mut table: Table<'_>,
@@ -23,7 +23,7 @@ pub(super) fn read(
     let name = table
         .require(reader, "name", &format!("name = \"{}\"", index + 1))
         .and_then(|entry| reader.name(entry.value, "a link", Kind::Label));
-    // A placeholder, so that the rest of the link is checked all the same.
+    // A placeholder, so that the rest of the link is checked even if its name is not valid.
     let named = name.clone().unwrap_or(Named { name: String::new(), span: table.span.clone() });
     let mut places = LinkLocation { name: named.span.clone(), ..LinkLocation::default() };
     let parent = parent(reader, &mut table, index, &mut places);
@@ -55,7 +55,7 @@ pub(super) fn read(
     })
 }
 
-/// `parent`: a name, `base`, or the link before.
+/// Reads `parent`: the name of a link, or `base`; the preceding link if it is left out.
 fn parent(
     reader: &mut Reader<'_>,
     table: &mut Table<'_>,
@@ -71,7 +71,7 @@ fn parent(
     }
 }
 
-/// A parent by name. A wrong name is reported and taken as the base.
+/// Reads the name of a parent. A wrong name is reported and replaced by the base.
 pub(super) fn named_parent(reader: &mut Reader<'_>, entry: &super::table::Entry<'_>) -> Parent {
     let expected = "the name of a link, or \"base\"";
     let Some(text) = reader.string(entry.value, expected) else {

@@ -1,24 +1,24 @@
-//! Places of the parts of a robot in the file.
+//! The places in the file of the parts of a robot.
 
 use robot_symbolic::Formula;
 
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// The places of the parts of a [`crate::robot::Robot`], index by index; for a part that the file leaves out, `None`
-/// or the place of the table that lacks it.
+/// The places of the parts of a [`crate::robot::Robot`], in the same order. For a part that the file leaves out, `None`
+/// or the place of the table in which it would be.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Locations {
-    /// The robot's name.
+    /// The place of the robot's name.
     pub name: Span,
-    /// Gravity.
+    /// The place of the gravity vector.
     pub gravity: Option<Span>,
-    /// One for each of [`crate::robot::Robot::parameters`].
+    /// The places of [`crate::robot::Robot::parameters`], in the same order.
     pub parameters: Vec<ParameterLocation>,
-    /// One for each of [`crate::robot::Robot::links`].
+    /// The places of [`crate::robot::Robot::links`], in the same order.
     pub links: Vec<LinkLocation>,
-    /// One for each of [`crate::robot::Robot::frames`].
+    /// The places of [`crate::robot::Robot::frames`], in the same order.
     pub frames: Vec<FrameLocation>,
-    /// The angles of placements and of tensors' axes, in the order of reading.
+    /// The angles of placements and of the axes of tensors, in the order in which they were read.
     pub angles: Vec<AngleLocation>,
     /// Bodies that are fixed to the base and therefore not part of the robot.
     pub dropped: Vec<DroppedBody>,
@@ -29,23 +29,23 @@ pub struct Locations {
 pub struct AngleLocation {
     /// The angle, rad.
     pub value: Formula,
-    /// Its place.
+    /// Its place in the file.
     pub place: Span,
 }
 
 /// A body that has no effect on the motion because it is fixed to the base.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DroppedBody {
-    /// The link that has it.
+    /// The name of the link that has the body.
     pub link: String,
     /// Its mass, kg.
     pub mass: Formula,
-    /// Its places.
+    /// The places of its parts.
     pub place: BodyLocation,
 }
 
 impl DroppedBody {
-    /// The warning that the body has no effect.
+    /// Returns the warning that the body has no effect.
     #[must_use]
     pub fn diagnostic(&self) -> Diagnostic {
         let BodyLocation { name, mass, inertia, .. } = &self.place;
@@ -57,62 +57,62 @@ impl DroppedBody {
     }
 }
 
-/// Places of a parameter.
+/// The places of the parts of a parameter.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ParameterLocation {
-    /// The key.
+    /// The place of the key.
     pub name: Span,
-    /// The nominal value.
+    /// The place of the nominal value.
     pub value: Option<Span>,
-    /// The unit.
+    /// The place of the unit.
     pub unit: Option<Span>,
 }
 
-/// Places of a moving link.
+/// The places of the parts of a moving link.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinkLocation {
-    /// The name.
+    /// The place of the link's name.
     pub name: Span,
-    /// The parent's name.
+    /// The place of the parent's name.
     pub parent: Option<Span>,
-    /// The joint's table.
+    /// The place of the joint's table.
     pub joint: Span,
-    /// The joint's axis.
+    /// The place of the joint axis.
     pub axis: Option<Span>,
-    /// The joint's limits.
+    /// The place of the joint limits.
     pub limits: Option<Span>,
-    /// `origin` or `dh`.
+    /// The place of `origin` or `dh`.
     pub origin: Option<Span>,
-    /// The friction's table.
+    /// The place of the friction table.
     pub friction: Option<Span>,
-    /// The drive's table.
+    /// The place of the drive table.
     pub drive: Option<Span>,
-    /// One for each of [`crate::robot::Link::bodies`].
+    /// The places of [`crate::robot::Link::bodies`], in the same order.
     pub bodies: Vec<BodyLocation>,
 }
 
-/// Places of a body.
+/// The places of the parts of a body.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BodyLocation {
-    /// The name of the link that has the body.
+    /// The place of the name of the link that has the body.
     pub name: Span,
-    /// The mass.
+    /// The place of the mass.
     pub mass: Option<Span>,
-    /// The center of mass.
+    /// The place of the center of mass.
     pub center_of_mass: Option<Span>,
-    /// The inertia's table.
+    /// The place of the inertia table.
     pub inertia: Option<Span>,
-    /// Whether the file waives the check of the inertia (`unchecked = true`).
+    /// Whether the file waives the check of the inertia with `unchecked = true`.
     pub unchecked: bool,
 }
 
-/// Places of a named frame.
+/// The places of the parts of a named frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameLocation {
-    /// The name, or the table that has none.
+    /// The place of the frame's name; for a frame without a name, the place of its table.
     pub name: Span,
-    /// `origin`.
+    /// The place of `origin`.
     pub origin: Option<Span>,
-    /// The wrench's names.
+    /// The place of the names of the wrench components.
     pub wrench: Option<Span>,
 }

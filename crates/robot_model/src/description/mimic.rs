@@ -1,4 +1,4 @@
-//! Joints that follow others: every chain of followers ends at a joint with a coordinate.
+//! Joints that mimic others. Every chain of them must end at a joint that has a coordinate.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -17,7 +17,7 @@ pub(super) struct Following {
     pub(super) offset: Formula,
 }
 
-/// The coordinate that the joint of `link` follows; errors in a mimic are reported. `links` are
+/// The motion of the joint of `link` as a function of a coordinate. Errors in its mimic are reported. `links` must be
 /// in order.
 pub(super) fn follow(
     reader: &mut Reader<'_>,
@@ -32,7 +32,7 @@ pub(super) fn follow(
     Following { coordinate: found.unwrap_or_default(), ratio: leader.ratio, offset: leader.offset }
 }
 
-/// Reports a ratio that is not in the position of this joint per position of the one that it follows.
+/// Reports a ratio whose unit is not that of this joint's position divided by that of the leading joint's position.
 fn check_ratio(reader: &mut Reader<'_>, links: &[&DraftLink], link: &DraftLink) {
     let Some(Mimic { joint, ratio, of_ratio: Some(place), .. }) = &link.joint.mimic else {
         return;
@@ -42,7 +42,7 @@ fn check_ratio(reader: &mut Reader<'_>, links: &[&DraftLink], link: &DraftLink) 
     let Some((own, followed)) = kinds else {
         return;
     };
-    // The power of the meter in a position.
+    // The exponent of the meter in the unit of a joint position.
     let length = |kind| match kind {
         JointKind::Revolute => 0,
         JointKind::Prismatic => 1,
@@ -61,8 +61,8 @@ struct Leader<'l> {
     offset: Formula,
 }
 
-/// The joint at the end of the chain, with the chain folded: q = r₁ (r₂ p + o₂) + o₁. A fault is
-/// reported by the link that has it.
+/// The joint at the end of the chain, with the laws of the chain combined: q = r₁ (r₂ p + o₂) + o₁. An error is
+/// reported only for the link in which it occurs.
 fn leader<'l>(
     reader: &mut Reader<'_>,
     links: &[&'l DraftLink],
@@ -77,7 +77,7 @@ fn leader<'l>(
     loop {
         let next = links.iter().copied().find(|link| link.joint.name.name == wanted.name);
         let Some(next) = next.filter(|next| next.joint.kind.is_some()) else {
-            // A wrong name within the chain is the fault of the link that has it.
+            // A wrong name further along the chain is reported for the link that contains it.
             if way.len() == 1 {
                 let diagnostic = no_leader(reader, wanted, links);
                 reader.report(diagnostic);
@@ -141,7 +141,7 @@ fn circle(way: &[&DraftLink], wanted: &Named) -> Diagnostic {
         .help("name the leading joint, or remove `mimic`")
 }
 
-/// No joint of that name moves.
+/// The error for a name that is not the name of a moving joint.
 fn no_leader(reader: &Reader<'_>, wanted: &Named, links: &[&DraftLink]) -> Diagnostic {
     let name = quote(&wanted.name);
     if links.iter().any(|link| link.joint.name.name == wanted.name) {

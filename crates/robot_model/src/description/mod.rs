@@ -1,12 +1,11 @@
-//! Robots from files.
+//! Reading of robots from files.
 //!
-//! A reader turns the text of a file into a checked [`Robot`] and a side table of places
-//! ([`Locations`]), or into everything that is wrong with it ([`Diagnostics`]). No value is ever
-//! silently replaced or repaired.
+//! A reader turns the text of a file into a checked [`Robot`] and a table of the places of its parts ([`Locations`]),
+//! or into a list of all errors ([`Diagnostics`]). No value is ever silently replaced or repaired.
 //!
-//! The flow: `file` lowers the tables of a TOML file, `urdf` the elements of a URDF file, to a
-//! draft whose fixed links are still apart; `tree` puts the links in order; `assemble` merges fixed
-//! links and builds the robot. [`import()`] writes the draft as a robot file in TOML.
+//! `file` lowers the tables of a TOML file, and `urdf` the elements of a URDF file, to a draft in which fixed links are
+//! still separate; `tree` puts the links in order; `assemble` merges fixed links and builds the robot. [`import()`]
+//! writes the draft as a robot file in TOML.
 
 mod assemble;
 mod body;
@@ -22,9 +21,9 @@ mod file;
 mod frames;
 mod free_base;
 pub(crate) mod inertia;
+mod input_limits;
 mod joint;
 mod latex;
-mod limits;
 mod link;
 mod locations;
 mod mimic;
@@ -45,7 +44,7 @@ mod value;
 mod wanted;
 
 pub use budget::{Budget, Limit};
-pub use limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
+pub use input_limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
 pub use locations::{
     AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,
     ParameterLocation,
@@ -67,14 +66,14 @@ use wanted::Wanted;
 pub struct Described {
     /// The robot.
     pub robot: Robot,
-    /// The places of its parts in the file.
+    /// The places in the file of the robot's parts.
     pub locations: Locations,
-    /// Likely mistakes, with the source.
+    /// Warnings about likely mistakes, with the source text.
     pub warnings: Diagnostics,
-    /// Notes about the reader's choices if the format leaves one open, and about content that is not part of the
-    /// robot, for a file that was not written for this program.
+    /// Notes about the choices that the reader made because the format leaves them open, and about content that is not
+    /// part of the robot. They are meant for files that were not written for this program.
     pub choices: Diagnostics,
-    /// Content of the file about the dynamics that is not part of the robot, such as `the friction of 6 joints`.
+    /// Content of the file that affects the dynamics but is not part of the robot, such as `the friction of 6 joints`.
     pub left_out: Vec<String>,
     /// The functions to generate if the caller names none.
     pub code: Code,
@@ -89,60 +88,61 @@ pub struct Described {
 pub struct Import {
     /// The robot file in TOML.
     pub toml: String,
-    /// The robot, its warnings and the reader's choices.
+    /// The robot that the file describes, with its warnings and the reader's choices.
     pub described: Described,
 }
 
-/// Reads a robot file in the format that the name says: `.toml` or `.urdf`; of any other name, in
-/// the one that its text looks like.
+/// Reads a robot file. The extension of the name, `.toml` or `.urdf`, determines the format; for other names, the text
+/// does.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file, in the order of the places.
+/// All errors in the file, in the order of their places.
 pub fn read(name: &str, text: &str) -> Result<Described, Diagnostics> {
     read_with(name, text, &Options::default())
 }
 
-/// [`read`] with options.
+/// Reads a robot file like [`read`], with options.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file, in the order of the places.
+/// All errors in the file, in the order of their places.
 pub fn read_with(name: &str, text: &str, options: &Options) -> Result<Described, Diagnostics> {
     described(format_of(name, text), name, text, options).map(|(described, _)| described)
 }
 
 /// Reads a robot file in TOML.
 ///
-/// `name` is shown in messages, usually the path; `text` is the file's text. A byte order mark and
-/// CRLF line ends are accepted.
+/// `name` is the name that messages show, usually the path; `text` is the text of the file. A byte order mark and CRLF
+/// line endings are accepted.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file, in the order of the places.
+/// All errors in the file, in the order of their places.
 pub fn read_toml(name: &str, text: &str) -> Result<Described, Diagnostics> {
     described(Format::Toml, name, text, &Options::default()).map(|(described, _)| described)
 }
 
 /// Reads a robot from URDF, the description format of ROS.
 ///
-/// The base is the root link. Fixed links are merged and their frames kept as named frames; joints that mimic others
-/// have the coordinate of the other. Meshes are never opened. [`Described::choices`] lists the choices that the
+/// The base is the root link. Fixed links are merged, and their frames are kept as named frames. A joint that mimics
+/// another has no coordinate of its own. Meshes are never opened. [`Described::choices`] lists the choices that the
 /// format leaves open.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file, in the order of the places.
+/// All errors in the file, in the order of their places.
 pub fn read_urdf(name: &str, text: &str) -> Result<Described, Diagnostics> {
     described(Format::Urdf, name, text, &Options::default()).map(|(described, _)| described)
 }
 
-/// Writes a description as a robot file in TOML, with the source's names and values. The robot file gives the same
-/// robot, and the same description always the same text. A file that already is a robot file stays as it is.
+/// Writes a description as a robot file in TOML, with the names and values of the source. Reading the written file
+/// gives the same robot, and the same description always gives the same text. A file that already is a robot file is
+/// returned unchanged.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file, in the order of the places.
+/// All errors in the file, in the order of their places.
 pub fn import(name: &str, text: &str, options: &Options) -> Result<Import, Diagnostics> {
     let (described, lowered) = described(format_of(name, text), name, text, options)?;
     let toml = match described.format {
@@ -152,11 +152,11 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Import, Diagn
     Ok(Import { toml, described })
 }
 
-/// The bytes of a robot file as text, whatever its format.
+/// Decodes the bytes of a robot file of any format as text.
 ///
 /// # Errors
 ///
-/// If the file is too large or not UTF-8.
+/// An error if the file is too large or not UTF-8.
 pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
     if bytes.len() > MAX_BYTES {
         return Err(too_large(name, bytes.len()));
@@ -172,14 +172,14 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
     })
 }
 
-/// A file after lowering, its links in order: parents before children.
+/// A file after lowering, with its links in order: parents before children.
 #[derive(Clone)]
 struct Lowered {
     draft: Draft,
     order: Vec<usize>,
     parameters: (Vec<Parameter>, Vec<ParameterLocation>),
     wanted: Wanted,
-    /// With the names of functions of frames, which are looked for when the robot is known.
+    /// The budgets, with the names of functions of single frames, which are resolved when the robot is known.
     budgets: Vec<(Budget, Option<Named>)>,
 }
 
@@ -238,7 +238,7 @@ struct Built {
     budgets: Vec<Budget>,
 }
 
-/// The robot of a lowered file, if nothing is wrong with it.
+/// Builds the robot of a lowered file, if the file has no errors.
 fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Built> {
     let Lowered { draft, order, parameters, wanted, budgets } = lowered;
     if draft.links.iter().all(|link| link.joint.kind.is_none()) {
@@ -252,7 +252,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Bu
     }
     let (robot, mut locations) = assemble::robot(reader, draft, &order, parameters);
     locations.angles = std::mem::take(&mut reader.angles);
-    // Content that an error kept from being read may use parameters.
+    // Parameters may be used in content that could not be read because of an error, so their use is not checked.
     if reader.failed() {
         return None;
     }
@@ -269,7 +269,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Bu
     Some(Built { robot, locations, code, budgets })
 }
 
-/// Warns of parameters that nothing uses.
+/// Warns about parameters that are not used.
 fn unused(reader: &mut Reader<'_>) {
     let unused: Vec<(String, Span)> = reader
         .parameters()
@@ -286,14 +286,14 @@ fn unused(reader: &mut Reader<'_>) {
     }
 }
 
-/// Warns of masses that are fixed to the base.
+/// Warns about masses that have no effect because they are fixed to the base.
 fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
     for dropped in &locations.dropped {
         reader.report(dropped.diagnostic());
     }
 }
 
-/// The source is left out: nobody wants it in a message.
+/// The error for a file that is too large; its text is not shown in the message.
 fn too_large(name: &str, bytes: usize) -> Diagnostics {
     let message = format!("the file has {bytes} bytes; a robot file may have at most {MAX_BYTES}");
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)

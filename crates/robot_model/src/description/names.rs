@@ -1,40 +1,39 @@
-//! The one gate through which every name comes in.
+//! The check that every name in a file must pass.
 //!
-//! The names that pass here go into generated code, equations and file names; nothing else from a file
-//! does. Identifiers name robots, parameters and wrench components; labels name links, joints and
-//! frames.
+//! Only names that pass it reach generated code, equations and file names. Identifiers name robots, parameters and
+//! wrench components; labels name links, joints and frames.
 
 use super::reader::{Named, Reader};
 use super::table::Value;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::variable::{JointVariable, WRENCH};
 
-/// No name is longer.
+/// The maximum length of a name.
 const MAX_NAME: usize = 64;
 
-/// The names that equations and states use, and the functions of formulas.
+/// Names that are reserved because equations and states use them, and the names of functions in formulas.
 const OWN: &[&str] = &[
     "t", WRENCH, "abs", "acos", "asin", "atan", "atan2", "cos", "exp", "log", "pi", "pow", "sign",
     "sin", "sqrt", "tan", "tanh",
 ];
 
-/// The use of a name.
+/// The kind of a name, which determines the characters that it may have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// `[A-Za-z_][A-Za-z0-9_]{0,63}` that means nothing else in a robot file or an equation.
+    /// `[A-Za-z_][A-Za-z0-9_]{0,63}` without another meaning in a robot file or an equation.
     Identifier,
-    /// `[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}`, not `base`.
+    /// `[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}` other than `base`.
     Label,
 }
 
 impl Reader<'_> {
-    /// A string of the file as a name; `what` is what it names.
+    /// Reads a string of the file as a name; `what` is the kind of thing that it names.
     pub(super) fn name(&mut self, value: Value<'_>, what: &str, kind: Kind) -> Option<Named> {
         let text = self.string(value, &format!("the name of {what} in quotes"))?;
         self.check_name(text, &value.span(), what, kind)
     }
 
-    /// A key or string of the file as a name.
+    /// Checks a key or string of the file as a name.
     pub(super) fn check_name(
         &mut self,
         text: &str,
@@ -104,8 +103,8 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
         .help(rule)
 }
 
-/// Why a name is reserved, if it is. Words of the languages that code is generated in are not: a printer of code
-/// adapts them.
+/// The reason why a name is reserved; `None` if it is not. Keywords of the languages in which code is generated are not
+/// reserved: the printers rename them.
 pub(super) fn reserved(name: &str) -> Option<String> {
     if OWN.contains(&name) || JointVariable::from_name(name).is_some() {
         return Some("a symbol of the equations".to_owned());
@@ -113,16 +112,16 @@ pub(super) fn reserved(name: &str) -> Option<String> {
     is_coordinate(name).then(|| "a joint's position, velocity, acceleration or torque".to_owned())
 }
 
-/// `q1`, `qd1`, `qdd1`, `Q1`, `tau1` and so on: what equations call the motion of a joint.
+/// Whether a name is that of a joint variable in equations, such as `q1`, `qd1`, `qdd1`, `Q1` or `tau1`.
 pub(super) fn is_coordinate(name: &str) -> bool {
     let letters = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
     letters.len() < name.len() && (letters == "Q" || JointVariable::from_name(letters).is_some())
 }
 
-/// Names of one kind, each once.
+/// A set of names of one kind, which must be unique.
 pub(super) struct Registry {
     what: &'static str,
-    /// Whether names that differ in case or underscores alone are distinct.
+    /// Whether names that differ only in case or underscores count as different.
     exact: bool,
     names: Vec<Named>,
     folded: std::collections::BTreeMap<String, usize>,
@@ -138,13 +137,13 @@ impl Registry {
         }
     }
 
-    /// A registry that lets alike names pass.
+    /// Creates a registry in which names may differ only in case or underscores.
     pub(super) fn exact(what: &'static str) -> Registry {
         Registry { exact: true, ..Registry::new(what) }
     }
 
-    /// Adds a name; one that is there already, or differs in case or underscores alone, gives the
-    /// diagnostic.
+    /// Adds a name. Returns a diagnostic if the registry already contains the name, or one that differs only in case or
+    /// underscores.
     pub(super) fn add(&mut self, named: &Named) -> Option<Diagnostic> {
         let folded: String = if self.exact {
             named.name.clone()

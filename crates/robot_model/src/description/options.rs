@@ -7,29 +7,29 @@ use crate::diagnostic::Severity;
 /// The format of a robot file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Format {
-    /// The project's own, in TOML.
+    /// The format of this project, in TOML.
     Toml,
-    /// The format of ROS, in XML.
+    /// URDF, the format of ROS, in XML.
     Urdf,
 }
 
-/// The options of reading a file: errors that become warnings, and values that the file does not have.
+/// The options of reading a file: which errors become warnings, whether friction is read, and values of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// Accept moving links without mass; the errors become warnings.
     pub allow_massless: bool,
     /// Accept masses and inertias that are physically impossible; the errors become warnings.
     pub allow_unphysical: bool,
-    /// Read the friction of joints in URDF: damping as viscous friction, friction as constant dry friction. Otherwise
-    /// it is left out of the robot.
+    /// Read the friction of joints in URDF: damping as viscous friction, friction as constant dry friction. If false,
+    /// the robot has no friction.
     pub friction: bool,
-    /// Values of parameters that replace the nominal ones; every check uses them. Names that are not the robot's
-    /// parameters have no effect.
+    /// Values of parameters that replace the nominal ones; all checks use them. Names that are not parameters of the
+    /// robot have no effect.
     pub values: Vec<(String, Rational)>,
 }
 
 impl Options {
-    /// The value of a parameter in place of its nominal one.
+    /// The value that replaces the nominal value of a parameter, if there is one.
     pub(super) fn value(&self, parameter: &str) -> Option<&Rational> {
         self.values.iter().find(|(name, _)| name == parameter).map(|(_, value)| value)
     }

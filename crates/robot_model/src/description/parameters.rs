@@ -1,9 +1,9 @@
-//! `[parameters]`: the symbols that stay in equations and code.
+//! `[parameters]`: the symbols that remain in equations and code.
 
 use robot_symbolic::Rational;
 use toml::de::DeValue;
 
-use super::limits::MAX_PARAMETERS;
+use super::input_limits::MAX_PARAMETERS;
 use super::locations::ParameterLocation;
 use super::names::Kind;
 use super::reader::{Known, Reader};
@@ -14,7 +14,7 @@ use crate::diagnostic::{Diagnostic, code};
 use crate::robot::Parameter;
 use crate::unit::{Unit, UnitError, known_units};
 
-/// Reads the table and makes its names known to the expressions that follow.
+/// Reads the table and defines its names for the expressions that follow.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     root: &mut Table<'_>,
@@ -61,7 +61,7 @@ pub(super) fn read(
     (parameters, places)
 }
 
-/// A parameter without its name.
+/// Reads one parameter, except for its name.
 fn one(reader: &mut Reader<'_>, value: Value<'_>) -> (Parameter, ParameterLocation) {
     let mut place = ParameterLocation::default();
     let mut parameter =
@@ -93,7 +93,7 @@ fn one(reader: &mut Reader<'_>, value: Value<'_>) -> (Parameter, ParameterLocati
     (parameter, place)
 }
 
-/// A nominal value: a number, because a value computed from other parameters is not a parameter.
+/// Reads a nominal value. It must be a number, because a value computed from other parameters would not be a parameter.
 fn nominal(reader: &mut Reader<'_>, value: Value<'_>) -> Option<Rational> {
     if let DeValue::String(_) = value.get_ref() {
         reader.report(
@@ -142,7 +142,7 @@ fn unit(reader: &mut Reader<'_>, value: Value<'_>, nominal: Option<&Rational>) -
     None
 }
 
-/// A number as text: a fraction if it is not a short decimal.
+/// A number as text: a decimal if it is a short one, otherwise a fraction.
 fn decimal(value: &Rational) -> String {
     let float = value.to_f64().to_string();
     match Rational::from_decimal(&float) {

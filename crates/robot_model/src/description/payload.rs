@@ -1,4 +1,4 @@
-//! `[payload]`: a body that the robot may carry, whose ten parameters stay parameters.
+//! `[payload]`: a body that the robot may carry; its ten parameters are set at run time.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -18,7 +18,7 @@ use crate::unit::Unit;
 /// Parameters and their places.
 type Parameters = (Vec<Parameter>, Vec<ParameterLocation>);
 
-/// Reads the table and adds its parameters, which are 0 by default: nothing is carried.
+/// Reads the table and adds the parameters of the payload. They are 0 by default: the robot carries nothing.
 pub(super) fn read(
     reader: &mut Reader<'_>,
     root: &mut Table<'_>,
@@ -59,7 +59,8 @@ pub(super) fn read(
     Some(DraftPayload { parent, placement, place: span })
 }
 
-/// Reports a mass or a tensor that no body has. Of a mass of 0 any tensor is let pass: nothing is carried.
+/// Reports values that are too large, a negative mass, and a tensor that no body can have. A mass of 0 is accepted with
+/// any possible tensor.
 fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
     let Payload { mass, center_of_mass, inertia } = names();
     let value = |name: &String| {
@@ -86,7 +87,7 @@ fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
     }
 }
 
-/// The names of the parameters.
+/// The names of the payload's parameters.
 fn names() -> Payload {
     let named = |name: &str| format!("payload_{name}");
     Payload {
@@ -117,7 +118,7 @@ fn payload_parameters() -> Vec<Parameter> {
     payload_parameters
 }
 
-/// Puts the payload on the link that carries it, `placement` in the link's frame.
+/// Attaches the payload to the link that carries it; `placement` is in that link's frame.
 pub(super) fn attach(
     reader: &mut Reader<'_>,
     carrier: Option<(&mut Link, &mut Vec<BodyLocation>)>,
@@ -132,7 +133,7 @@ pub(super) fn attach(
         );
         return None;
     };
-    // Shares of a mass that may be 0 have no meaning.
+    // The link's own mass must not be 0, because the mass of the payload may be.
     if link.bodies.iter().all(|body| Reader::is_zero(&body.mass)) {
         let message = format!("the link `{}` carries the payload and is massless", link.name);
         reader.report(

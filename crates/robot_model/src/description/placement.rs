@@ -1,4 +1,4 @@
-//! Placements of frames: `origin` by xyz and rpy, `dh` by a Denavit–Hartenberg row.
+//! Placements of frames: `origin` with xyz and rpy, or `dh` with a Denavit–Hartenberg row.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -12,7 +12,7 @@ use crate::robot::{Axis, JointKind, Move, Placement};
 /// Angles about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll).
 pub(super) const RPY: Quantity = quantity("the roll, pitch and yaw angles", 0, 0, 0);
 
-/// The frames of a joint: before its motion and after it.
+/// The placements of a joint: one before its motion and one after it.
 #[derive(Default)]
 pub(super) struct Frames {
     pub(super) before: Placement,
@@ -21,7 +21,7 @@ pub(super) struct Frames {
     pub(super) place: Option<Span>,
 }
 
-/// The two conventions that go by the names of Denavit and Hartenberg.
+/// The two conventions of Denavit–Hartenberg parameters.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Convention {
     /// Joint i moves about or along z of frame i−1: Rz(θ) Tz(d) Tx(a) Rx(α).
@@ -30,7 +30,7 @@ pub(super) enum Convention {
     Modified,
 }
 
-/// Angles and lengths of a row.
+/// The angles and lengths of a row.
 pub(super) struct Row {
     pub(super) a: Formula,
     pub(super) alpha: Formula,
@@ -46,7 +46,7 @@ pub(super) fn zeros() -> [Formula; 3] {
     [zero(), zero(), zero()]
 }
 
-/// Reads `origin` or `dh` of a link. A link with neither has its frame in the parent's.
+/// Reads `origin` or `dh` of a link. Without either, the link's frame coincides with the parent's at joint position 0.
 pub(super) fn of_link(
     reader: &mut Reader<'_>,
     table: &mut Table<'_>,
@@ -73,7 +73,7 @@ pub(super) fn of_link(
     }
 }
 
-/// `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`, each zero if it is left out.
+/// Reads `{ xyz = [x, y, z], rpy = [roll, pitch, yaw] }`; both default to zero.
 pub(super) fn origin_of(reader: &mut Reader<'_>, value: Value<'_>) -> Placement {
     let Some(mut table) = reader.table(value, &ORIGIN) else {
         return Placement::default();
@@ -99,7 +99,7 @@ fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Fr
     }
 }
 
-/// The convention, which has no default: the two give different robots.
+/// Reads the convention. It has no default, because the two conventions give different robots.
 pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<Convention> {
     let entry = table.require(reader, "convention", "convention = \"modified\"")?;
     match reader.word(entry.value, "a DH convention", CONVENTIONS)? {
@@ -108,7 +108,7 @@ pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Opti
     }
 }
 
-/// `a`, `alpha`, `d` and `theta`, each zero if it is left out.
+/// Reads `a`, `alpha`, `d` and `theta`, which default to zero.
 pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
     let mut length_or_angle = |key: &'static str, what: Quantity, is_angle: bool| {
         let read = if is_angle { Reader::angle } else { Reader::formula };
@@ -122,7 +122,7 @@ pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
     }
 }
 
-/// The frames of a row. All moves about and along z commute with the joint's motion.
+/// The frames of a row. Moves about and along z commute with the motion of the joint.
 pub(super) fn frames_of_row(
     convention: Convention,
     row: Row,
@@ -146,7 +146,7 @@ pub(super) fn frames_of_row(
     Frames { before, after, place: Some(place) }
 }
 
-/// The placement without the moves that move nothing.
+/// The placement without the moves that are zero.
 pub(super) fn without_rests(placement: Placement) -> Placement {
     let moves = placement.0.into_iter().filter(|step| match step {
         Move::Translate(vector) => !vector.iter().all(Reader::is_zero),

@@ -1,7 +1,7 @@
-//! Values that are too large or too small to compute with.
+//! Checks for values that are too large or too small to compute with.
 //!
-//! Torques are products of masses, squared lengths and more; beyond these bounds such products could
-//! leave the range of floating point, and the values would have no meaning for a robot.
+//! Torques are products of masses, squared lengths and other values. Beyond these bounds such products could overflow
+//! or underflow, and the values would be meaningless for a robot.
 
 use robot_symbolic::Formula;
 
@@ -11,11 +11,11 @@ use crate::diagnostic::significant;
 use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::{Body, Drive, Friction, Joint, JointKind, Link, Move, Placement, Robot};
 
-/// The largest value, in SI units: the Sun has 2e30 kg.
+/// The largest magnitude of a value in SI units; for comparison, the mass of the Sun is 2e30 kg.
 const LARGEST: f64 = 1e30;
-/// The least mass, kg, largest entry of a tensor, kg m², and whatever else is a divisor.
+/// The smallest value of a mass, kg, of the largest entry of a tensor, kg m², and of every other divisor.
 const LEAST: f64 = 1e-100;
-/// The largest angle, rad: of larger ones rounding leaves less than ten digits within a turn.
+/// The largest magnitude of an angle, rad: larger angles have fewer than ten significant digits within a turn.
 const ANGLE: f64 = 1e6;
 
 /// Reports all values that are out of range at the nominal values of the parameters.
@@ -65,8 +65,9 @@ impl Range<'_, '_> {
         }
     }
 
-    /// Axes of numbers may have any length; those of expressions are normalized where they are
-    /// computed. What is hidden by the other components cannot be normalized at all.
+    /// Checks the magnitudes of the components of an axis. An axis of exact numbers may have any length. An axis of
+    /// expressions is normalized at run time, so the square of its length must be in range. No axis may have a
+    /// component that is negligible beside the others.
     fn axis(&mut self, axis: &[Formula; 3], joint: &str, at: &Span) {
         let known = axis.each_ref().map(|component| self.reader.known(component));
         let [Some(x), Some(y), Some(z)] = known.map(|known| known.map(f64::abs)) else { return };
@@ -153,7 +154,7 @@ impl Range<'_, '_> {
         }
     }
 
-    /// Reports values of which the largest, a divisor somewhere, is too small.
+    /// Reports values if the largest of them, which is a divisor in some computation, is too small.
     fn divisor<'f>(
         &mut self,
         formulas: impl IntoIterator<Item = &'f Formula>,
@@ -178,7 +179,7 @@ impl Range<'_, '_> {
     }
 }
 
-/// The message about a number that is too large; `None` if it is not.
+/// The message about a number that is too large; `None` if it is in range.
 pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
     let message = || format!("{what} contains a value of {}", significant(value));
     (value.abs() > LARGEST).then(|| {

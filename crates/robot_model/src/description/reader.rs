@@ -1,5 +1,4 @@
-//! The common state of all parts of a reader: the diagnostics, and the parameters that expressions may
-//! name.
+//! The state that all parts of a reader share: the diagnostics, and the parameters that expressions may contain.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,10 +10,11 @@ use super::options::Options;
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
 
-/// After so many errors nobody looks for misspelt words any more.
+/// The number of errors after which no corrections of misspelled words are suggested. At most this many unknown names
+/// are reported for one formula.
 const ENOUGH: usize = 40;
 
-/// A parameter as expressions see it.
+/// A parameter that expressions may contain.
 pub(super) struct Known {
     pub(super) name: String,
     pub(super) span: Span,
@@ -35,13 +35,13 @@ pub(super) struct Reader<'a> {
     pub(super) text: &'a str,
     pub(super) options: &'a Options,
     pub(super) found: Vec<Diagnostic>,
-    /// The angles of the file.
+    /// The angles in the file.
     pub(super) angles: Vec<AngleLocation>,
-    /// Content of the file about the dynamics that is not part of the robot, in words.
+    /// Descriptions of content that affects the dynamics but is not part of the robot.
     pub(super) left_out: Vec<String>,
     parameters: Vec<Known>,
     by_name: BTreeMap<String, usize>,
-    /// Parameters and wrench components: what equations and code call by name.
+    /// The names of parameters and wrench components, which equations and code use.
     pub(super) symbols: Registry,
 }
 
@@ -59,25 +59,25 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// Makes a parameter known to the expressions that follow.
+    /// Defines a parameter for the expressions that follow.
     pub(super) fn define(&mut self, parameter: Known) {
         let index = self.parameters.len();
         self.by_name.entry(parameter.name.clone()).or_insert(index);
         self.parameters.push(parameter);
     }
 
-    /// The parameter of that name.
+    /// The parameter with the given name.
     pub(super) fn parameter(&self, name: &str) -> Option<&Known> {
         self.parameters.get(*self.by_name.get(name)?)
     }
 
-    /// The parameters in the file's order.
+    /// The parameters in the order of the file.
     pub(super) fn parameters(&self) -> &[Known] {
         &self.parameters
     }
 
-    /// The candidate that a misspelt word most likely means; none after so many errors that this
-    /// one will hardly be read.
+    /// The candidate that a misspelled word most likely means. `None` if there are already so many errors that a
+    /// suggestion would hardly be read.
     pub(super) fn nearest<'n>(
         &self,
         word: &str,
@@ -98,12 +98,12 @@ impl<'a> Reader<'a> {
         self.found.push(diagnostic);
     }
 
-    /// A placeholder for an invalid value: no further check has an opinion on it.
+    /// A placeholder for an invalid value; it passes all further checks.
     pub(super) fn unknown() -> Formula {
         Formula::symbol("_")
     }
 
-    /// The value of a formula if it has no names, or all of them have nominal values.
+    /// The value of a formula. `None` if it contains a name without a nominal value.
     pub(super) fn known(&self, formula: &Formula) -> Option<f64> {
         let mut complete = true;
         let value = formula.evaluate(|name| {
@@ -114,13 +114,13 @@ impl<'a> Reader<'a> {
         complete.then_some(value)
     }
 
-    /// Whether a formula is the number 0 whatever the parameters are.
+    /// Whether a formula is the number 0, independently of the parameters.
     pub(super) fn is_zero(formula: &Formula) -> bool {
         matches!(formula.as_number(), Some(Number::Rational(value)) if value.is_zero())
     }
 
-    /// Marks the parameters that a formula names, and reports the unknown names. `place`
-    /// maps bytes of the formula's text to the file.
+    /// Marks the parameters in a formula as used and reports unknown names. `place` maps a range of bytes of the
+    /// formula's text to its place in the file. Returns whether all names are known.
     pub(super) fn resolve(&mut self, formula: &Formula, place: &dyn Fn(Span) -> Span) -> bool {
         let mut unknown = BTreeSet::new();
         for (name, span) in formula.symbols() {
@@ -166,7 +166,7 @@ impl<'a> Reader<'a> {
         ))
     }
 
-    /// Reports a formula whose value is not finite.
+    /// Reports a formula whose value is not finite; returns whether it is finite.
     pub(super) fn finite(&mut self, formula: &Formula, span: &Span) -> bool {
         let known = self.known(formula);
         let undefined = self.undefined(formula).or_else(|| unbounded(formula));
@@ -199,7 +199,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether a part of the formula is not a finite number whatever the parameters are, as in `1/(x - x)`.
+/// The reason why a part of the formula is not a finite number for any values of the parameters, as in `1/(x - x)`.
 fn unbounded(formula: &Formula) -> Option<&'static str> {
     if formula.is_constant() {
         return None;
@@ -207,14 +207,14 @@ fn unbounded(formula: &Formula) -> Option<&'static str> {
     (!is_finite(formula)).then_some("this is not a number")
 }
 
-/// Whether every part of the formula that is a constant is a finite number, as none is in `1/(x - x)`.
+/// Whether every constant part of the formula is a finite number. In `1/(x - x)`, for example, the quotient is not.
 #[must_use]
 pub fn is_finite(formula: &Formula) -> bool {
     let graph = Graph::new();
     let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
     let parts = walk::reachable(&[expr]);
     let values = walk::evaluate(&parts, |_| 1.0);
-    // Operands come before what they are operands of.
+    // Operands precede the expressions that contain them.
     let mut constants: BTreeSet<Id> = BTreeSet::new();
     for (part, value) in parts.iter().zip(values) {
         let is_constant = part.as_symbol().is_none()

@@ -1,7 +1,6 @@
-//! The tables of a robot file: the one list of its keys.
+//! The tables of a robot file, with the only list of their keys.
 //!
-//! The reader asks a table for no key that its shape does not have, and the JSON schema of the
-//! format is made of the same shapes.
+//! The reader can only look up keys of these shapes, and the JSON schema of the format is generated from them.
 
 use crate::functions::ALL_FUNCTIONS;
 use crate::robot::BaseFrames;
@@ -9,42 +8,42 @@ use crate::robot::BaseFrames;
 /// A table of the file.
 #[derive(Debug)]
 pub struct Shape {
-    /// What messages call the table: `a joint`.
+    /// The name of the table in messages, such as `a joint`.
     pub what: &'static str,
-    /// Its purpose.
+    /// The purpose of the table.
     pub doc: &'static str,
-    /// Its keys.
+    /// The keys of the table.
     pub keys: &'static [Key],
 }
 
 /// A key of a table.
 #[derive(Debug)]
 pub struct Key {
-    /// The key.
+    /// The name of the key.
     pub name: &'static str,
-    /// Its content.
+    /// The content of its value.
     pub content: Content,
     /// Whether it is required.
     pub presence: Presence,
-    /// Its purpose.
+    /// The purpose of the key.
     pub doc: &'static str,
 }
 
 /// Whether a key is required.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presence {
-    /// It is required in every table.
+    /// The key is required in every table.
     Needed,
-    /// It depends on other keys whether it is required.
+    /// Whether the key is required depends on other keys.
     Depends,
-    /// It may be left out.
+    /// The key is optional.
     Optional,
 }
 
 /// The content of a key.
 #[derive(Clone, Copy, Debug)]
 pub enum Content {
-    /// The number of the format.
+    /// The version number of the format.
     Format,
     /// A number, or an expression over the parameters.
     Formula,
@@ -56,31 +55,31 @@ pub enum Content {
     Number,
     /// Two numbers.
     Limits,
-    /// A whole number that is not negative.
+    /// A non-negative whole number.
     Whole,
-    /// The name of a function of generated code, or of a bundle of the file.
+    /// The name of a function of generated code, or of a bundle in the file.
     Function,
-    /// A list of functions; a word for all of them if that is said.
+    /// A list of functions, with a word for all of them if there is one.
     Functions(Option<&'static str>),
-    /// A table whose keys are identifiers, behind each a list of functions.
+    /// A table whose keys are identifiers and whose values are lists of functions.
     Bundles,
     /// `true` or `false`.
     Boolean,
     /// One of these words.
     Word(&'static [&'static str]),
-    /// A text for people.
+    /// A text for readers.
     Text,
-    /// Products of powers of SI units.
+    /// A unit: a product of powers of SI units.
     Unit,
-    /// LaTeX of a symbol.
+    /// The LaTeX of a symbol.
     Latex,
-    /// A name that may be a variable in code.
+    /// An identifier, which may become a variable in code.
     Identifier,
-    /// A name of a link, joint or frame.
+    /// The name of a link, joint or frame.
     Label,
-    /// A name of a link, or `base`.
+    /// The name of a link, or `base`.
     Parent,
-    /// Names of the three components of a force or moment.
+    /// The names of the three components of a force or moment.
     Components(&'static Shape),
     /// A table.
     Table(&'static Shape),
@@ -88,7 +87,7 @@ pub enum Content {
     List(&'static Shape),
     /// A table, or a list of them.
     OneOrMany(&'static Shape),
-    /// A table whose keys are identifiers; behind each a number, or a table of this shape.
+    /// A table whose keys are identifiers and whose values are numbers or tables of this shape.
     Parameters(&'static Shape),
 }
 
@@ -98,21 +97,21 @@ use Content::{
     Word,
 };
 
-/// Types of joints.
+/// The types of joints.
 pub const JOINT_TYPES: &[&str] = &["revolute", "prismatic", "fixed"];
-/// Words for joint axes.
+/// The words for joint axes.
 pub const AXES: &[&str] = &["x", "y", "z", "-x", "-y", "-z"];
-/// Conventions of Denavit–Hartenberg rows.
+/// The conventions of Denavit–Hartenberg rows.
 pub const CONVENTIONS: &[&str] = &["standard", "modified"];
-/// Points that a tensor is about.
+/// The points about which a tensor can be given.
 pub const POINTS: &[&str] = &["center_of_mass", "origin"];
 
-/// Frames of base parameters.
+/// The frames of base parameters.
 pub const BASE_FRAMES: &[&str] = &[BaseFrames::File.name(), BaseFrames::DenavitHartenberg.name()];
 
-/// Names that may be variables in code, as a regular expression.
+/// The syntax of identifiers, which may become variables in code, as a regular expression.
 pub const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]{0,63}$";
-/// Names of links, joints and frames, as a regular expression.
+/// The syntax of the names of links, joints and frames, as a regular expression.
 pub const LABEL: &str = "^[A-Za-z0-9_][A-Za-z0-9_.-]{0,63}$";
 
 const fn needed(name: &'static str, content: Content, doc: &'static str) -> Key {
@@ -178,7 +177,7 @@ pub static ROBOT: Shape = Shape {
     ],
 };
 
-/// A parameter with more than its value.
+/// A parameter with properties besides its value.
 pub static PARAMETER: Shape = Shape {
     what: "a parameter",
     doc: "A symbol that remains a parameter in equations and code.",
@@ -435,7 +434,7 @@ pub static COMPONENT: Shape = Shape {
 };
 
 impl Shape {
-    /// The key of that name.
+    /// The key with the given name.
     #[must_use]
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)

@@ -1,9 +1,9 @@
-//! Places of the characters of a TOML string in the file.
+//! The places in the file of characters of a TOML string.
 
 use crate::diagnostic::Span;
 
-/// The place in the file of `range` within a decoded string. `span` is the string's place, quotes
-/// and all; the whole of it is returned if the text cannot be followed.
+/// The place in the file of `range` within a decoded string. `span` is the place of the string including its quotes; it
+/// is returned if the place of the range cannot be determined.
 pub(super) fn place(file: &str, span: &Span, decoded: &str, range: Span) -> Span {
     let raw = file.get(span.clone()).unwrap_or_default();
     let (Some(start), Some(end)) = (
@@ -15,8 +15,8 @@ pub(super) fn place(file: &str, span: &Span, decoded: &str, range: Span) -> Span
     span.start + start..span.start + end
 }
 
-/// The byte of the raw string at which `target` decoded bytes are complete; `onward` goes on to the
-/// next character where a line continuation is between.
+/// The offset in the raw string at which `target` bytes of the decoded string are complete. With `onward`, a line
+/// continuation at this offset is skipped.
 fn offset(raw: &str, decoded: &str, target: usize, onward: bool) -> Option<usize> {
     let (mut position, basic) = opening(raw)?;
     let mut done = 0;
@@ -37,7 +37,7 @@ fn offset(raw: &str, decoded: &str, target: usize, onward: bool) -> Option<usize
     (done == target && decoded.is_char_boundary(target)).then_some(position)
 }
 
-/// The start of the text of a raw string, and whether it has escapes.
+/// The offset of the content of a raw string, and whether the string can have escapes.
 fn opening(raw: &str) -> Option<(usize, bool)> {
     let quote = raw.chars().next().filter(|quote| matches!(quote, '"' | '\''))?;
     let basic = quote == '"';
@@ -50,7 +50,7 @@ fn opening(raw: &str) -> Option<(usize, bool)> {
     Some((3 + newline, basic))
 }
 
-/// The bytes that an escape means, and the bytes that it takes.
+/// The number of decoded bytes that an escape stands for, and the number of bytes that it occupies.
 fn escape(rest: &str) -> Option<(usize, usize)> {
     rest.strip_prefix('\\')?;
     let digits = match rest.chars().nth(1)? {
@@ -71,7 +71,7 @@ fn escape(rest: &str) -> Option<(usize, usize)> {
 mod tests {
     use super::place;
 
-    /// The file's bytes of `needle` within the string that is the value of `a`.
+    /// The text in the file that corresponds to `needle` within the string that is the value of `a`.
     fn shown<'f>(file: &'f str, needle: &str) -> &'f str {
         let (table, errors) = toml::de::DeTable::parse_recoverable(file);
         assert!(errors.is_empty(), "{file}: {errors:?}");

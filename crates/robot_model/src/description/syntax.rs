@@ -1,15 +1,15 @@
-//! TOML text to tables, and errors of TOML in the words of robot files.
+//! Parses TOML text into tables and explains TOML errors in terms of robot files.
 
 use toml::Spanned;
 use toml::de::DeTable;
 
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// Parses the text; the tables are of use only if no diagnostic is found.
+/// Parses the text. The tables are usable only if there are no diagnostics.
 pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut found = Vec::new();
-    // The keys of a table whose header is wrong are wrong with it.
+    // The keys below a duplicate header would be reported as duplicates, too; they are skipped.
     let mut header: Option<Span> = None;
     for error in &errors {
         let span = error.span().unwrap_or(text.len()..text.len());
@@ -28,7 +28,7 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     (table, found)
 }
 
-/// The text from the start of the line that has the byte.
+/// The text from the start of the line that contains the byte.
 fn line_of(text: &str, byte: usize) -> &str {
     let before = text.get(..byte).unwrap_or_default();
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
@@ -41,7 +41,7 @@ fn next_header(text: &str, byte: usize) -> usize {
     rest.find("\n[").map_or(text.len(), |at| byte + at + 1)
 }
 
-/// The parser's message, and the remedy in the cases that occur most.
+/// The message of the parser, and a remedy for the most frequent cases.
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
     let starts = |start: &str| message.starts_with(start);

@@ -1,4 +1,4 @@
-//! A table of the file, read key by key; what is left over is an error.
+//! A table of the file that is read key by key; keys that remain unread are errors.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Span, code, quote};
 /// A value of the file with its place.
 pub(super) type Value<'a> = &'a Spanned<DeValue<'a>>;
 
-/// A key of a table with its value.
+/// A key of a table, with its value.
 #[derive(Clone)]
 pub(super) struct Entry<'a> {
     pub(super) key: Span,
@@ -20,7 +20,7 @@ pub(super) struct Entry<'a> {
 /// A table that is being read.
 pub(super) struct Table<'a> {
     keys: &'a DeTable<'a>,
-    /// The braces of an inline table, or the header of any other.
+    /// The place of the braces of an inline table, or of the header of any other table.
     pub(super) span: Span,
     shape: &'static Shape,
     known: Vec<&'static str>,
@@ -31,30 +31,30 @@ impl<'a> Table<'a> {
         Table { keys, span, shape, known: Vec::new() }
     }
 
-    /// The value of a key, which is known from now on.
+    /// The value of a key. The key counts as known from now on.
     pub(super) fn get(&mut self, key: &'static str) -> Option<Entry<'a>> {
         debug_assert!(self.shape.key(key).is_some(), "{} has no `{key}`", self.shape.what);
         self.misplaced(key)
     }
 
-    /// The value of a key that has no place in the table, of which more can be said than that it is
-    /// not known.
+    /// The value of a key that does not belong in the table, so that a more helpful message than "unknown key" is
+    /// possible.
     pub(super) fn misplaced(&mut self, key: &'static str) -> Option<Entry<'a>> {
         self.known.push(key);
         self.keys.get_key_value(key).map(|(key, value)| Entry { key: key.span(), value })
     }
 
-    /// The number of keys, known or not.
+    /// The number of keys, whether known or not.
     pub(super) fn len(&self) -> usize {
         self.keys.len()
     }
 
-    /// Whether the key is there, without making it known.
+    /// Whether the table has the key. The key does not become known by this.
     pub(super) fn has(&self, key: &str) -> bool {
         self.keys.contains_key(key)
     }
 
-    /// The value of a key that must be there. `example` is the line to add.
+    /// The value of a required key. `example` is the line to add if it is missing.
     pub(super) fn require(
         &mut self,
         reader: &mut Reader<'_>,
@@ -64,7 +64,7 @@ impl<'a> Table<'a> {
         self.require_with(reader, key, &format!("add `{example}`"))
     }
 
-    /// The value of a key that must be there, with what to do if it is not.
+    /// The value of a required key. `help` is the remedy if it is missing.
     pub(super) fn require_with(
         &mut self,
         reader: &mut Reader<'_>,
@@ -90,7 +90,7 @@ impl<'a> Table<'a> {
         entry
     }
 
-    /// Reports the keys that nobody asked for.
+    /// Reports the keys of the table that are not known.
     pub(super) fn finish(self, reader: &mut Reader<'_>) {
         for (key, _) in self.keys {
             let name = key.get_ref().as_ref();
@@ -115,7 +115,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// `a`, `b` and `c`, each once.
+/// The words as a list, such as `a`, `b` and `c`, without repetitions.
 pub(super) fn list(words: &[&str]) -> String {
     let mut quoted: Vec<String> = Vec::new();
     for word in words {

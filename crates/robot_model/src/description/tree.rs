@@ -1,14 +1,14 @@
-//! The links in order: parents before children, else as in the file.
+//! The order of the links: parents before children, otherwise as in the file.
 
 use std::collections::BTreeSet;
 
 use super::draft::{Draft, DraftFrame, DraftLink, Parent};
-use super::limits::MAX_JOINTS;
+use super::input_limits::MAX_JOINTS;
 use super::names::Registry;
 use super::reader::{Named, Reader};
 use crate::diagnostic::{Diagnostic, code, quote};
 
-/// Checks names and parents. The links' new order, as indices, if they form a tree.
+/// Checks names and parents. Returns the indices of the links in their new order if the links form a tree.
 pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<usize>> {
     let Draft { links, frames, payload, .. } = draft;
     names(reader, links, frames);
@@ -46,7 +46,7 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
     Some(order)
 }
 
-/// Links and frames have one set of names; joints have their own.
+/// Checks that names are unique: links and frames share one set of names; joints have a separate one.
 fn names(reader: &mut Reader<'_>, links: &[DraftLink], frames: &[DraftFrame]) {
     let mut registry = Registry::exact("link or frame");
     let own = links.iter().map(|link| &link.name);
@@ -58,7 +58,7 @@ fn names(reader: &mut Reader<'_>, links: &[DraftLink], frames: &[DraftFrame]) {
     let mut registry = Registry::exact("joint");
     let explicit = |link: &&DraftLink| link.joint.name != link.name;
     let (named, mut unnamed): (Vec<_>, Vec<_>) = links.iter().partition(explicit);
-    // That two links have one name is said already.
+    // Duplicate names of links are already reported.
     let mut seen = BTreeSet::new();
     unnamed.retain(|link| seen.insert(&link.name.name));
     for link in named.iter().chain(&unnamed) {
@@ -91,8 +91,7 @@ fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named]) -> boo
     false
 }
 
-/// Takes, again and again, the first link whose parent is taken; those on or behind a cycle are
-/// left out.
+/// Repeatedly takes the first link whose parent has been taken. Links on a cycle, or attached to one, are left out.
 fn sorted(parents: &[Option<usize>]) -> Vec<usize> {
     let mut order = Vec::new();
     let mut taken = vec![false; parents.len()];
@@ -112,7 +111,7 @@ fn sorted(parents: &[Option<usize>]) -> Vec<usize> {
     }
 }
 
-/// One diagnostic for each cycle; links attached to one are cured with it.
+/// Reports each cycle with one diagnostic. Links that are attached to a cycle are not reported separately.
 fn report_cycles(
     reader: &mut Reader<'_>,
     links: &[DraftLink],

@@ -14,10 +14,10 @@ use super::table::{Table, Value, list};
 use crate::diagnostic::{Diagnostic, Span, code, is_invisible, quote};
 use crate::unit::Dimension;
 
-/// The longest text of a description.
+/// The maximum length of a text.
 const MAX_TEXT: usize = 4096;
 
-/// A value's name in messages, and its dimension if that is fixed.
+/// The name of a value in messages, and its dimension if it is fixed.
 #[derive(Clone, Copy)]
 pub(super) struct Quantity {
     pub(super) what: &'static str,
@@ -60,7 +60,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The entries of a list; `expected` says what it is a list of.
+    /// The entries of a list; `expected` describes the list for messages.
     pub(super) fn list<'a>(
         &mut self,
         value: Value<'a>,
@@ -120,7 +120,8 @@ impl Reader<'_> {
         }
     }
 
-    /// A text for people, without control or invisible characters but for line ends and tabs.
+    /// Reads a text for readers, in which control and invisible characters other than line ends and tabs are not
+    /// allowed.
     pub(super) fn prose(&mut self, value: Value<'_>) -> Option<String> {
         let text = self.string(value, "a text in quotes")?.as_ref();
         let bad = |(_, character): &(usize, char)| {
@@ -151,7 +152,7 @@ impl Reader<'_> {
         Some(text.to_owned())
     }
 
-    /// One of the words; `what` is what they choose between.
+    /// Reads one of the given words; `what` names the property that they specify.
     pub(super) fn word<'n>(
         &mut self,
         value: Value<'_>,
@@ -175,7 +176,7 @@ impl Reader<'_> {
         found
     }
 
-    /// A number, exact as it is written.
+    /// Reads a number exactly as it is written.
     pub(super) fn number(&mut self, value: Value<'_>, expected: &str) -> Option<Rational> {
         let number = match value.get_ref() {
             DeValue::Float(float) => Rational::from_decimal(float.as_str()),
@@ -213,8 +214,8 @@ impl Reader<'_> {
         usable
     }
 
-    /// A number or an expression over the parameters for a quantity of that dimension. A wrong one
-    /// is reported, and [`Reader::unknown`] takes its place.
+    /// Reads a number, or an expression over the parameters, for a quantity with a dimension. An invalid one is
+    /// reported and replaced by [`Reader::unknown`].
     pub(super) fn formula(&mut self, value: Value<'_>, quantity: Quantity) -> Formula {
         let text = match value.get_ref() {
             DeValue::String(text) => text.as_ref(),
@@ -252,19 +253,19 @@ impl Reader<'_> {
         }
     }
 
-    /// An angle, rad, which is noted with its place.
+    /// Reads an angle, rad, and records it with its place.
     pub(super) fn angle(&mut self, value: Value<'_>, quantity: Quantity) -> Formula {
         let angle = self.formula(value, quantity);
         self.angles.push(AngleLocation { value: angle.clone(), place: value.span() });
         angle
     }
 
-    /// Three angles, rad.
+    /// Reads three angles, rad.
     pub(super) fn angle_vector(&mut self, value: Value<'_>, quantity: Quantity) -> [Formula; 3] {
         self.three(value, quantity, Reader::angle)
     }
 
-    /// Three numbers or expressions.
+    /// Reads three numbers or expressions.
     pub(super) fn vector(&mut self, value: Value<'_>, quantity: Quantity) -> [Formula; 3] {
         self.three(value, quantity, Reader::formula)
     }

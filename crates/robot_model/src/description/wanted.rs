@@ -1,10 +1,10 @@
-//! `[code]`: which functions are generated if the caller names none.
+//! `[code]`: the functions that are generated if the caller names none.
 
 use std::collections::BTreeSet;
 
 use toml::de::DeValue;
 
-use super::limits::MAX_BUNDLES;
+use super::input_limits::MAX_BUNDLES;
 use super::names::{Kind, Registry, is_identifier, reserved};
 use super::reader::{Named, Reader};
 use super::shape::CODE;
@@ -13,16 +13,16 @@ use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::functions::{self, ALL_FUNCTIONS, Bundle, FunctionKind, Functions, is_of_frame};
 use crate::robot::Robot;
 
-/// The functions that a file asks to be generated.
+/// The functions that a file selects for generated code.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Code {
-    /// The functions, each by itself; if only bundles are named, none.
+    /// The functions that are generated separately; none if the file selects only bundles.
     pub functions: Functions,
-    /// Functions in one call.
+    /// The bundles: several functions computed in one call.
     pub bundles: Vec<Bundle>,
 }
 
-/// The list as in the file: names of functions, including those of the robot's frames.
+/// The selection as in the file: names of functions, including functions of single frames.
 #[derive(Clone, Default)]
 pub(super) struct Wanted {
     /// `None` if the file has no `functions`.
@@ -30,11 +30,11 @@ pub(super) struct Wanted {
     bundles: Vec<(String, Vec<Named>)>,
 }
 
-/// Whether a bundle may have a name.
+/// Checks whether a bundle may have a name.
 ///
 /// # Errors
 ///
-/// Why it may not, as the end of a sentence.
+/// The reason why it may not, as the end of a sentence.
 pub fn check_bundle_name(name: &str) -> Result<(), String> {
     if !is_identifier(name) {
         return Err(
@@ -45,7 +45,7 @@ pub fn check_bundle_name(name: &str) -> Result<(), String> {
     owner.map_or(Ok(()), |owner| Err(format!("it is reserved: {owner}")))
 }
 
-/// Reads the table.
+/// Reads `[code]`.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     let mut wanted = Wanted::default();
     let Some(entry) = root.get("code") else { return wanted };
@@ -60,7 +60,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     wanted
 }
 
-/// Reads a list of functions, which may contain some further words.
+/// Reads a list of functions, in which the words `more` are also allowed.
 fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Vec<Named> {
     let expected = "a list of functions, such as `[\"mass_matrix\", \"bias\"]`";
     let Some(entries) = reader.list(value, expected) else { return Vec::new() };
@@ -87,8 +87,8 @@ fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Ve
     names
 }
 
-/// Reads the name of a function or one of some further words. One of the functions of a frame is looked
-/// for when the robot is known.
+/// Reads the name of a function or one of the words `more`. The name of a function of a single frame is resolved later,
+/// when the robot is known.
 pub(super) fn function(reader: &mut Reader<'_>, value: Value<'_>, more: &[&str]) -> Option<Named> {
     let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
     let words: Vec<&str> = kinds.chain(more.iter().copied()).collect();
@@ -103,7 +103,7 @@ pub(super) fn function(reader: &mut Reader<'_>, value: Value<'_>, more: &[&str])
     Some(Named { name, span: value.span() })
 }
 
-/// The function of a name, if the robot has it.
+/// The function with a name, if the robot has it; otherwise reports an error.
 pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Option<FunctionKind> {
     let diagnostic = match functions::named(robot, &named.name) {
         Ok(kind) => {
@@ -158,7 +158,7 @@ impl Wanted {
         self.bundles.iter().map(|(name, _)| name.as_str()).collect()
     }
 
-    /// The functions of the robot; those that it lacks are reported.
+    /// The selected functions of the robot. Reports functions that the robot does not have.
     pub(super) fn code(&self, reader: &mut Reader<'_>, robot: &Robot) -> Code {
         let mut all = |names: &[Named]| -> Vec<FunctionKind> {
             let names = names.iter().filter(|named| named.name != ALL_FUNCTIONS);

@@ -1,6 +1,6 @@
-//! The stable codes of diagnostics. Each has a page, `diagnostics/CODE.md` of this package.
+//! The stable codes of diagnostics. Each code has a page, `diagnostics/CODE.md` in this package.
 //!
-//! The first two digits are the subject; a new code takes the next number of its block:
+//! The first two digits are the subject; a new code takes the next free number of its subject:
 //!
 //! - R00: the file as a whole, before anything in it is read;
 //! - R01: keys, elements and entries: unknown, missing, of the wrong type or too many;
@@ -8,12 +8,12 @@
 //! - R03: numbers, expressions, units and dimensions;
 //! - R04: the tree of links and joints;
 //! - R05: masses, inertias, friction and drives that no body can have;
-//! - R06: likely mistakes, and what is read but has no effect;
-//! - R07: what a reader decided, merged, renamed or left out;
-//! - R08: what is asked of generated code: functions, budgets, pinned plans.
+//! - R06: likely mistakes, and content without effect;
+//! - R07: choices of a reader: content that it interpreted, merged, renamed or left out;
+//! - R08: requests for generated code: functions, budgets, pinned plans.
 //!
-//! R00 to R05 are errors, except R0307 and what an option allows; R06 are warnings, R07 notes; R08 are errors, and a
-//! stale pin a warning.
+//! R00 to R05 are errors, except R0307 and errors that an option turns into warnings; R06 are warnings; R07 are notes;
+//! R08 are errors, except that a stale pin is a warning.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {
@@ -22,7 +22,7 @@ macro_rules! codes {
         /// Every code with its title, in order.
         pub const TABLE: &[(&str, &str)] = &[$(($code, $title)),*];
 
-        /// The page of a code, in Markdown: why it matters, an example, what to do.
+        /// The page of a code in Markdown: why it matters, an example, and the remedy.
         #[must_use]
         pub fn page(code: &str) -> Option<&'static str> {
             match code {
@@ -103,5 +103,5 @@ codes! {
 }
 
 /// Codes that must not be used again: removed codes, whose meaning users and their scripts may remember, and skipped
-/// ones. If you remove a code, add it here.
+/// ones. A code that is removed must be added here.
 pub const RETIRED: &[&str] = &["R0616"];

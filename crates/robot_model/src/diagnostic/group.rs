@@ -1,20 +1,20 @@
-//! Warnings and notes of the same kind, which are shown as one.
+//! Groups of warnings and notes of the same kind, each of which is shown as one.
 
 use std::collections::{HashMap, HashSet};
 
 use super::{Diagnostic, Severity, Source};
 
-/// So many are shown one by one.
+/// Up to this many diagnostics of the same kind are shown separately.
 const FEW: usize = 2;
-/// More names or lines than this are counted.
+/// The maximum number of names or lines that are listed; further ones are only counted.
 const MAX_LISTED: usize = 16;
 
 /// Diagnostics that differ only in names, numbers and places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group<'d> {
-    /// The first of them.
+    /// The first diagnostic of the group.
     pub first: &'d Diagnostic,
-    /// The others, in their order.
+    /// The other diagnostics, in order.
     pub others: Vec<&'d Diagnostic>,
 }
 
@@ -25,7 +25,7 @@ impl Group<'_> {
         1 + self.others.len()
     }
 
-    /// The message of the first, with the number of all if there are several.
+    /// The message of the first diagnostic, with the size of the group if there are several.
     #[must_use]
     pub fn message(&self) -> String {
         match self.count() {
@@ -34,7 +34,7 @@ impl Group<'_> {
         }
     }
 
-    /// All of them on one line.
+    /// The whole group on one line.
     #[must_use]
     pub fn line(&self, source: &Source) -> String {
         match self.others(source) {
@@ -43,7 +43,7 @@ impl Group<'_> {
         }
     }
 
-    /// The names and the lines of the others: ``also `current`; on lines 12, 15``.
+    /// The names and lines of the other diagnostics, such as ``also `current`; on lines 12, 15``.
     #[must_use]
     pub fn others(&self, source: &Source) -> Option<String> {
         if self.others.is_empty() {
@@ -79,8 +79,8 @@ fn shortened(list: &[String]) -> String {
     }
 }
 
-/// The groups in the order of their first members. Errors, each of which is to be mended, are alone, and so are
-/// few of a kind.
+/// Groups the diagnostics, in the order of their first members. Errors are never grouped, because each must be
+/// corrected, nor are kinds with only a few diagnostics.
 pub(super) fn groups(list: &[Diagnostic]) -> Vec<Group<'_>> {
     let mut places: HashMap<Kind<'_>, usize> = HashMap::new();
     let mut found: Vec<Vec<(usize, &Diagnostic)>> = vec![];
@@ -110,7 +110,7 @@ pub(super) fn groups(list: &[Diagnostic]) -> Vec<Group<'_>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// By what diagnostics are of the same kind: code and texts without names and numbers.
+/// The properties that diagnostics of the same kind share: the code, and the texts without names and numbers.
 type Kind<'d> = (&'d str, String, String, String, String);
 
 fn kind(one: &Diagnostic) -> Kind<'_> {
@@ -120,7 +120,7 @@ fn kind(one: &Diagnostic) -> Kind<'_> {
     (one.code, pattern(&one.message), pattern(label), why, help)
 }
 
-/// The text with every name in backquotes and every number the same.
+/// The text with all names in backquotes, and all numbers, replaced by the same placeholder.
 fn pattern(text: &str) -> String {
     let mut shown = String::new();
     for (index, part) in text.split('`').enumerate() {

@@ -1,7 +1,7 @@
 //! Errors and warnings about a robot file: the place, the reason and the remedy.
 //!
-//! Every reader collects [`Diagnostic`]s and goes on, so that a file's errors are reported all at
-//! once, in the order of their places.
+//! Every reader collects [`Diagnostic`]s and continues, so that all errors in a file are reported at once, in the order
+//! of their places.
 
 pub mod code;
 mod group;
@@ -13,22 +13,22 @@ use std::ops::Range;
 pub use group::Group;
 pub use render::{Style, render, render_group};
 
-/// Bytes of a source text.
+/// A range of bytes of a source text.
 pub type Span = Range<usize>;
 
-/// The severity.
+/// The severity of a diagnostic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// The file does not describe a robot.
     Error,
     /// The file describes a robot, but perhaps not the intended one.
     Warning,
-    /// The file describes a robot; the note says how it was read if the format leaves a choice open.
+    /// The file describes a robot; the note describes a choice that the format leaves open.
     Note,
 }
 
 impl Severity {
-    /// Its word in messages.
+    /// The word for the severity in messages.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -39,36 +39,36 @@ impl Severity {
     }
 }
 
-/// Bytes of the source with a remark about them.
+/// A range of bytes of the source with a remark about it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Label {
     /// The bytes; empty at a place where something is missing.
     pub span: Span,
-    /// The remark; may be empty.
+    /// The remark, which may be empty.
     pub text: String,
 }
 
 /// An error, a warning or a note.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// A stable code of the table [`code::TABLE`], such as `R0101`.
+    /// A stable code from the table [`code::TABLE`], such as `R0101`.
     pub code: &'static str,
     /// Error, warning or note.
     pub severity: Severity,
     /// The problem, in one line.
     pub message: String,
-    /// The offending text; `None` if it is the file as a whole.
+    /// The place of the problem; `None` if it concerns the file as a whole.
     pub primary: Option<Label>,
-    /// Other places that matter, such as a first definition.
+    /// Other relevant places, such as a first definition.
     pub secondary: Vec<Label>,
-    /// Why it matters.
+    /// The reason why the problem matters.
     pub why: Option<String>,
     /// The remedy.
     pub help: Option<String>,
 }
 
 impl Diagnostic {
-    /// An error, still without a place.
+    /// Creates an error without a place.
     #[must_use]
     pub fn error(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic {
@@ -82,39 +82,39 @@ impl Diagnostic {
         }
     }
 
-    /// A warning, still without a place.
+    /// Creates a warning without a place.
     #[must_use]
     pub fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Warning, ..Diagnostic::error(code, message) }
     }
 
-    /// A note, still without a place.
+    /// Creates a note without a place.
     #[must_use]
     pub fn note(code: &'static str, message: impl Into<String>) -> Diagnostic {
         Diagnostic { severity: Severity::Note, ..Diagnostic::error(code, message) }
     }
 
-    /// This diagnostic with another severity.
+    /// Returns this diagnostic with another severity.
     #[must_use]
     pub fn graded(self, severity: Severity) -> Diagnostic {
         Diagnostic { severity, ..self }
     }
 
-    /// The offending text.
+    /// Sets the place of the problem and the remark about it.
     #[must_use]
     pub fn at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {
         self.primary = Some(Label { span: span.clone(), text: text.into() });
         self
     }
 
-    /// Another place that matters.
+    /// Adds another relevant place.
     #[must_use]
     pub fn and_at(mut self, span: &Span, text: impl Into<String>) -> Diagnostic {
         self.secondary.push(Label { span: span.clone(), text: text.into() });
         self
     }
 
-    /// Why it matters.
+    /// Sets the reason why the problem matters.
     #[must_use]
     pub fn because(mut self, why: impl Into<String>) -> Diagnostic {
         self.why = Some(why.into());
@@ -139,7 +139,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Line and column, both from 1, of a byte; a column is a character, a tab is one.
+    /// The line and column of a byte, both counted from 1. Columns are counted in characters; a tab is one character.
     #[must_use]
     pub fn position(&self, byte: usize) -> (usize, usize) {
         let mut byte = byte.min(self.text.len());
@@ -154,10 +154,9 @@ impl Source {
     }
 }
 
-/// Everything that was found in one source, in the order of the places.
+/// All diagnostics of one source, in the order of their places.
 ///
-/// As an error it displays every diagnostic with `file:line:column` and the offending text
-/// underlined.
+/// As an error, this displays every diagnostic with `file:line:column` and the offending text underlined.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostics {
     source: Source,
@@ -206,20 +205,20 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The diagnostics, those of warnings and notes together that differ only in names, numbers and places.
+    /// The diagnostics in groups: warnings and notes that differ only in names, numbers and places form one group.
     #[must_use]
     pub fn groups(&self) -> Vec<Group<'_>> {
         group::groups(&self.list)
     }
 
-    /// All of them as text, each group with an excerpt of the source, then how many there are.
+    /// Renders all diagnostics as text: each group with an excerpt of the source, followed by their number.
     #[must_use]
     pub fn render(&self, style: Style) -> String {
         render::render_all(&self.source, &self.list, style)
     }
 }
 
-/// The plain rendering.
+/// The rendering in [`Style::Plain`].
 impl fmt::Display for Diagnostics {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.render(Style::Plain))
@@ -228,8 +227,8 @@ impl fmt::Display for Diagnostics {
 
 impl std::error::Error for Diagnostics {}
 
-/// Text of a file as a message may contain it: on one line, without control characters, its middle left out if it is
-/// long.
+/// Text from a file in a form that is safe in messages: on one line, without control characters, and with the middle
+/// left out if it is long.
 #[must_use]
 pub fn quote(text: &str) -> String {
     const HEAD: usize = 40;
@@ -243,8 +242,8 @@ pub fn quote(text: &str) -> String {
     format!("{}…{}", visible(&head), visible(&tail))
 }
 
-/// Text from elsewhere, such as the name of a file, as a message may contain it: on one line, and without control
-/// characters, which a terminal would execute.
+/// Text from elsewhere, such as the name of a file, in a form that is safe in messages: on one line, and without
+/// control characters, which a terminal would execute.
 #[must_use]
 pub fn visible(text: &str) -> String {
     let one = |character: char| {
@@ -255,8 +254,8 @@ pub fn visible(text: &str) -> String {
     text.chars().flat_map(one).collect()
 }
 
-/// A number as a message shows it: the fewest digits that read back to it, with an exponent where it is very
-/// large or very small.
+/// A number as messages show it: with the fewest digits from which the same number is read back, and with an exponent
+/// if it is very large or very small.
 #[must_use]
 pub fn number(value: f64) -> String {
     if value == 0.0 || !value.is_finite() || (1e-5..1e16).contains(&value.abs()) {
@@ -265,7 +264,7 @@ pub fn number(value: f64) -> String {
     format!("{value:e}")
 }
 
-/// Characters that show nothing or reorder what is around them.
+/// Whether a character is invisible or changes the order of the characters around it.
 #[must_use]
 pub fn is_invisible(character: char) -> bool {
     matches!(character,
@@ -273,7 +272,7 @@ pub fn is_invisible(character: char) -> bool {
         | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// Six significant digits.
+/// A number with six significant digits.
 #[must_use]
 pub fn significant(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);

@@ -121,7 +121,7 @@ fn numbers_are_short_and_read_back() {
     }
 }
 
-/// The block and the number in it: R0616 is (6, 16).
+/// The number of the block and the number within it: (6, 16) for R0616.
 fn block(code: &str) -> (u32, u32) {
     let digits = code.strip_prefix('R').filter(|digits| digits.len() == 4).unwrap();
     let number: u32 = digits.parse().unwrap();

@@ -1,37 +1,38 @@
-//! Selections of functions: each by itself, and several in one call that compute common expressions once.
+//! Selections of functions: those generated separately, and bundles of several that share common expressions in one
+//! call.
 
 use super::FunctionKind;
 
-/// Which functions are generated, each by itself.
+/// A selection of functions, each of which is generated separately.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Functions {
-    /// The usual ones, if nothing else is said.
+    /// The usual functions, if the caller makes no other choice.
     #[default]
     Usual,
-    /// All that the robot has.
+    /// All functions that the robot has.
     All,
-    /// These; one that the robot lacks is an error.
+    /// The given functions. A function that the robot does not have is an error.
     Chosen(Vec<FunctionKind>),
 }
 
-/// The word for all functions if functions are named.
+/// The word for all functions in a list of functions.
 pub const ALL_FUNCTIONS: &str = "all";
 
-/// Functions that one call computes, with their common work done once.
+/// Several functions that one call computes; common expressions are computed once.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bundle {
-    /// Its name: that of the function that is generated.
+    /// The name of the bundle, which is also that of the generated function.
     pub name: String,
-    /// Its functions, in the order of the outputs.
+    /// The functions, in the order of the outputs.
     pub functions: Vec<FunctionKind>,
 }
 
 impl Bundle {
-    /// The owner of the name; `None` if a bundle can have it.
+    /// The reason why a bundle cannot have the name; `None` if it can.
     ///
-    /// Functions have names, those of frames begin with `jacobian_`, and `all` means all functions. Names that differ
-    /// only in case or underscores count as equal: a printer of code may name types after bundles. What other owners
-    /// of names yield to bundles.
+    /// The names of functions, names that begin with `jacobian_`, and the word `all` are taken. Names that differ only
+    /// in case or underscores count as equal, because a printer of code may name types after bundles. All other names
+    /// that occur in generated code give way to the names of bundles.
     #[must_use]
     pub fn owner_of(name: &str) -> Option<&'static str> {
         let folded = fold(name);
@@ -44,7 +45,7 @@ impl Bundle {
         (folded == ALL_FUNCTIONS).then_some("the word for all functions")
     }
 
-    /// Whether two bundles would be confused: their names differ only in case or underscores.
+    /// Whether the names of two bundles are too similar: they differ only in case or underscores.
     #[must_use]
     pub fn is_alike(&self, other: &Bundle) -> bool {
         fold(&self.name) == fold(&other.name)

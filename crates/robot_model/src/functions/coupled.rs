@@ -1,13 +1,13 @@
-//! The entries of the mass matrix that a robot's structure lets be different from 0.
+//! The entries of the mass matrix that can be nonzero for the structure of a robot.
 
 use std::collections::BTreeSet;
 
 use crate::robot::Robot;
 
-/// Row and column, from 0, of the entries of the mass matrix's lower triangle that are not 0 by structure: row by row, the
-/// columns ascending to the diagonal.
+/// The entries in the lower triangle of the mass matrix that can be nonzero, as row and column counted from 0. They are
+/// listed row by row, with the columns ascending to the diagonal.
 ///
-/// An entry couples two coordinates. It is 0 if no joint of one carries a joint of the other.
+/// An entry couples two coordinates. It is 0 if no joint of one coordinate carries a joint of the other.
 #[must_use]
 pub fn coupled(robot: &Robot) -> Vec<[usize; 2]> {
     let diagonal = (0..robot.coordinates.len()).map(|coordinate| [coordinate; 2]);

@@ -5,39 +5,39 @@ use super::reach::out_of_reach;
 use crate::robot::Robot;
 use crate::variable::JointVariable;
 
-/// Loads on the joints besides inertia and gravity.
+/// Effects on the joint torques besides inertia and gravity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Effects {
-    /// The friction of the joints, equations (4)-(5).
+    /// The friction in the joints, equations (4) and (5).
     pub friction: bool,
-    /// The wrenches that the tips exert, which are further inputs.
+    /// The wrenches that the tips exert, which are additional inputs.
     pub wrench: bool,
 }
 
 impl Effects {
-    /// Neither.
+    /// Neither effect.
     pub const NONE: Effects = Effects { friction: false, wrench: false };
-    /// Only wrenches.
+    /// Only the wrenches.
     pub const WRENCH: Effects = Effects { friction: false, wrench: true };
     /// Only friction.
     pub const FRICTION: Effects = Effects { friction: true, wrench: false };
-    /// Both.
+    /// Both effects.
     pub const BOTH: Effects = Effects { friction: true, wrench: true };
     /// Every combination, in the order in which functions are listed.
     pub const ALL: [Effects; 4] =
         [Effects::NONE, Effects::WRENCH, Effects::FRICTION, Effects::BOTH];
 
-    /// The name of a function with these effects, of its names in the order of [`Effects::ALL`].
+    /// The name of the function with these effects; `names` are in the order of [`Effects::ALL`].
     const fn choose(self, names: [&'static str; 4]) -> &'static str {
         names[self.wrench as usize + 2 * self.friction as usize]
     }
 }
 
-/// Declares the functions, each in one row, in the order in which they are listed: its variant, what it is, and
+/// Declares the functions, each in one row, in the order in which they are listed: the variant, its documentation, and
 /// its properties.
 ///
-/// A kind with [`Effects`] is a function for each combination of them; one of a [`FrameRef`] is the function of one
-/// frame, which is not listed.
+/// A kind with [`Effects`] stands for one function for each combination of effects. A kind with a [`FrameRef`] is a
+/// function of one frame, which is not listed.
 macro_rules! functions {
     ($($(#[$doc:meta])* $kind:ident $(($with:ident: $type:ident))? = $declaration:expr;)*) => {
         /// The functions that can be derived.
@@ -46,7 +46,7 @@ macro_rules! functions {
             $($(#[$doc])* $kind $(($type))?,)*
         }
 
-        /// The listed functions, by rows.
+        /// The listed functions of each row.
         const LISTED: &[&[FunctionKind]] = &[$(listed!($kind $($type)?)),*];
 
         impl FunctionKind {
@@ -60,7 +60,7 @@ macro_rules! functions {
     };
 }
 
-/// The functions that a row lists.
+/// The functions that one row lists.
 macro_rules! listed {
     ($kind:ident) => {
         &[FunctionKind::$kind]
@@ -79,10 +79,11 @@ macro_rules! listed {
 }
 
 functions! {
-    /// Q from q, q̇, q̈, with the requested effects.
+    /// The joint torques Q from q, q̇, q̈, with the selected effects.
     InverseDynamics(effects: Effects) = Declaration {
         effects,
         motions: true,
+        result: effects.choose(["tau (n)", "tau (n)", "tau (n) with friction", "tau (n) with friction"]),
         ..Declaration::new(
             effects.choose([
                 "inverse_dynamics",
@@ -93,20 +94,26 @@ functions! {
             MOTION,
         )
     };
-    /// F_l and M_l of every joint.
-    LinkWrenches = Declaration::new("link_wrenches", MOTION);
-    /// M from q.
-    MassMatrix = Declaration::of_composites("mass_matrix", POSITION);
-    /// The entries of M's lower triangle that are not 0 by structure, from q.
-    MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION);
-    /// C q̇ + g from q, q̇.
-    Bias = Declaration::of_motions("bias", STATE);
-    /// g from q.
-    Gravity = Declaration::of_composites("gravity", POSITION);
-    /// q̈ from q, q̇, τ, with the requested effects.
+    /// The forces F_l and moments M_l that the joints transmit, from q, q̇, q̈.
+    LinkWrenches = Declaration::new("link_wrenches", MOTION)
+        .with_result("force and moment in each joint (links × 3)");
+    /// The mass matrix M from q.
+    MassMatrix = Declaration::of_composites("mass_matrix", POSITION)
+        .with_result("M (n × n)");
+    /// The entries in the lower triangle of M that can be nonzero for the robot's structure, from q.
+    MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION)
+        .with_result("the entries of M's lower triangle that are not always 0, row by row");
+    /// The bias torques C q̇ + g from q, q̇.
+    Bias = Declaration::of_motions("bias", STATE)
+        .with_result("bias torques C q̇ + g (n)");
+    /// The gravity terms g from q.
+    Gravity = Declaration::of_composites("gravity", POSITION)
+        .with_result("g (n)");
+    /// The joint accelerations q̈ from q, q̇, τ, with the selected effects.
     ForwardDynamics(effects: Effects) = Declaration {
         effects,
         solves: true,
+        result: effects.choose(["qdd (n)", "qdd (n)", "qdd (n) with friction", "qdd (n) with friction"]),
         ..Declaration::of_both(
             effects.choose([
                 "forward_dynamics",
@@ -118,35 +125,46 @@ functions! {
         )
     };
     /// The poses of the links' frames from q.
-    ForwardKinematics = Declaration::new("forward_kinematics", POSITION);
+    ForwardKinematics = Declaration::new("forward_kinematics", POSITION)
+        .with_result("poses of the links' frames: rotation (links × 9) and origin (links × 3)");
     /// The poses of the named frames from q.
-    FramePoses = Declaration::of_motions("frame_poses", POSITION);
-    /// The Jacobian from q: a function for each named frame, or for the last link of each branch where
-    /// the robot has no named frame.
-    Jacobian = Declaration::of_motions("jacobian", POSITION);
+    FramePoses = Declaration::of_motions("frame_poses", POSITION)
+        .with_result("the same for the named frames");
+    /// The Jacobian from q: one function for each named frame, or, if the robot has no named frame, for the last link
+    /// of each branch.
+    Jacobian = Declaration::of_motions("jacobian", POSITION)
+        .with_result("J (6 × n) of each frame");
     /// The Jacobian of one frame from q.
     JacobianOf(_frame: FrameRef) = FunctionKind::Jacobian.declaration();
-    /// J̇ q̇ from q, q̇: a function for each frame, as of [`FunctionKind::Jacobian`].
-    JacobianDotQd = Declaration::of_motions("jacobian_dot_qd", STATE);
+    /// J̇ q̇ from q, q̇: one function for each frame, as for [`FunctionKind::Jacobian`].
+    JacobianDotQd = Declaration::of_motions("jacobian_dot_qd", STATE)
+        .with_result("J̇ q̇ (6) of each frame");
     /// J̇ q̇ of one frame from q, q̇.
     JacobianDotQdOf(_frame: FrameRef) = FunctionKind::JacobianDotQd.declaration();
-    /// Kinetic and potential energy from q, q̇.
-    Energies = Declaration::of_both("energies", STATE);
-    /// C from q, q̇, by Christoffel symbols.
-    CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE);
-    /// ∂Q/∂q and ∂Q/∂q̇ from q, q̇, q̈.
-    InverseDynamicsDerivatives = Declaration::of_both("inverse_dynamics_derivatives", MOTION);
-    /// ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
+    /// The kinetic and potential energy from q, q̇.
+    Energies = Declaration::of_both("energies", STATE)
+        .with_result("kinetic and potential energy");
+    /// The Coriolis matrix C from q, q̇, by Christoffel symbols.
+    CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE)
+        .with_result("C (n × n)");
+    /// The derivatives ∂Q/∂q and ∂Q/∂q̇ from q, q̇, q̈.
+    InverseDynamicsDerivatives = Declaration::of_both("inverse_dynamics_derivatives", MOTION)
+        .with_result("∂τ/∂q, ∂τ/∂q̇ (n × n)");
+    /// The derivatives ∂q̈/∂q, ∂q̈/∂q̇ and ∂q̈/∂τ from q, q̇, τ.
     ForwardDynamicsDerivatives = Declaration {
         solves: true,
+        result: "∂q̈/∂q, ∂q̈/∂q̇, ∂q̈/∂τ (n × n)",
         ..Declaration::of_both("forward_dynamics_derivatives", DRIVEN)
     };
-    /// Y of Q = Y π from q, q̇, q̈, with the parameters of links and drives π.
-    Regressor = Declaration::new("regressor", MOTION);
-    /// Y of Q = Y β from q, q̇, q̈, with the base parameters β, the fewest that do.
-    RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) };
-    /// β from the robot's parameters alone.
-    BaseParameters = Declaration { base: true, ..Declaration::new("base_parameters", &[]) };
+    /// The regressor Y in Q = Y π from q, q̇, q̈; π are the standard parameters, those of the links and drives.
+    Regressor = Declaration::new("regressor", MOTION)
+        .with_result("Y (n × parameters of links and drives)");
+    /// The regressor Y in Q = Y β from q, q̇, q̈; β are the base parameters, the smallest possible set.
+    RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) }
+        .with_result("Y (n × base parameters)");
+    /// The values of the base parameters β from the robot's parameters.
+    BaseParameters = Declaration { base: true, ..Declaration::new("base_parameters", &[]) }
+        .with_result("the base parameters");
 }
 
 const POSITION: &[JointVariable] = &[JointVariable::Position];
@@ -182,21 +200,28 @@ const fn all() -> [FunctionKind; COUNT] {
 }
 
 impl FunctionKind {
-    /// All functions but those of single frames.
+    /// All functions except those of single frames.
     pub const ALL: &'static [FunctionKind] = &all();
 
-    /// The name in code and on the command line; of a function of one frame that of its kind, behind which
-    /// [`FunctionKind::full_name`] puts the frame's.
+    /// The name in code and on the command line. For a function of one frame, the name of its kind, to which
+    /// [`FunctionKind::full_name`] appends the name of the frame.
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.declaration().name
     }
 
-    /// The arrays over the joints that the function takes, in the order of the call. The wrenches of the tips
-    /// follow them if there are any.
+    /// The arrays over the joints that the function takes, in the order of the call. The wrenches of the tips follow
+    /// them if there are any.
     #[must_use]
     pub const fn inputs(self) -> &'static [JointVariable] {
         self.declaration().inputs
+    }
+
+    /// What the function computes, with its shape, where n is the number of coordinates: `M (n × n)`. The tables of functions in the
+    /// book and the README are made of it.
+    #[must_use]
+    pub const fn result(self) -> &'static str {
+        self.declaration().result
     }
 
     /// The effects that the function takes into account.
@@ -205,7 +230,7 @@ impl FunctionKind {
         self.declaration().effects
     }
 
-    /// This function with other effects, if it can have any.
+    /// This function with other effects; `None` if it cannot have any.
     #[must_use]
     pub const fn with_effects(self, effects: Effects) -> Option<FunctionKind> {
         match self {
@@ -215,19 +240,19 @@ impl FunctionKind {
         }
     }
 
-    /// Whether the recursion over motions and forces is part of the function.
+    /// Whether the recursion over motions and forces is part of the computation.
     #[must_use]
     pub const fn uses_motions(self) -> bool {
         self.declaration().motions
     }
 
-    /// Whether composite inertias are part of the function.
+    /// Whether composite inertias are part of the computation.
     #[must_use]
     pub const fn uses_composites(self) -> bool {
         self.declaration().composites
     }
 
-    /// The frame of a function of one frame.
+    /// The frame of a function of a single frame.
     #[must_use]
     pub const fn frame(self) -> Option<FrameRef> {
         match self {
@@ -236,7 +261,7 @@ impl FunctionKind {
         }
     }
 
-    /// The function of one frame, of a kind that has one for each.
+    /// The function of one frame, if this is a kind that has a function for each frame.
     #[must_use]
     pub const fn of_frame(self, frame: FrameRef) -> Option<FunctionKind> {
         match self {
@@ -246,7 +271,7 @@ impl FunctionKind {
         }
     }
 
-    /// The name of the function: that of the kind, or of one frame `jacobian_tool`.
+    /// The name of the function: that of its kind, or for a function of one frame for example `jacobian_tool`.
     #[must_use]
     pub fn full_name(self, robot: &Robot) -> String {
         let suffixes = self.frame().map(|frame| (frame, suffixes(robot)));
@@ -256,8 +281,8 @@ impl FunctionKind {
         suffix.map_or_else(|| self.name().to_owned(), |suffix| format!("{}_{suffix}", self.name()))
     }
 
-    /// The functions of single frames that a kind comprises; none for a kind that is one function by
-    /// itself, as also if the robot has one frame.
+    /// The functions of single frames that a kind comprises. None for a kind that is a single function, or if the robot
+    /// has only one frame.
     #[must_use]
     pub fn parts(self, robot: &Robot) -> Vec<FunctionKind> {
         let frames = FrameRef::usual(robot);
@@ -265,13 +290,13 @@ impl FunctionKind {
         frames.into_iter().filter(|_| several).filter_map(|frame| self.of_frame(frame)).collect()
     }
 
-    /// The function of that name; for those of single frames see [`named`](super::named()).
+    /// The function with the given name. [`named`](super::named()) also finds functions of single frames.
     #[must_use]
     pub fn from_name(name: &str) -> Option<FunctionKind> {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// Why the robot does not have the function; `None` if it has.
+    /// The reason why the robot does not have the function; `None` if it has.
     #[must_use]
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let Effects { wrench, friction } = self.effects();
@@ -293,8 +318,8 @@ impl FunctionKind {
         if self.declaration().base { out_of_reach(robot) } else { None }
     }
 
-    /// Whether the function solves with the mass matrix, which must not be singular. It is then free to choose
-    /// the accelerations of its bias.
+    /// Whether the function solves a system of equations with the mass matrix, which must not be singular. Its bias
+    /// torques can then be computed at any accelerations.
     #[must_use]
     pub const fn divides_by_mass_matrix(self) -> bool {
         self.declaration().solves
@@ -312,14 +337,16 @@ impl FunctionKind {
 struct Declaration {
     name: &'static str,
     inputs: &'static [JointVariable],
+    /// What it computes, with its shape.
+    result: &'static str,
     effects: Effects,
-    /// Whether it is made of the recursion over motions and forces.
+    /// Whether the recursion over motions and forces is used.
     motions: bool,
-    /// Whether it is made of composite inertias.
+    /// Whether composite inertias are used.
     composites: bool,
     /// Whether it solves with the mass matrix.
     solves: bool,
-    /// Whether it is about the base parameters.
+    /// Whether the function concerns the base parameters.
     base: bool,
 }
 
@@ -328,12 +355,17 @@ impl Declaration {
         Declaration {
             name,
             inputs,
+            result: "",
             effects: Effects::NONE,
             motions: false,
             composites: false,
             solves: false,
             base: false,
         }
+    }
+
+    const fn with_result(self, result: &'static str) -> Declaration {
+        Declaration { result, ..self }
     }
 
     const fn of_motions(name: &'static str, inputs: &'static [JointVariable]) -> Declaration {

@@ -1,4 +1,4 @@
-//! The functions that can be asked for: their kinds, their names, and which of them are wanted.
+//! The functions that can be generated: their kinds, their names, and selections of them.
 
 mod bundle;
 mod coupled;

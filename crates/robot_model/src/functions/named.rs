@@ -1,4 +1,4 @@
-//! Functions by their names: the one list of functions, and the lookup by name.
+//! The names of functions: the list of all names, and the lookup by name.
 
 use std::fmt;
 
@@ -8,17 +8,17 @@ use super::{ALL_FUNCTIONS, FunctionKind};
 use crate::diagnostic::quote;
 use crate::robot::Robot;
 
-/// A frame whose Jacobian can be asked for.
+/// A frame for which a Jacobian can be generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum FrameRef {
     /// A named frame, an index into [`Robot::frames`].
     Named(usize),
-    /// The frame of a moving link as `forward_kinematics` has it, an index into [`Robot::links`].
+    /// The frame of a moving link, as in `forward_kinematics`: an index into [`Robot::links`].
     Link(usize),
 }
 
 impl FrameRef {
-    /// The name that the robot file gives the frame or the link; `None` if the robot has no such frame.
+    /// The name of the frame or link in the robot file; `None` if the robot has no such frame.
     #[must_use]
     pub fn name(self, robot: &Robot) -> Option<&str> {
         match self {
@@ -27,14 +27,14 @@ impl FrameRef {
         }
     }
 
-    /// All frames of a robot: the named ones, then those of the links.
+    /// All frames of a robot: the named frames, then the frames of the links.
     fn of(robot: &Robot) -> impl Iterator<Item = FrameRef> {
         let named = (0..robot.frames.len()).map(FrameRef::Named);
         named.chain((0..robot.links.len()).map(FrameRef::Link))
     }
 
-    /// The frames of the functions that are asked for by a kind alone: the named frames; if there is
-    /// none, those of the last link of each branch.
+    /// The frames for which a kind of function is generated if no frame is specified: the named frames or, if there are
+    /// none, the frames of the last link of each branch.
     #[must_use]
     pub fn usual(robot: &Robot) -> Vec<FrameRef> {
         if !robot.frames.is_empty() {
@@ -45,8 +45,8 @@ impl FrameRef {
     }
 }
 
-/// The suffix of the functions of each frame: the frame's name in lower
-/// case as an identifier, made unique if several frames would have the same.
+/// The suffix of the names of each frame's functions: the frame's name as an identifier in lower case, made unique if
+/// several frames would have the same.
 pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     let frames: Vec<(FrameRef, String)> =
         FrameRef::of(robot).map(|frame| (frame, identifier(frame, robot))).collect();
@@ -64,7 +64,7 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
             }
             FrameRef::Link(_) => name.clone(),
         };
-        // `jacobian_dot_qd…` is the other kind's.
+        // A suffix `dot_qd…` would make the name look like that of the other kind, `jacobian_dot_qd…`.
         if suffix == "dot_qd" || suffix.starts_with("dot_qd_") {
             suffix = format!("frame_{suffix}");
         }
@@ -85,14 +85,14 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     found
 }
 
-/// The name with all characters replaced that cannot be in an identifier.
+/// The name in lower case, with `_` for all characters that an identifier cannot have.
 fn identifier(frame: FrameRef, robot: &Robot) -> String {
     let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
     frame.name(robot).unwrap_or_default().chars().map(fits).collect()
 }
 
-/// The names of all functions that can be asked for of a robot, each with what it is of: the kinds that
-/// the robot has, then the functions of single frames: of named ones, then of moving links.
+/// The names of all functions of a robot, with their kinds: first the kinds that the robot has, then the functions of
+/// single frames, of named frames before moving links.
 #[must_use]
 pub fn names(robot: &Robot) -> Vec<(String, FunctionKind)> {
     let kinds = FunctionKind::of_robot(robot);
@@ -108,19 +108,20 @@ pub fn names(robot: &Robot) -> Vec<(String, FunctionKind)> {
     names
 }
 
-/// Whether a name is that of a function of one frame, if of any: which frames there are the robot says.
+/// Whether a name has the form of a name of a function of one frame. Whether the frame exists depends on the robot.
 #[must_use]
 pub fn is_of_frame(name: &str) -> bool {
     FunctionKind::from_name(name).is_none() && name.starts_with("jacobian_")
 }
 
-/// The function of a name: that of a kind, whether the robot has it or not, or the kind with that of a
-/// frame or a moving link behind it, as the file has it or as in the function's name. If a frame and
-/// a link have the same name, the frame is meant.
+/// The function with a name: either the name of a kind, whether the robot has it or not, or the name of a kind followed
+/// by that of a frame or moving link, as in the robot file or as in the function's name. If a frame and a link have the
+/// same name, the frame is meant.
 ///
 /// # Errors
 ///
-/// A name of no function of this robot; one that several frames have once it is an identifier.
+/// An error if the robot has no function with this name, or if several frames have the name in its form as an
+/// identifier.
 pub fn named(robot: &Robot, name: &str) -> Result<FunctionKind, WrongName> {
     if let Some(kind) = FunctionKind::from_name(name) {
         return Ok(kind);
@@ -129,7 +130,8 @@ pub fn named(robot: &Robot, name: &str) -> Result<FunctionKind, WrongName> {
     if let Some((_, kind)) = known.iter().find(|(known, _)| known == name) {
         return Ok(*kind);
     }
-    // The longer name first: `jacobian_dot_qd_tool` is hardly a Jacobian of `dot_qd_tool`.
+    // The kind with the longer name is tried first: `jacobian_dot_qd_tool` is hardly the Jacobian of a frame
+    // `dot_qd_tool`.
     for kind in [FunctionKind::JacobianDotQd, FunctionKind::Jacobian] {
         let rest = name.strip_prefix(kind.name()).and_then(|rest| rest.strip_prefix('_'));
         let Some(rest) = rest else { continue };
@@ -166,7 +168,7 @@ fn unknown(name: &str, known: &[(String, FunctionKind)]) -> WrongName {
     }
 }
 
-/// The names in messages: the kinds, and of single frames no more than a message can hold.
+/// The names to show in messages: all kinds, and at most a limited number of functions of single frames.
 fn shown(known: &[(String, FunctionKind)]) -> Vec<String> {
     const MOST: usize = 24;
     let of_frame = |kind: &FunctionKind| kind.frame().is_some();
@@ -180,16 +182,16 @@ fn shown(known: &[(String, FunctionKind)]) -> Vec<String> {
     shown
 }
 
-/// A name that is not a function's, or not of one alone.
+/// The error for a name that is not the name of a function, or that may mean several.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WrongName {
     /// The name.
     pub name: String,
-    /// A function that may be meant.
+    /// The function that was probably meant.
     pub near: Option<String>,
-    /// The functions that there are, or those that the name may mean.
+    /// The names of all functions, or of those that the name may mean.
     pub known: Vec<String>,
-    /// Whether the name may mean several.
+    /// Whether the name may mean several functions.
     pub several: bool,
 }
 

@@ -1,10 +1,11 @@
-//! Why a robot has no base parameters.
+//! Reasons why the base parameters of a robot cannot be determined.
 
 use crate::robot::{BaseFrames, Link, Move, Placement, Robot};
 
-/// Why the base parameters of a robot cannot be found: its joints share coordinates, and lengths, angles, gravity or
-/// ratios are parameters, so the rank at states with given values proves nothing; or Denavit–Hartenberg frames are
-/// requested, and a joint axis is a parameter.
+/// The reason why the base parameters of a robot cannot be determined; `None` if they can. One case is that joints
+/// share coordinates while lengths, angles, gravity or ratios are parameters, so that the rank at states with given
+/// values proves nothing. The other case is that Denavit–Hartenberg frames are requested while a joint axis is a
+/// parameter.
 #[must_use]
 pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
     let is_free = |link: &Link| link.joint.axis.iter().any(|axis| axis.symbols().next().is_some());
@@ -20,7 +21,7 @@ pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
     )
 }
 
-/// Whether a coordinate moves several joints, or a joint not at all.
+/// Whether a coordinate moves several joints, or moves a joint with a ratio other than 1.
 #[must_use]
 pub fn has_shared_coordinates(robot: &Robot) -> bool {
     let one = robot_symbolic::Formula::number(&robot_symbolic::Rational::ONE);

@@ -1,6 +1,6 @@
-//! Signs above and below letters.
+//! Accents: marks above and below letters.
 
-/// A sign above or below a piece of a formula.
+/// A mark above or below a part of a formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each is its own name")]
 pub enum Accent {
@@ -18,7 +18,7 @@ pub enum Accent {
     WideTilde,
 }
 
-/// The spellings of an accent.
+/// The spellings of an accent in each notation.
 struct Row {
     latex: &'static str,
     typst: &'static str,
@@ -71,37 +71,37 @@ impl Accent {
         }
     }
 
-    /// The accent of a command of LaTeX, given without the backslash.
+    /// The accent of a LaTeX command, given without the backslash.
     #[must_use]
     pub fn of_latex(command: &str) -> Option<Accent> {
         Accent::ALL.into_iter().find(|accent| accent.latex() == command)
     }
 
-    /// The command of LaTeX, without the backslash.
+    /// The LaTeX command, without the backslash.
     #[must_use]
     pub const fn latex(self) -> &'static str {
         self.row().latex
     }
 
-    /// The function of Typst's math mode.
+    /// The function in the math mode of Typst.
     #[must_use]
     pub const fn typst(self) -> &'static str {
         self.row().typst
     }
 
-    /// The sign on its own, as MathML sets it over or under a piece.
+    /// The mark as a character of its own, as MathML places it over or under a part of a formula.
     #[must_use]
     pub const fn sign(self) -> &'static str {
         self.row().sign
     }
 
-    /// The combining character of Unicode that puts the sign above the letter before it.
+    /// The combining character of Unicode that puts the mark above the preceding letter.
     #[must_use]
     pub const fn mark(self) -> Option<char> {
         self.row().mark
     }
 
-    /// Whether the sign is as wide as the piece to which it belongs.
+    /// Whether the mark is as wide as the part of the formula that it belongs to.
     #[must_use]
     pub const fn stretches(self) -> bool {
         self.row().stretches

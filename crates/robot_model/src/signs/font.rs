@@ -1,4 +1,4 @@
-//! Fonts of formulas.
+//! The fonts of letters in formulas.
 
 /// A font of letters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -23,39 +23,40 @@ impl Font {
         Font::BoldSymbol,
     ];
 
-    /// LaTeX, what Typst puts before and behind, and where Unicode's letters of the font begin.
+    /// The LaTeX command, the Typst text before and after the letters, and the code point of the font's first letter in
+    /// Unicode.
     const fn row(self) -> (&'static str, [&'static str; 2], Option<u32>) {
         match self {
             Font::Upright => ("mathrm", ["upright(", ")"], None),
             Font::Bold => ("mathbf", ["bold(upright(", "))"], Some(0x1d400)),
             Font::Italic => ("mathit", ["italic(", ")"], None),
             Font::SansSerif => ("mathsf", ["sans(", ")"], Some(0x1d5a0)),
-            // The bold ones, for the plain ones have letters elsewhere.
+            // Bold letters, because some of the plain calligraphic letters are in another block of Unicode.
             Font::Calligraphic => ("mathcal", ["cal(", ")"], Some(0x1d4d0)),
             Font::BoldSymbol => ("boldsymbol", ["bold(", ")"], Some(0x1d468)),
         }
     }
 
-    /// The font of a command of LaTeX, given without the backslash.
+    /// The font of a LaTeX command, given without the backslash.
     #[must_use]
     pub fn of_latex(command: &str) -> Option<Font> {
         Font::ALL.into_iter().find(|font| font.latex() == command)
     }
 
-    /// The command of LaTeX, without the backslash.
+    /// The LaTeX command, without the backslash.
     #[must_use]
     pub const fn latex(self) -> &'static str {
         self.row().0
     }
 
-    /// The text before and after a piece in Typst's math mode.
+    /// The text before and after the letters in the math mode of Typst.
     #[must_use]
     pub const fn typst(self) -> [&'static str; 2] {
         self.row().1
     }
 
-    /// The character of a letter in the font, from Unicode's Mathematical Alphanumeric Symbols; other
-    /// characters, and letters in upright and italic fonts, as they are.
+    /// The character of a letter in the font, from Unicode's Mathematical Alphanumeric Symbols. Other characters, and
+    /// letters in upright and italic fonts, are returned unchanged.
     #[must_use]
     pub fn character(self, letter: char) -> char {
         let place = match letter {

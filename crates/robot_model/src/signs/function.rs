@@ -1,8 +1,8 @@
-//! Names of functions in print.
+//! The names of functions in printed formulas.
 
 use robot_symbolic::Function;
 
-/// A function that is printed by its name. Roots, absolute values and reciprocals have signs of their own.
+/// A function that is printed by its name. Roots, absolute values and reciprocals have their own notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[expect(missing_docs, reason = "each is its own name")]
 pub enum FunctionName {
@@ -21,7 +21,7 @@ impl FunctionName {
         FunctionName::Sign,
     ];
 
-    /// The function, the name in upright letters, LaTeX.
+    /// The function, its name in upright letters, and its LaTeX.
     const fn row(self) -> (Function, &'static str, &'static str) {
         match self {
             FunctionName::Sine => (Function::Sin, "sin", r"\sin"),
@@ -31,25 +31,25 @@ impl FunctionName {
         }
     }
 
-    /// The name of a function, if it prints by one.
+    /// The name of a function; `None` if the function has its own notation.
     #[must_use]
     pub fn of(function: Function) -> Option<FunctionName> {
         FunctionName::ALL.into_iter().find(|name| name.function() == function)
     }
 
-    /// The function.
+    /// The function that the name denotes.
     #[must_use]
     pub const fn function(self) -> Function {
         self.row().0
     }
 
-    /// The name in upright letters, as text, Typst and MathML have it.
+    /// The name in upright letters, as in text, Typst and MathML.
     #[must_use]
     pub const fn text(self) -> &'static str {
         self.row().1
     }
 
-    /// The name in LaTeX, including the backslash.
+    /// The LaTeX command, including the backslash.
     #[must_use]
     pub const fn latex(self) -> &'static str {
         self.row().2

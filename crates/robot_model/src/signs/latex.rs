@@ -1,13 +1,14 @@
-//! LaTeX given for names, from a small grammar: nothing that passes can do more than print a symbol.
+//! The check of LaTeX that is given for names. It accepts a small grammar, so that accepted text can only print a
+//! symbol.
 //!
-//! This is the one gate: robot files are held to it when they are read, and print asks it again for robots
-//! that were made in code.
+//! All such LaTeX passes this check: in robot files when they are read, and in robots that were built in code when they
+//! are printed.
 
 use std::ops::Range;
 
 use super::{Accent, Font, Letter};
 
-/// LaTeX given for a name that does more than print a symbol.
+/// The error for LaTeX that may do more than print a symbol.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct LatexError {
@@ -20,24 +21,25 @@ pub struct LatexError {
 const MAX_LENGTH: usize = 64;
 const MAX_DEPTH: usize = 8;
 
-/// The properties of the group that the grammar is in.
+/// The state of the grammar within one group.
 #[derive(Clone, Copy, Default)]
 struct Group {
     start: usize,
-    /// Something that an index may belong to has been seen.
+    /// Whether the group already contains an item to which an index can be attached.
     base: bool,
     lower: bool,
     upper: bool,
 }
 
-/// Whether LaTeX given for a name only prints a symbol: `item*`, where an item is a letter, a digit,
-/// one of `* + - , . ( )`, a Greek letter or another sign, a group `{…}`, or an accent or a font with
-/// its group; after it at most one `_` and one `^`, each followed by an item, or primes for the
-/// latter. At most 64 bytes.
+/// Checks that LaTeX given for a name only prints a symbol.
+///
+/// The grammar is `item*`. An item is a letter, a digit, one of `* + - , . ( )`, a Greek letter or another symbol, a
+/// group `{…}`, or an accent or a font followed by a group. After an item, at most one `_` and one `^` are allowed,
+/// each followed by an item; primes can take the place of the latter. The length is limited to 64 bytes.
 ///
 /// # Errors
 ///
-/// The first place where the text leaves the grammar, and why.
+/// The first place at which the text violates the grammar, and the reason.
 pub fn check_latex(latex: &str) -> Result<(), LatexError> {
     let fault = |span: Range<usize>, message| Err(LatexError { span, message });
     if latex.is_empty() {
@@ -64,11 +66,11 @@ pub fn check_latex(latex: &str) -> Result<(), LatexError> {
     }
 }
 
-/// The position in a text.
+/// The state of the check at a position in the text.
 struct Walk<'l> {
     latex: &'l str,
     groups: Vec<Group>,
-    /// An accent or an index that waits for its argument, and what is wrong if none comes.
+    /// An accent or an index that still needs its argument, and the problem if none follows.
     waiting: Option<(Range<usize>, &'static str)>,
 }
 
@@ -105,7 +107,7 @@ impl Walk<'_> {
                 *taken = true;
                 self.waiting = Some((here, "a subscript or superscript without content"));
             }
-            // A prime is an upper index, and so are several together.
+            // One or several consecutive primes form one upper index.
             [b'\''] => {
                 let again = before == Some(b'\'');
                 if self.waiting.is_some() || !group.base || (group.upper && !again) {
@@ -141,7 +143,7 @@ fn takes_group(command: &str) -> bool {
     Accent::of_latex(command).is_some() || Font::of_latex(command).is_some()
 }
 
-/// An item of a group: a new base, or the argument of what waited for it.
+/// Notes an item in a group: a new base, or the argument of the accent or index that needed one.
 fn item(group: &mut Group, argument: bool) {
     if !argument {
         group.lower = false;
@@ -150,7 +152,7 @@ fn item(group: &mut Group, argument: bool) {
     group.base = true;
 }
 
-/// The end of the token that begins at `start`: a command, or a character.
+/// The end of the token that begins at `start`: a command or a single character.
 fn token_end(text: &str, start: usize) -> usize {
     let rest = text.get(start..).unwrap_or_default();
     let letters = |part: &str| part.bytes().take_while(u8::is_ascii_alphabetic).count();

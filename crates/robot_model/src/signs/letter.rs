@@ -1,9 +1,9 @@
-//! Letters and signs that LaTeX has a command for.
+//! The letters and symbols for which LaTeX has a command.
 
-/// A letter or a sign of the size of one. Typst, MathML and text have the character itself.
+/// A letter, or a symbol of the size of a letter. Typst, MathML and plain text contain the character itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Letter {
-    /// The command of LaTeX, without the backslash.
+    /// The LaTeX command, without the backslash.
     pub latex: &'static str,
     /// The character.
     pub character: char,
@@ -11,37 +11,37 @@ pub struct Letter {
     pub used: Use,
 }
 
-/// The places where a letter or sign may occur.
+/// The places where a letter or symbol may occur.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Use {
-    /// In names, which spell it as its command: `alpha1`.
+    /// In names, in which it is spelled like its command: `alpha1`.
     Greek,
-    /// In LaTeX given for a symbol.
+    /// In LaTeX that is given for a symbol.
     Symbol,
-    /// In formulas only.
+    /// Only in formulas.
     Formula,
 }
 
 impl Letter {
-    /// The letter of a command of LaTeX, given without the backslash.
+    /// The letter of a LaTeX command, given without the backslash.
     #[must_use]
     pub fn of_latex(command: &str) -> Option<&'static Letter> {
         LETTERS.iter().find(|letter| letter.latex == command)
     }
 
-    /// The letter that a character is.
+    /// The letter of a character.
     #[must_use]
     pub fn of_character(character: char) -> Option<&'static Letter> {
         LETTERS.iter().find(|letter| letter.character == character)
     }
 
-    /// The Greek letter of a name, such as `alpha`.
+    /// The Greek letter with a name such as `alpha`.
     #[must_use]
     pub fn greek(name: &str) -> Option<&'static Letter> {
         Letter::of_latex(name).filter(|letter| letter.used == Use::Greek)
     }
 
-    /// Whether LaTeX given for a symbol may have it.
+    /// Whether LaTeX that is given for a symbol may contain it.
     #[must_use]
     pub fn is_in_symbols(&self) -> bool {
         self.used != Use::Formula
@@ -52,7 +52,7 @@ const fn row(latex: &'static str, character: char, used: Use) -> Letter {
     Letter { latex, character, used }
 }
 
-/// All letters and signs.
+/// All letters and symbols.
 pub const LETTERS: &[Letter] = &[
     row("alpha", 'α', Use::Greek),
     row("beta", 'β', Use::Greek),

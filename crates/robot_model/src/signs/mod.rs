@@ -1,5 +1,5 @@
-//! The alphabet of formulas: letters and signs, accents, fonts and functions, each in one row with its
-//! spelling in every notation; and [`check_latex`], the gate for LaTeX that robot files give for symbols.
+//! The symbols of printed formulas: letters, accents, fonts and functions, each in one row with its spelling in every
+//! notation; and [`check_latex`], the check of LaTeX that robot files give for symbols.
 
 mod accent;
 mod font;

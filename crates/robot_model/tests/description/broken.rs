@@ -1,6 +1,6 @@
-//! Broken robot files and the messages that they must give (tests/broken).
+//! Invalid robot files and the messages that they must cause (tests/broken).
 //!
-//! `UPDATE_SNAPSHOTS=1` writes the messages anew; read the difference before it is kept.
+//! `UPDATE_SNAPSHOTS=1` rewrites the messages; review the difference before you keep it.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,7 +14,7 @@ fn folder() -> PathBuf {
     PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/broken"))
 }
 
-/// The stems of the folder's files of that kind.
+/// The stems of the files in the folder with the given extension.
 fn stems(extension: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(folder()).unwrap();
     let paths = entries.map(|entry| entry.unwrap().path());
@@ -24,7 +24,7 @@ fn stems(extension: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// The files of both formats.
+/// The files in both formats.
 fn files() -> BTreeSet<String> {
     let of = |end: &str| stems(end).into_iter().map(|stem| format!("{stem}.{end}")).collect();
     let (toml, urdf): (BTreeSet<String>, BTreeSet<String>) = (of("toml"), of("urdf"));
@@ -32,8 +32,7 @@ fn files() -> BTreeSet<String> {
     toml.union(&urdf).cloned().collect()
 }
 
-/// What is said of a file: its errors, or the warnings and notes of one that gives a robot all the
-/// same.
+/// The messages about a file: its errors or, for a file that still describes a robot, its warnings and notes.
 fn message(name: &str) -> String {
     let text = fs::read_to_string(folder().join(name)).unwrap();
     let Examination { found, choices } = check(name, &text, &Options::default());
@@ -71,11 +70,11 @@ fn broken_files_give_their_messages() {
 
 #[test]
 fn every_code_has_a_broken_file() {
-    // These two concern the bytes of the file; see `hostile`.
+    // These two codes concern the bytes of a file; `hostile` tests them.
     let mut missing = BTreeSet::from_iter(code::TABLE.iter().map(|(code, _)| *code));
     missing.remove(code::TOO_LARGE);
     missing.remove(code::NOT_TEXT);
-    // These two are known where code is generated.
+    // These two codes are only reported when code is generated.
     missing.remove(code::BUDGET);
     missing.remove(code::PIN);
     for stem in stems("txt") {

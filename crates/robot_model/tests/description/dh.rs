@@ -1,5 +1,4 @@
-//! Denavit–Hartenberg rows: the frames that they give, in both conventions, row by row and as a
-//! table.
+//! Denavit–Hartenberg rows: the frames that they define, in both conventions, both as single rows and as a table.
 
 use std::fmt::Write;
 
@@ -29,7 +28,7 @@ fn translation(axis: usize, length: f64) -> Pose {
 /// A row: joint type, a, alpha, d, theta.
 type Row = (&'static str, [f64; 4]);
 
-/// The frame of a row in the frame of the row before, at joint position q: the definition.
+/// The frame of a row relative to that of the preceding row at joint position q, by definition.
 fn by_definition(convention: &str, (kind, [a, alpha, d, theta]): Row, q: f64) -> Pose {
     let (theta, d) = match kind {
         "revolute" => (theta + q, d),
@@ -58,8 +57,7 @@ fn random_rows(random: &mut Random) -> Vec<Row> {
     rows
 }
 
-/// The file of the rows: with a `[dh]` table, or with `dh` in every link. Every link's own frame
-/// is named `f…`.
+/// The robot file of the rows, with a `[dh]` table or with `dh` in every link. The frame of each link is named `f…`.
 fn file(convention: &str, rows: &[Row], table: bool) -> String {
     let mut text = String::new();
     if table {
@@ -231,7 +229,7 @@ fn rows_and_links_must_match() {
     let more = format!("{STANDARD}\n[[link]]\nname = \"7\"\nmassless = true\n");
     let found = errors(&arm(&more)).to_string();
     assert!(found.contains("6 rows") && found.contains("is 7"), "{found}");
-    // A link with a frame of its own takes no row.
+    // A link with a frame of its own takes no row of the table.
     let own = format!(
         "{STANDARD}\n[[link]]\nname = \"7\"\njoint = {{ type = \"fixed\" }}\norigin = {{}}\n"
     );

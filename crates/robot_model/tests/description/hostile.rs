@@ -1,4 +1,4 @@
-//! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
+//! Malicious and randomly corrupted files: each must cause a message within a short time.
 
 use robot_model::description::{MAX_BYTES, decode, read_toml};
 use robot_model::diagnostic::code;
@@ -13,7 +13,7 @@ joint = { type = \"revolute\", axis = \"z\" }
 massless = true
 ";
 
-/// The codes of the errors of a file, which must be found soon.
+/// The codes of the errors of a file, which must be found within a short time.
 fn codes(text: &str) -> Vec<&'static str> {
     soon(|| errors(text))
 }
@@ -102,7 +102,7 @@ fn huge_counts_end_in_a_message() {
 }
 
 #[test]
-fn a_great_many_misspelt_names_end_in_a_message() {
+fn a_great_many_misspelled_names_end_in_a_message() {
     let parameters: String = (0..4096).map(|i| format!("parameter_{i} = 1\n")).collect();
     let unknown: Vec<_> = (0..40_000).map(|i| format!("paramter_{i}")).collect();
     let text = format!("[parameters]\n{parameters}{LINK}mass = \"{}\"\n", unknown.join("+"));
@@ -136,7 +136,7 @@ fn figures_at_the_end_of_the_range_are_judged() {
     assert_eq!(codes(&text), [code::NUMBER]);
 }
 
-/// Pieces that have a meaning somewhere.
+/// Fragments that have a meaning in some context.
 const PIECES: &[&str] = &[
     "[",
     "]",
@@ -196,7 +196,7 @@ const PIECES: &[&str] = &[
 ];
 
 #[test]
-fn spoilt_files_never_panic() {
+fn spoiled_files_never_panic() {
     let groups = vec![files("../../robots", "toml"), files("tests/broken", "toml")];
     let spoiler = Spoiler { groups, pieces: PIECES };
     let rounds = rounds(2000);
@@ -204,6 +204,6 @@ fn spoilt_files_never_panic() {
     let [right, wrong] = spoiler.run(20_261_121, rounds, read, |text, described| {
         assert!(described.warnings.to_string().is_ascii() || !text.is_ascii());
     });
-    // Both ways must be walked, or the test is none.
+    // Both outcomes must occur often enough for the test to be meaningful.
     assert!(right > rounds / 50 && wrong > rounds / 2, "{right} read, {wrong} refused");
 }

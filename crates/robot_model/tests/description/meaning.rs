@@ -1,4 +1,4 @@
-//! What right files mean.
+//! The meaning of valid files.
 
 use robot_model::description::{Budget, Code, Limit, MAX_BUNDLES, check_bundle_name};
 use robot_model::diagnostic::code;
@@ -94,7 +94,7 @@ fn an_axis_is_a_letter_with_a_sign_or_a_vector() {
     assert_eq!(axis("[1, -2, \"1/2\"]"), ["1", "-2", "1/2"]);
 }
 
-/// The arm with its fixed links as they are, and with each of them as a joint that never moves.
+/// Compares the arm with its fixed links to the arm in which each of them has a joint that does not move.
 #[test]
 fn fixed_links_become_bodies_and_frames() {
     let joint = |axis: &str| format!("joint = {{ type = \"revolute\", axis = \"{axis}\" }}");
@@ -250,7 +250,7 @@ fn the_examples_of_the_reference_are_right() {
         .split("```toml\n")
         .skip(1)
         .map(|rest| rest.split("```").next().unwrap())
-        // Others show a line of a file.
+        // Other examples show only single lines of a file.
         .filter(|example| example.starts_with("format"))
         .collect();
     assert_eq!(examples.len(), 6);

@@ -1,4 +1,4 @@
-//! The pages of the codes: each code has one, and its example gives that code alone.
+//! The pages of the diagnostic codes: each code has a page, and its example causes only this code.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -8,16 +8,16 @@ use robot_model::description::Options;
 use robot_model::diagnostic::{Severity, code};
 
 const FOLDER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/diagnostics");
-/// The page of the book that lists them.
+/// The page of the book that lists the codes.
 const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/diagnostics/README.md");
-/// Where the list finds them.
+/// The path of the pages in that list.
 const LINKED: &str = "../../crates/robot_model/diagnostics";
 
-/// Two concern the bytes of a file, which no page can show; what a function costs and whether its pinned plan is
-/// its own, is known where code is generated.
+/// Codes whose pages have no example: two concern the bytes of a file, which no page can show; budgets and pinned plans
+/// are only checked when code is generated.
 const WITHOUT_EXAMPLE: [&str; 4] = [code::TOO_LARGE, code::NOT_TEXT, code::BUDGET, code::PIN];
 
-/// The examples of a page as files.
+/// The examples of a page, as names and texts of files.
 fn examples(page: &str) -> Vec<(&'static str, &str)> {
     let of = |fence: &str, name: &'static str| {
         let blocks = page.split(fence).skip(1).map(|rest| rest.split("```").next().unwrap());
@@ -59,7 +59,7 @@ fn the_example_of_a_page_gives_its_code_alone() {
         assert_eq!(examples.is_empty(), WITHOUT_EXAMPLE.contains(code), "{code}");
         for (name, text) in examples {
             let Examination { found, choices } = check(name, text, &Options::default());
-            // URDF leaves several choices open at once.
+            // A URDF file always causes several notes about choices.
             let noted = found.is_empty() && choices.iter().any(|one| one.code == *code);
             let alone = !found.is_empty() && found.iter().all(|one| one.code == *code);
             let severity = found.iter().map(|one| one.severity).next().unwrap_or(Severity::Note);

@@ -1,5 +1,5 @@
-//! What the tests of hostile files share, whatever the format: spoilt files, and how soon a message
-//! comes.
+//! The common part of the tests with malicious files, for all formats: corruption of files, and a limit on the time
+//! until a message is given.
 
 use std::fs;
 use std::time::{Duration, Instant};
@@ -19,7 +19,7 @@ pub(crate) fn soon(errors: impl FnOnce() -> Diagnostics) -> Vec<&'static str> {
     found.iter().map(|diagnostic| diagnostic.code).collect()
 }
 
-/// The files of a folder of this package with that extension.
+/// The files in a folder of this package with the given extension.
 pub(crate) fn files(folder: &str, extension: &str) -> Vec<Vec<u8>> {
     let folder = format!("{}/{folder}", env!("CARGO_MANIFEST_DIR"));
     let paths = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
@@ -29,11 +29,11 @@ pub(crate) fn files(folder: &str, extension: &str) -> Vec<Vec<u8>> {
     paths.iter().map(|path| fs::read(path).unwrap()).collect()
 }
 
-/// Files to be spoilt.
+/// Corrupts files at random.
 pub(crate) struct Spoiler {
-    /// Sound and broken ones, say; each group is taken as often as the others.
+    /// Groups of files, such as valid and invalid ones. Each group is chosen equally often.
     pub(crate) groups: Vec<Vec<Vec<u8>>>,
-    /// Pieces that have a meaning somewhere.
+    /// Fragments that have a meaning in some context.
     pub(crate) pieces: &'static [&'static str],
 }
 
@@ -43,7 +43,7 @@ impl Spoiler {
         &group[random.index(group.len())]
     }
 
-    /// A few random edits of a file.
+    /// Applies a few random edits to a file.
     fn spoil(&self, random: &mut Random) -> Vec<u8> {
         let mut text = self.seed(random).to_vec();
         for _ in 0..1 + random.index(4) {
@@ -77,8 +77,8 @@ impl Spoiler {
         text
     }
 
-    /// Reads spoilt files; whatever is reported must be renderable and in place. How many gave a
-    /// robot, which `also` looks at, and how many a message.
+    /// Reads corrupted files and checks that every diagnostic can be rendered and lies within the file. Returns how
+    /// many files gave a robot, which is passed to `also`, and how many caused errors.
     pub(crate) fn run(
         &self,
         seed: u64,
@@ -124,7 +124,7 @@ fn is_in_place(text: &str, found: &Diagnostics) {
     assert!(found.to_string().ends_with('\n'));
 }
 
-/// The rounds that are asked for, or so many.
+/// The number of rounds from the environment variable, or the usual number.
 pub(crate) fn rounds(usual: usize) -> usize {
     match std::env::var("FUZZ_ROUNDS") {
         Ok(rounds) => rounds.parse().unwrap(),

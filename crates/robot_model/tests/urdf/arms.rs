@@ -1,4 +1,4 @@
-//! Arms with published values as URDF, against the values of Pinocchio.
+//! Arms with published values, written as URDF and compared with the values of Pinocchio.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn spaced(numbers: &[f64]) -> String {
     numbers.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
 }
 
-/// The values of a fixture as URDF.
+/// The values of a fixture, written as URDF.
 fn urdf(name: &str, mechanism: &Value) -> String {
     let mut text =
         format!("<?xml version=\"1.0\"?>\n<robot name=\"{name}\">\n<link name=\"world\"/>\n");
@@ -80,7 +80,7 @@ fn largest(found: &[f64], expected: &Value) -> f64 {
     found.iter().zip(&expected).fold(0.0, |worst, (a, b)| worst.max((a - b).abs()))
 }
 
-/// The fixture of an arm: its values, and states with what Pinocchio makes of them.
+/// The fixture of an arm: its values, and states with the results of Pinocchio.
 fn fixture(name: &str) -> Value {
     let path = format!("../../tests/fixtures/oracle/{name}.json");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(path);
@@ -124,7 +124,7 @@ fn arms_with_published_figures_agree_with_pinocchio() {
     }
 }
 
-/// The files themselves, where they lie beside the project.
+/// The original files, if they are in a folder beside the project.
 #[test]
 fn files_beside_the_project_agree_with_pinocchio() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/urdf");

@@ -1,4 +1,4 @@
-//! Files that mean harm, and files that chance has spoilt: each ends in a message, soon.
+//! Malicious and randomly corrupted files: each must cause a message within a short time.
 
 use robot_model::description::{MAX_BYTES, Options, import, read_urdf};
 use robot_model::diagnostic::code;
@@ -7,7 +7,7 @@ use crate::errors;
 use crate::hostility::{self, Spoiler};
 use crate::text::{BODY, one_link};
 
-/// The codes of the errors of a file, which must be found soon.
+/// The codes of the errors of a file, which must be found within a short time.
 fn soon(text: &str) -> Vec<&'static str> {
     hostility::soon(|| errors(text))
 }
@@ -105,7 +105,7 @@ fn hostile_names_stay_text() {
     }
 }
 
-/// Pieces that have a meaning somewhere.
+/// Fragments that have a meaning in some context.
 const PIECES: &[&str] = &[
     "<",
     ">",
@@ -151,7 +151,7 @@ const PIECES: &[&str] = &[
 ];
 
 #[test]
-fn spoilt_files_end_in_a_robot_or_a_message() {
+fn spoiled_files_end_in_a_robot_or_a_message() {
     let joint = "<axis xyz=\"0 0 1\"/><limit lower=\"0\" upper=\"1\"/><dynamics damping=\"1\"/>";
     let sound = one_link(BODY, joint).into_bytes();
     let groups = vec![vec![sound], hostility::files("tests/broken", "urdf")];

@@ -1,4 +1,4 @@
-//! What import writes.
+//! The robot files that import writes.
 
 use robot_model::description::{Options, import, read_toml};
 

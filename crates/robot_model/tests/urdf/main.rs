@@ -1,5 +1,5 @@
-//! Robots from URDF: what files mean, that they agree with Pinocchio, what import writes, and what is
-//! said of wrong and hostile ones.
+//! Robots from URDF: the meaning of files, agreement with Pinocchio, the files that import writes, and the messages
+//! about invalid and malicious files.
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
@@ -18,17 +18,17 @@ use robot_model::robot::Robot;
 use robot_numeric::Mechanism;
 use robot_numeric::random::Random;
 
-/// Reads a file that must be right.
+/// Reads a file that must be valid.
 fn read(text: &str) -> Described {
     read_urdf("arm.urdf", text).unwrap_or_else(|found| panic!("{text}\n{found}"))
 }
 
-/// Reads a file that must be right with these options.
+/// Reads a file that must be valid with the given options.
 fn read_taking(text: &str, options: &Options) -> Described {
     read_with("arm.urdf", text, options).unwrap_or_else(|found| panic!("{text}\n{found}"))
 }
 
-/// The errors of a file that must be wrong.
+/// The errors of a file that must be invalid.
 fn errors(text: &str) -> Diagnostics {
     match read_urdf("arm.urdf", text) {
         Ok(_) => panic!("no error in\n{}", text.chars().take(2000).collect::<String>()),
@@ -40,7 +40,7 @@ fn codes(found: &Diagnostics) -> Vec<&'static str> {
     found.iter().map(|diagnostic| diagnostic.code).collect()
 }
 
-/// The largest difference of the two robots' torques over some states, in parts of the largest.
+/// The largest difference between the torques of two robots at several states, relative to the largest torque.
 fn difference(one: &Robot, other: &Robot) -> f64 {
     let (one, other) = (Mechanism::nominal(one).unwrap(), Mechanism::nominal(other).unwrap());
     let mut random = Random::new(11);

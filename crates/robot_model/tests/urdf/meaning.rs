@@ -1,4 +1,4 @@
-//! What files mean.
+//! The meaning of URDF files.
 
 use robot_model::description::{Format, Options, read};
 use robot_model::diagnostic::{Diagnostics, code};
@@ -17,7 +17,7 @@ fn has(found: &Diagnostics, code: &str, words: &str) -> bool {
     found.iter().any(|one| one.code == code && format!("{one:?}").contains(words))
 }
 
-/// Three links one behind the other, each of one kilogram at its origin with moments of 1.
+/// A chain of three links, each with a mass of 1 kg at its origin and moments of inertia of 1 kg m².
 fn chain(joints: [&str; 3]) -> String {
     let body = "<inertial><mass value=\"1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" \
                 iyz=\"0\" izz=\"1\"/></inertial>";
@@ -95,7 +95,7 @@ fn chains_of_joints_that_follow_are_folded() {
     assert_eq!(robot.degrees_of_freedom(), 1);
     let last = &robot.links[2].joint;
     assert_eq!((last.ratio.text(), last.offset.text()), ("-6", "1.25"));
-    // All about one axis: velocities 1, 1 − 3 and 1 − 3 − 6, torque 1 + 2² + 8².
+    // All axes are the same: the velocities are 1, 1 − 3 and 1 − 3 − 6, so the torque is 1 + 2² + 8².
     let found = torques(robot, &[0.3], &[0.2], &[1.0]);
     assert!((found[0] - 69.0).abs() < 1e-12, "{found:?}");
     assert!(has(&described.choices, code::TAKEN_COORDINATE, "not have a coordinate of its own"));
@@ -112,7 +112,7 @@ fn friction_is_apart_unless_it_is_asked_for() {
     let friction = read_taking(&text, &options).robot.links[0].friction.clone();
     let attributes = [&friction.viscous, &friction.coulomb_positive, &friction.coulomb_negative];
     assert_eq!(attributes.map(|formula| formula.text().to_owned()), ["5", "3", "3"]);
-    // One of the two alone is friction as well.
+    // Either attribute alone is also friction.
     for (attributes, expected) in [("damping=\"5\"", ["5", "0"]), ("friction=\"3\"", ["0", "3"])] {
         let joint = format!("<axis xyz=\"0 0 1\"/><dynamics {attributes}/>");
         let described = read_taking(&one_link(BODY, &joint), &options);
@@ -140,7 +140,7 @@ fn names_become_names_of_robot_files() {
         let text = one_link(BODY, "").replace("robot name=\"arm\"", &robot);
         assert_eq!(crate::read(&text).robot.name, name);
     }
-    // Names that become one are refused, and so is what hides something.
+    // Two names that become equal are refused, and so is a name with an invisible character.
     let text = one_link(BODY, "").replace("ground", "a b").replace("\"arm\"", "\"a/b\"");
     assert_eq!(codes(&errors(&text)), [code::DUPLICATE]);
     let text = one_link(BODY, "").replace("ground", "a\u{202e}b");
@@ -153,7 +153,7 @@ fn a_base_may_have_the_name_base() {
     let described = crate::read(&text);
     assert!(described.robot.frames.is_empty());
     assert!(!has(&described.choices, code::TAKEN_NAME, ""));
-    // A fixed link of the name behind another base is something else.
+    // A fixed link named `base` on another base link is an ordinary link.
     let text = text
         .replace("<robot name=\"arm\">", "<robot name=\"arm\"><link name=\"world\"/>")
         .replace(
@@ -180,7 +180,7 @@ fn massless_links_need_a_waiver() {
         assert_eq!(codes(&described.warnings), [code::MASS]);
         assert!(described.robot.links[0].bodies.is_empty());
     }
-    // Mass that is fixed to the link moves with it.
+    // A mass that is fixed to the link moves with it.
     let text = one_link("", "<axis xyz=\"0 0 1\"/>").replace(
         "</robot>",
         &format!(
@@ -202,7 +202,7 @@ fn a_moment_alone_is_enough_about_a_vertical_axis_on_the_base() {
     let described = crate::read(&one_link(&about_z, "<axis xyz=\"0 0 1\"/>"));
     assert_eq!(codes(&described.warnings), [code::MASS]);
     assert_eq!(torques(&described.robot, &[0.0], &[0.0], &[2.0]), [0.7]);
-    // Where the joint is not vertical, or other moments are given, the same is not a body.
+    // If the joint axis is not vertical, or other moments are given, the same values are impossible.
     for (attributes, axis) in [
         ("ixx=\"0.35\" iyy=\"0\" izz=\"0\"", "1 0 0"),
         ("ixx=\"0.1\" iyy=\"0\" izz=\"0.35\"", "0 0 1"),

@@ -1,11 +1,11 @@
-//! URDF of robots, for tests alone: every value as it is.
+//! Writes robots as URDF, for tests only; every value is written as it is.
 
 use std::fmt::Write;
 
 use robot_model::robot::{Axis, Body, Inertia, JointKind, Link, Move, Placement, Robot};
 use robot_symbolic::{Formula, Rational};
 
-/// The robot as URDF: bodies after a link's first as fixed links.
+/// The robot as URDF. All bodies of a link except the first become fixed links.
 pub(crate) fn of_robot(robot: &Robot) -> String {
     let mut text = format!("<robot name=\"{}\">\n<link name=\"ground\"/>\n", robot.name);
     for link in &robot.links {
@@ -65,7 +65,7 @@ fn inertial(body: &Body) -> String {
     )
 }
 
-/// A placement of one translation and turns about fixed axes.
+/// The `<origin>` of a placement that consists of one translation and rotations about fixed axes.
 fn origin(placement: &Placement) -> String {
     let zero = || [(); 3].map(|()| Formula::number(&Rational::ZERO));
     let (mut xyz, mut rpy) = (zero(), zero());
@@ -93,7 +93,7 @@ fn number(formula: &Formula) -> String {
     formula.text().to_owned()
 }
 
-/// One link on a joint: the values of its `<inertial>` and what else the joint has.
+/// A robot with one link on a joint: `inertial` is its `<inertial>`, and `joint` further content of the joint.
 pub(crate) fn one_link(inertial: &str, joint: &str) -> String {
     format!(
         "<robot name=\"arm\">\n<link name=\"ground\"/>\n<link name=\"arm\">{inertial}</link>\n\
@@ -102,6 +102,6 @@ pub(crate) fn one_link(inertial: &str, joint: &str) -> String {
     )
 }
 
-/// A sound `<inertial>`.
+/// A valid `<inertial>`.
 pub(crate) const BODY: &str = "<inertial><origin xyz=\"0 0 0.1\"/><mass value=\"2\"/>\
      <inertia ixx=\"0.02\" ixy=\"0\" ixz=\"0\" iyy=\"0.03\" iyz=\"0\" izz=\"0.04\"/></inertial>";

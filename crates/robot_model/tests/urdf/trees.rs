@@ -1,4 +1,4 @@
-//! Random trees written as URDF, read and imported.
+//! Random trees that are written as URDF, read, and imported.
 
 use robot_model::description::{Options, import, read_toml};
 use robot_model::robot::Robot;
@@ -12,7 +12,7 @@ fn tree(seed: u64) -> Robot {
     let joints = 2 + random.index(11);
     let recipe = Recipe { mimic: true, fixed: true, ..Recipe::tree(joints) };
     let mut robot = robot(&mut random, &recipe);
-    // URDF knows nothing of gravity, and no joint that follows with ratio 0.
+    // URDF does not specify gravity, and a mimic joint cannot have the ratio 0.
     robot.gravity = ["0", "0", "-9.81"].map(|text| Formula::parse(text).unwrap());
     for link in &mut robot.links {
         if link.joint.ratio.text() == "0" {

@@ -32,13 +32,13 @@ fn pendulum() {
     close(&[energies.kinetic, energies.potential], &[about * qd * qd / 2.0, -m * g * l * q.cos()]);
     let found = pendulum.inverse_dynamics_derivatives(&[q], &[qd], &[qdd], &[]).unwrap();
     close(found.dq.as_slice(), &[m * g * l * q.cos()]);
-    // The pin carries the weight and the centripetal force m l q̇² along the rod.
+    // The pin supports the weight and provides the centripetal force m l q̇² along the rod.
     let load = &pendulum.link_dynamics(&[q], &[qd], &[qdd], &[]).unwrap()[0];
     let expected = [-m * l * qdd - m * g * q.sin(), 0.0, m * l * qd * qd + m * g * q.cos()];
     close(load.contact_force.as_slice(), &expected);
 }
 
-/// The planar arm of two links in a vertical plane, as in every textbook.
+/// The textbook example of a planar arm with two links in a vertical plane.
 #[test]
 fn planar_arm_of_two_links() {
     let (l1, r1, r2, m1, m2, i1, i2, g) = (0.6, 0.25, 0.3, 3.0, 1.5, 0.12, 0.07, 9.81);
@@ -74,7 +74,7 @@ fn planar_arm_of_two_links() {
     close(symbols[1].as_slice(), &[b * s2, 0.0, 0.0, 0.0]);
 }
 
-/// A second joint that mimics the first backwards keeps the outer link level.
+/// A second joint that mimics the first one in the opposite direction keeps the outer link level.
 #[test]
 fn mimic_joint() {
     let (l, m, g) = (0.5, 2.0, 9.81);
@@ -100,7 +100,7 @@ fn mimic_joint() {
     let arm = Mechanism::new(Vector3::new(0.0, -g, 0.0), links, vec![]).unwrap();
     assert_eq!(arm.coordinates(), 1);
     let q = 0.7f64;
-    // The outer link only translates on a circle of radius l.
+    // The outer link only translates, on a circle of radius l.
     close(arm.mass_matrix(&[q]).unwrap().as_slice(), &[m * l * l]);
     close(arm.gravity_torques(&[q]).unwrap().as_slice(), &[m * g * l * q.cos()]);
     let outer = arm.forward_kinematics(&[q]).unwrap().links[1];
@@ -146,7 +146,7 @@ fn robot_of_the_paper() {
     let reach = q[3] + L[4];
     let fourth = [s2 * a1 - d2 * d2 * reach + a4, c2 * a1 + a2 * reach + 2.0 * d4 * d2, G + a3];
     close(links[3].center_acceleration.as_slice(), &fourth);
-    // The frame of link 5 is l5 further out, and turned about y.
+    // The frame of link 5 is farther outward by l5 and rotated about y.
     let outer = [fourth[0] - d2 * d2 * L[5], fourth[1] + a2 * L[5], fourth[2]];
     let fifth = [c5 * outer[0] - s5 * outer[2], outer[1], s5 * outer[0] + c5 * outer[2]];
     close(links[4].center_acceleration.as_slice(), &fifth);
@@ -159,7 +159,7 @@ fn robot_of_the_paper() {
     let fourth = c5 * force.x + s5 * force.z + M[4] * outer[0] + M[3] * fourth[0];
     let fifth = moment.y - L[6] * force.z + J[4][1] * a5 + s5 * c5 * d2 * d2 * (J[4][2] - J[4][0]);
     close(&tau.as_slice()[2..], &[third, fourth, fifth]);
-    // Nothing turns the first link but the reaction of the second joint.
+    // The first link does not rotate; the only moment on it is the reaction of the second joint.
     close(&[links[0].inertial_moment.norm()], &[0.0]);
     close(links[0].inertial_force.as_slice(), &[0.0, M[0] * a1, M[0] * G]);
 }

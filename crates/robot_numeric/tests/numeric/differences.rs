@@ -1,11 +1,11 @@
-//! Quantities that are derivatives of others, against differences of high order.
+//! Compares quantities that are derivatives of others with finite differences of high order.
 
 use nalgebra::{DVector, Matrix3, Vector3};
 use robot_numeric::{Loads, Mechanism, Pose};
 
 use crate::measure::{Worst, cases, derivative, moved, nudged};
 
-/// The vector a of the skew matrix a×.
+/// The vector a for a skew-symmetric matrix a×.
 fn unskew(matrix: &Matrix3<f64>) -> [f64; 3] {
     [matrix[(2, 1)], matrix[(0, 2)], matrix[(1, 0)]]
 }
@@ -61,7 +61,7 @@ fn slopes_of_the_mass_matrix_agree_with_differences() {
     worst.check(|_| 1e-10);
 }
 
-/// d(T + V)/dt = q̇ᵀ τ − (power that the frames give to their surroundings).
+/// d(T + V)/dt = q̇ᵀ τ − (power that the frames transmit to their surroundings).
 #[test]
 fn power_balances() {
     let mut worst = Worst::default();
@@ -144,7 +144,7 @@ fn torque_derivatives_agree_with_differences() {
     worst.check(|_| 1e-10);
 }
 
-/// The momentum of a link about its center of mass, and its center of mass's momentum, in base axes.
+/// The angular momentum of a link about its center of mass, and the linear momentum, in base axes.
 fn momenta(mechanism: &Mechanism, q: &[f64], qd: &[f64], index: usize) -> Vec<f64> {
     let link = &mechanism.links()[index];
     let pose = mechanism.forward_kinematics(q).unwrap().links[index];
@@ -156,7 +156,7 @@ fn momenta(mechanism: &Mechanism, q: &[f64], qd: &[f64], index: usize) -> Vec<f6
     [linear.as_slice(), angular.as_slice()].concat()
 }
 
-/// Newton's and Euler's laws by their first words: force is the rate of momentum.
+/// Newton's and Euler's laws in their original form: the force is the time derivative of the momentum.
 #[test]
 fn forces_of_links_are_rates_of_momenta() {
     let mut worst = Worst::default();

@@ -1,4 +1,4 @@
-//! Wrong data and wrong arguments are errors, all of them at once, and never panics.
+//! Wrong data and wrong arguments cause errors, all reported at once, and never panics.
 
 use nalgebra::{Matrix3, Vector3};
 use robot_numeric::random::{Random, Recipe};
@@ -176,7 +176,7 @@ fn a_mechanism_without_coordinates_has_empty_answers() {
 
 #[test]
 fn random_mechanisms_are_sound_and_the_same_for_one_seed() {
-    // First numbers of the reference implementation of SplitMix64 for this seed.
+    // The first numbers of the reference implementation of SplitMix64 for this seed.
     let mut random = Random::new(1_234_567);
     assert_eq!(random.bits(), 6_457_827_717_110_365_317);
     assert_eq!(random.bits(), 3_203_168_211_198_807_973);

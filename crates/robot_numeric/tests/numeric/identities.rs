@@ -1,4 +1,4 @@
-//! Quantities computed in different ways must agree.
+//! Quantities that are computed in different ways must agree.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use robot_numeric::Loads;
@@ -55,8 +55,8 @@ fn coriolis_matrix_is_that_of_the_christoffel_symbols() {
     worst.check(|_| 1e-13);
 }
 
-/// Torques give accelerations that need these torques, to the rounding of the largest torque that
-/// takes part: what M⁻¹ then makes of that error is a matter of the condition of M.
+/// Inverse dynamics of the accelerations from forward dynamics gives the original torques, up to rounding errors of the
+/// largest torque involved. The error of the accelerations themselves depends on the condition number of M.
 #[test]
 fn forward_dynamics_undoes_inverse_dynamics() {
     let mut worst = Worst::default();

@@ -21,7 +21,7 @@ fn wrenches_enter_through_the_transposed_jacobian() {
     worst.check(|_| 1e-13);
 }
 
-/// The balance of a link, equations (1) of the paper, from what acts on it.
+/// The balance of forces and moments on a link, equations (1) of the paper.
 fn expected_contact(
     mechanism: &Mechanism,
     q: &[f64],
@@ -94,12 +94,13 @@ fn friction_adds_to_the_torques_and_takes_power() {
         let braked = Loads { friction: true, ..free.clone() };
         let difference = mechanism.inverse_dynamics_with(q, qd, qdd, &braked).unwrap()
             - mechanism.inverse_dynamics_with(q, qd, qdd, &free).unwrap();
-        // What does not grow with the load is linear in the drive parameters, rotors apart.
+        // Friction that does not depend on the load is linear in the drive parameters; the inertia of rotors is
+        // excluded by q̈ = 0.
         let still = vec![0.0; qd.len()];
         let expected =
             mechanism.drive_regressor(qd, &still).unwrap() * mechanism.drive_parameters();
         worst.compare("Q_f", name, difference.as_slice(), expected.as_slice(), 1.0);
-        // The rest, which the case's own friction adds, only ever brakes.
+        // The rest is the load-dependent friction of the random mechanism, which always opposes the motion.
         let all = case.mechanism.friction_torques(q, qd, qdd, wrenches).unwrap();
         let by_load = all - expected;
         let power = by_load.dot(&DVector::from_column_slice(qd));
@@ -118,7 +119,7 @@ fn without_load_friction(mechanism: &Mechanism) -> Mechanism {
     Mechanism::new(*mechanism.gravity(), links, mechanism.frames().to_vec()).unwrap()
 }
 
-/// Equations (4) and (5) of the paper on a slider and a wheel that carry a known load.
+/// Tests equations (4) and (5) of the paper with a slider and a wheel that carry a known load.
 #[test]
 fn friction_follows_the_equations_of_the_paper() {
     use nalgebra::Matrix3;
@@ -140,7 +141,7 @@ fn friction_follows_the_equations_of_the_paper() {
         mechanism.friction_torques(&[0.4], &[rate], &[0.0], &[]).unwrap()[0]
     };
     let (wheel, slider) = (Joint::revolute(Vector3::y(), 0), Joint::prismatic(Vector3::x(), 0));
-    // The joint carries 30 N upwards, across both axes.
+    // The joint transmits 30 N upward, perpendicular to both axes.
     let cases = [
         (wheel, 2.0, 1.0 + 0.1 * 0.02 * 30.0 + 0.3 + 0.05),
         (wheel, -2.0, -1.0 - 0.1 * 0.02 * 30.0 - 0.2 + 0.05),
@@ -152,14 +153,14 @@ fn friction_follows_the_equations_of_the_paper() {
         let found = torque(joint, friction, rate);
         assert!((found - expected).abs() < 1e-14, "{joint:?} at {rate}: {found}, not {expected}");
     }
-    // Along the axis the load does not press.
+    // A load along the axis causes no friction.
     let upright = Joint::prismatic(Vector3::z(), 0);
     assert!((torque(upright, friction, 2.0) - 1.35).abs() < 1e-14);
-    // A drive that turns twice as fast the other way round feels its friction so.
+    // A drive that turns twice as fast in the opposite direction acts on the coordinate accordingly.
     let geared = Joint { ratio: -2.0, ..slider };
     let expected = -2.0 * (-2.0 - 0.1 * 30.0 - 0.2 + 0.05);
     assert!((torque(geared, friction, 2.0) - expected).abs() < 1e-14);
-    // A smooth sign of width 2 / ln 2 at the velocity 2 is tanh(ln 2) = 3/5.
+    // A smooth sign with the width 2 / ln 2 is tanh(ln 2) = 3/5 at the velocity 2.
     let smooth =
         Friction { sign: Sign::Smooth(2.0 / std::f64::consts::LN_2), offset: 0.0, ..friction };
     let expected = 1.0 + 0.1 * 30.0 * 0.6 + 0.25 * 0.6 + 0.05 * 0.36;

@@ -1,4 +1,4 @@
-//! The numeric solver against closed forms, against itself, and against Pinocchio.
+//! Compares the numeric solver with closed forms, with itself, and with Pinocchio.
 
 #[cfg(test)]
 mod closed_form;

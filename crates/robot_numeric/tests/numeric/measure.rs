@@ -1,4 +1,4 @@
-//! Errors, and the random mechanisms that they are measured on.
+//! Errors of comparisons, and the random mechanisms that are used for them.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,14 @@ use nalgebra::DMatrix;
 use robot_numeric::Mechanism;
 use robot_numeric::random::{Random, Recipe, State};
 
-/// The worst error of each thing that was compared, and where it was met.
+/// The largest error of each quantity that was compared, and the place where it occurred.
 #[derive(Default)]
 pub(crate) struct Worst {
     errors: BTreeMap<String, (f64, String)>,
 }
 
 impl Worst {
-    /// Notes an error; one that is not a number is worse than any.
+    /// Records an error; NaN counts as larger than any number.
     pub(crate) fn note(&mut self, what: &str, place: &str, error: f64) {
         let error = if error.is_nan() { f64::INFINITY } else { error };
         let entry = self.errors.entry(what.into()).or_insert((-1.0, String::new()));
@@ -22,8 +22,8 @@ impl Worst {
         }
     }
 
-    /// Notes the largest difference of two lists of numbers, relative to the largest number of
-    /// the second, or to `scale` where that is larger.
+    /// Records the largest difference between two lists of numbers, relative to the largest number of the second list,
+    /// or to `scale` if that is larger.
     pub(crate) fn compare(
         &mut self,
         what: &str,
@@ -42,7 +42,7 @@ impl Worst {
         self.note(what, place, error);
     }
 
-    /// Fails where an error is above the limit of its name.
+    /// Panics if an error exceeds the limit for its name.
     pub(crate) fn check(&self, limit: impl Fn(&str) -> f64) {
         assert!(!self.errors.is_empty(), "nothing was compared");
         for (what, (error, place)) in &self.errors {
@@ -55,7 +55,7 @@ impl Worst {
     }
 }
 
-/// A random mechanism in a random state; the name tells the seed.
+/// A random mechanism in a random state; its name contains the seed.
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) recipe: Recipe,
@@ -63,8 +63,7 @@ pub(crate) struct Case {
     pub(crate) state: State,
 }
 
-/// Chains and trees of 1 to 12 joints; every third has shared coordinates, fixed links, rotors and
-/// friction.
+/// Chains and trees with 1 to 12 joints; every third has shared coordinates, fixed links, rotors and friction.
 pub(crate) fn cases(count: u64) -> impl Iterator<Item = Case> {
     (0..count).map(|seed| {
         let every = seed % 3 == 2;
@@ -82,8 +81,8 @@ pub(crate) fn cases(count: u64) -> impl Iterator<Item = Case> {
     })
 }
 
-/// The derivative at 0 of a function of a scalar with many values: central differences of order 8,
-/// whose truncation error is far below the rounding error at this step for motions of a few rad/s.
+/// The derivative at 0 of a vector-valued function of a scalar, by central differences of order 8. For motions of a few
+/// rad/s, their truncation error with this step is far below the rounding error.
 pub(crate) fn derivative(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
     const STEP: f64 = 1.0 / 128.0;
     const WEIGHTS: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
@@ -97,19 +96,19 @@ pub(crate) fn derivative(f: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
     sum
 }
 
-/// The numbers, moved by `distance` along the direction.
+/// The numbers plus `distance` times the direction.
 pub(crate) fn moved(numbers: &[f64], direction: &[f64], distance: f64) -> Vec<f64> {
     numbers.iter().zip(direction).map(|(x, d)| x + d * distance).collect()
 }
 
-/// The numbers, the one at `index` moved by `distance`.
+/// The numbers, with `distance` added to the number at `index`.
 pub(crate) fn nudged(numbers: &[f64], index: usize, distance: f64) -> Vec<f64> {
     let mut numbers = numbers.to_vec();
     numbers[index] += distance;
     numbers
 }
 
-/// The elements of a matrix by rows.
+/// The elements of a matrix, row by row.
 pub(crate) fn rows(matrix: &DMatrix<f64>) -> Vec<f64> {
     matrix.transpose().as_slice().to_vec()
 }

@@ -1,4 +1,4 @@
-//! Values of Pinocchio for six arms (tests/fixtures/oracle at the root of the project).
+//! Compares the solver with values of Pinocchio for six arms (tests/fixtures/oracle at the root of the project).
 
 use std::fs;
 
@@ -26,7 +26,7 @@ fn index(value: &Value) -> Option<usize> {
     value.as_u64().map(|index| index as usize)
 }
 
-/// The mechanism of a fixture; the coordinates are those of the joints in order.
+/// The mechanism of a fixture; its coordinates are in the order of the joints.
 fn mechanism(fixture: &Value) -> Mechanism {
     let data = &fixture["mechanism"];
     let link = |(coordinate, link): (usize, &Value)| {
@@ -58,7 +58,7 @@ fn mechanism(fixture: &Value) -> Mechanism {
     Mechanism::new(Vector3::from(array(&data["gravity"])), links, frames).unwrap()
 }
 
-/// The position of a body's name among the links, or among the frames.
+/// The index of a named body among the links or among the frames.
 enum Body {
     Link(usize),
     Frame(usize),
@@ -150,7 +150,7 @@ fn agrees_with_pinocchio(robot: &str) {
         compare_kinematics(&mut worst, &place, &fixture, state);
     }
     worst.check(|what| match what {
-        // M⁻¹ is as uncertain as the condition of M makes it, on both sides.
+        // The accuracy of M⁻¹ is limited by the condition number of M, in both programs.
         "Minv" | "da_dq" | "da_dv" => 1e-11,
         _ => 1e-13,
     });

@@ -1,4 +1,4 @@
-//! The sliders.
+//! The sliders of the moving robot.
 
 use robot_document::markup::{Element, Node, element, holding};
 use robot_model::robot::{Coordinate, JointKind, Parameter, Robot};
@@ -6,13 +6,13 @@ use robot_model::variable::JointVariable;
 
 use crate::text;
 
-/// The range of positions without limits, rad and m.
+/// The largest position of joints without limits, in rad and m.
 const POSITION: [f64; 2] = [std::f64::consts::PI, 0.5];
-/// The range of velocities, rad/s and m/s.
+/// The largest velocity, in rad/s and m/s.
 const VELOCITY: [f64; 2] = [3.0, 1.0];
-/// The range of accelerations, rad/s² and m/s².
+/// The largest acceleration, in rad/s² and m/s².
 const ACCELERATION: [f64; 2] = [10.0, 5.0];
-/// The range of the payload's mass, kg, and of its center of mass about the nominal place, m.
+/// The largest mass of the payload in kg, and the range of its center of mass around the nominal one in m.
 const MASS: f64 = 5.0;
 const CENTER: f64 = 0.3;
 
@@ -39,12 +39,12 @@ fn slider([low, high]: [f64; 2], value: f64, name: &str) -> Element {
         .attribute("aria-label", name)
 }
 
-/// A slider with the number beside it.
+/// A slider with its value beside it.
 fn with_output(slider: Element) -> [Node; 2] {
     [slider.into(), holding("output", "0").into()]
 }
 
-/// Positions, velocities and accelerations of all coordinates.
+/// The sliders for positions, velocities and accelerations of all coordinates.
 pub(super) fn states(robot: &Robot) -> Element {
     let variables = [
         (JointVariable::Position, JointVariable::Position.name(), "position"),
@@ -86,7 +86,7 @@ pub(super) fn states(robot: &Robot) -> Element {
     element("div").class("wide").with(table)
 }
 
-/// Mass and center of mass of the payload, if the robot can carry one.
+/// The sliders for the mass and center of mass of the payload, if the robot can carry one.
 pub(super) fn payload(robot: &Robot) -> Option<Element> {
     let payload = robot.payload.as_ref()?;
     let place = |name: &str| {

@@ -1,4 +1,4 @@
-//! What the script needs to know of the robot, as JSON.
+//! The data about the robot that the script needs, as JSON.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use robot_build::Programs;
@@ -11,7 +11,7 @@ use super::controls::range;
 use crate::scheme::{drawn_frames, upright};
 use crate::text;
 
-/// Coordinates, links, frames and parameters; directions of the view.
+/// The coordinates, links, frames and parameters of the robot, and the directions of the view.
 pub(super) fn of(programs: &Programs) -> String {
     let Programs { robot, module, .. } = programs;
     let parameters = module.parameters.iter().map(|parameter| parameter.nominal);
@@ -35,7 +35,7 @@ pub(super) fn of(programs: &Programs) -> String {
     .to_string()
 }
 
-/// A link: its joint's axis in its own frame, and the way to its joint in the parent's.
+/// A link: the joint axis in its own frame, and the path to its joint in the parent's frame.
 fn of_link(robot: &Robot, link: &Link) -> Value {
     let axis = Vector3::from(link.joint.axis.each_ref().map(|part| text::value(robot, part)));
     let (path, _) = walked(robot, &link.placement);
@@ -48,7 +48,8 @@ fn of_link(robot: &Robot, link: &Link) -> Value {
     })
 }
 
-/// The frames of the scheme; if it has none because there are too many, that farthest out on the end of an arm.
+/// The frames of the scheme or, if it shows none because there are too many, the frame farthest out on the end of an
+/// arm.
 fn frames(robot: &Robot) -> Vec<&Frame> {
     let drawn: Vec<&Frame> = drawn_frames(robot).map(|(_, frame)| frame).collect();
     if !drawn.is_empty() {
@@ -65,14 +66,14 @@ fn frames(robot: &Robot) -> Vec<&Frame> {
     ends.max_by(|a, b| length(a).total_cmp(&length(b))).into_iter().collect()
 }
 
-/// A frame: the way to it and its axes in its link's frame.
+/// A frame: the path to it and its axes, in the frame of its link.
 fn of_frame(robot: &Robot, frame: &Frame) -> Value {
     let (path, rotation) = walked(robot, &frame.placement);
     let axes: Vec<[f64; 3]> = rotation.column_iter().map(|axis| list(axis.into())).collect();
     json!({ "link": frame.link, "path": path, "axes": axes })
 }
 
-/// The points through which the moves of a placement lead, from the origin on, and the axes at the end.
+/// The points that the moves of a placement pass through, starting at the origin, and the axes at the end.
 fn walked(robot: &Robot, placement: &Placement) -> (Vec<[f64; 3]>, Matrix3<f64>) {
     let value = |formula: &Formula| text::value(robot, formula);
     let (mut rotation, mut position) = (Matrix3::identity(), Vector3::zeros());

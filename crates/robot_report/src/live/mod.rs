@@ -1,6 +1,6 @@
-//! The part of the page in which the robot moves: its code in WebAssembly, sliders, and what they change.
+//! The part of the page with the moving robot: its code in WebAssembly, sliders, and the results that they change.
 //!
-//! The part is hidden until the page's script has started, and left out of pages for which it would be too large.
+//! The part is hidden until the page's script has started. It is omitted if it would be too large.
 
 mod controls;
 mod data;
@@ -17,18 +17,18 @@ use robot_model::robot::Robot;
 
 use crate::Input;
 
-/// The script of the part.
+/// The script of this part.
 pub(crate) const SCRIPT: &str = include_str!("live.js");
-/// Its style.
+/// The style sheet of this part.
 pub(crate) const STYLE: &str = include_str!("live.css");
 
-/// The most bytes that the part adds to a page.
+/// The largest number of bytes that this part can add to a page.
 pub(crate) const LIMIT: usize = 80_000;
 
-/// The part of a page in which the robot moves.
+/// The part of a page with the moving robot.
 #[derive(Clone)]
 pub(crate) struct Live {
-    /// The section, hidden.
+    /// The section, which is hidden at first.
     pub(crate) section: Element,
 }
 
@@ -47,7 +47,7 @@ fn functions(robot: &Robot) -> Vec<FunctionKind> {
     kinds
 }
 
-/// The part of a robot, or the reason why the page does not have it.
+/// Makes this part for a robot, or returns the reason why the page does not have it.
 pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
     let lacking: Vec<&str> = robot
         .parameters
@@ -59,7 +59,7 @@ pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
         let names = lacking.join(", ");
         return Err(format!("parameters have no values in the file: {names}."));
     }
-    // What the page computes is what Rust computes without options, to the last bit.
+    // These options make the page's results the same, to the last bit, as those of Rust code without options.
     let options = Options {
         functions: Functions::Chosen(functions(robot)),
         trigonometry: Trigonometry::Polynomial,
@@ -79,11 +79,11 @@ pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
     Ok(Live { section })
 }
 
-/// The words above the sliders.
+/// The text above the sliders.
 const WORDS: &str = "This page computes these numbers with the robot's own code, compiled to WebAssembly: they are the same, to \
     the last bit, as those of Rust code generated with the same functions.";
 
-/// The words below the scheme.
+/// The caption of the scheme.
 const CAPTION: &str = "The robot, drawn to scale. Drag the picture to turn it, or focus it and use the arrow keys, + and −.";
 
 fn section(programs: &Programs, module: &[u8]) -> Element {

@@ -1,4 +1,4 @@
-//! What the sliders change: tables that the script fills.
+//! Tables of the results that the sliders change; the script fills them.
 
 use robot_document::markup::{Element, element, holding};
 use robot_model::robot::Robot;
@@ -6,12 +6,12 @@ use robot_model::variable::JointVariable;
 
 use crate::text;
 
-/// A number that the script writes.
+/// A cell for a number that the script writes.
 fn number(name: &'static str) -> Element {
     holding("td", "0").attribute(name, "")
 }
 
-/// The joint torques, their parts by cause in numbers, and as bars.
+/// The joint torques and their contributions, as numbers and as bars.
 pub(super) fn torques(robot: &Robot) -> Element {
     let mut causes = vec!["inertia", "Coriolis", "gravity"];
     if robot.has_friction() {
@@ -50,7 +50,7 @@ pub(super) fn torques(robot: &Robot) -> Element {
     wide(table)
 }
 
-/// A line at 0, a line for the sum, and a bar for each cause.
+/// A line at 0, a line for the sum, and a bar for each contribution.
 fn bars(symbol: &str, causes: usize) -> Element {
     let height = 6 * causes;
     let path = |class: String| element("path").class(class);

@@ -23,39 +23,39 @@ use crate::text;
 
 type Point = Vector2<f64>;
 
-/// A drawing in the making. What is written is set last, if there is room.
+/// A drawing under construction. Labels are placed last, where there is space.
 pub(crate) struct Drawing<'r> {
     robot: &'r Robot,
     layout: &'r Layout,
     view: View,
     room: Room,
-    /// Dimension lines and labels, on top of all.
+    /// The dimension lines and labels, which are drawn on top of everything else.
     written: Vec<Shape>,
-    /// The look of symbols in documents.
+    /// The layouts of symbols in documents.
     table: SymbolTable,
 }
 
-/// The height of letters, and of a line with them.
+/// The font size of labels.
 const LETTERS: f64 = 14.0;
-/// Small letters, at the axes of frames.
+/// The font size of the letters at the axes of frames.
 const SMALL: f64 = 11.0;
-/// The distance of a link's dimension line from it.
+/// The possible distances of a dimension line from its link.
 const BESIDE: [f64; 6] = [20.0, -20.0, 32.0, -32.0, 48.0, -48.0];
 
-/// The distance of a joint's arrow from its axis, if a link is on that.
+/// The distance of a joint's arrow from the joint axis, if a link covers the axis.
 const BESIDE_AXIS: f64 = 18.0;
-/// What is nearer to the middle of a link than this is covered.
+/// The distance from the centerline of a link within which a point is covered.
 const COVERING: f64 = 7.0;
 
 impl<'r> Drawing<'r> {
-    /// The drawing of a robot's layout from a view.
+    /// Creates the drawing of a layout, seen from a view.
     pub(crate) fn of(robot: &'r Robot, layout: &'r Layout, view: View) -> Drawing<'r> {
         let table = SymbolTable::new(robot, Trigonometry::Named)
             .unwrap_or_else(|_| SymbolTable::spelled(Trigonometry::Named));
         Drawing { robot, layout, view, room: Room::default(), written: vec![], table }
     }
 
-    /// The drawing as SVG.
+    /// Returns the drawing as SVG.
     pub(crate) fn build(self) -> Element {
         let (title, description) =
             (format!("Kinematic scheme of {}", self.robot.name), self.description());
@@ -74,7 +74,7 @@ impl<'r> Drawing<'r> {
             .with_all(shapes.iter().map(Shape::svg))
     }
 
-    /// The drawing for a document.
+    /// Returns the drawing as a figure for documents.
     pub(crate) fn figure(self, caption: &str) -> Figure {
         let (shapes, Rectangle { low, high }) = self.shapes();
         let mut drawn = vec![];
@@ -83,7 +83,7 @@ impl<'r> Drawing<'r> {
         Figure { caption: caption.to_owned(), bounds, shapes: drawn }
     }
 
-    /// All parts, and the rectangle around them.
+    /// All shapes, and the rectangle around them.
     fn shapes(mut self) -> (Vec<Shape>, Rectangle) {
         self.take_room();
         let links = 0..self.layout.links.len();
@@ -107,7 +107,7 @@ impl<'r> Drawing<'r> {
         layout.links.iter().chain(layout.frames.iter().map(|(_, place)| place))
     }
 
-    /// Signs and lines keep labels away.
+    /// Reserves the space of symbols and lines, so that labels are placed elsewhere.
     fn take_room(&mut self) {
         let size = Point::new(2.0, 2.0) * (symbols::HALF + 2.0);
         for place in &self.layout.links {
@@ -131,7 +131,7 @@ impl<'r> Drawing<'r> {
         self.room.take(Rectangle::about(base + Point::new(0.0, 5.0), Point::new(60.0, 14.0)));
     }
 
-    /// The body of a link: what leads from its joint to those that it carries.
+    /// The body of a link: the lines from its joint to the joints and frames that it carries.
     fn body(&self, carrier: Option<usize>) -> Group {
         let of_links = self.robot.links.iter().zip(&self.layout.links);
         let of_links = of_links.filter(|(link, _)| link.parent == carrier).map(|(_, place)| place);
@@ -182,7 +182,7 @@ impl<'r> Drawing<'r> {
     fn frame(&self, index: usize, place: &Place) -> Group {
         let frame = self.robot.frames.get(index);
         let link = frame.and_then(|frame| frame.link);
-        // A hand is at the end of an arm alone.
+        // Only a frame at the end of an arm has a hand.
         let carries =
             link.is_none() || self.robot.links.iter().any(|carried| carried.parent == link);
         let is_hand = frame.is_some_and(|frame| frame.wrench.is_some()) || !carries;
@@ -198,7 +198,7 @@ impl<'r> Drawing<'r> {
         }
     }
 
-    /// Everything that is written: first what has least choice.
+    /// Places all labels, starting with those that have the fewest possible places.
     fn write(&mut self) {
         for place in self.places() {
             for segment in &place.path {
@@ -228,7 +228,7 @@ impl<'r> Drawing<'r> {
         }
     }
 
-    /// The arrow in the positive direction of a joint: on its axis, or beside it where a link covers that.
+    /// The arrow in the positive direction of a joint: on the joint axis, or beside it if a link covers the axis.
     fn arrow(&self, place: &Place) -> [Point; 2] {
         let [_, reach] = symbols::AXIS;
         let on = [symbols::HALF + 4.0, reach]
@@ -241,7 +241,7 @@ impl<'r> Drawing<'r> {
         sides.iter().min_by(|a, b| hidden(a).total_cmp(&hidden(b))).copied().unwrap_or(on)
     }
 
-    /// How much a link covers a point.
+    /// How deeply a point is covered by a link.
     fn covered(&self, point: Point) -> f64 {
         let segments = self.places().flat_map(|place| &place.path);
         let distance = |segment: &Segment| {
@@ -253,7 +253,7 @@ impl<'r> Drawing<'r> {
         segments.map(|segment| (COVERING - distance(segment)).max(0.0)).fold(0.0, f64::max)
     }
 
-    /// The joint's coordinate at its axis, the link's name beside its joint.
+    /// Places the name of the coordinate at the joint axis, and the name of the link beside the joint.
     fn names(&mut self, index: usize) {
         let (Some(link), Some(place)) = (self.robot.links.get(index), self.layout.links.get(index))
         else {
@@ -268,7 +268,7 @@ impl<'r> Drawing<'r> {
         self.label(&link.name, name, point, symbols::HALF + 2.0, "name", Some(index));
     }
 
-    /// A line beside a piece of a link with its length.
+    /// Draws a dimension line with the length beside a piece of a link.
     fn dimension(&mut self, segment: &Segment) {
         let Some(length) = &segment.length else { return };
         let [from, to] = segment.ends.each_ref().map(|end| self.view.point(end));
@@ -304,7 +304,7 @@ impl<'r> Drawing<'r> {
         group = group.with_all(arrow(middle, ends[0], 6.0)).with_all(arrow(middle, ends[1], 6.0));
         self.room.take_line(ends[0], ends[1]);
         let place = label(best);
-        // If something is there already, the label goes to the nearest free place.
+        // If this place is taken, the label goes to the best free place near it.
         let place = if self.room.cost(&place) < 1e3 {
             self.room.set(place);
             place
@@ -314,7 +314,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group.with(words_at(&words, inline, &place, LETTERS)).into());
     }
 
-    /// A name near a point, with a line to it if it is far.
+    /// Places a name near a point, with a line to it if it is far away.
     fn label(
         &mut self,
         words: &str,
@@ -341,7 +341,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group.with(words_at(&shown, inline, &place, LETTERS)).into());
     }
 
-    /// The letter of an axis, beyond its end, left out if there is no room for it.
+    /// Places the letter of an axis beyond the end of the axis.
     fn letter(&mut self, name: &str, end: Point) {
         let place = self.room.find(end, size_of(name, SMALL), 0.0);
         let class = match name {
@@ -354,7 +354,7 @@ impl<'r> Drawing<'r> {
         self.written.push(group().class(class).with(text).into());
     }
 
-    /// A length in a document: its formula, without its sign if it is a symbol.
+    /// A length for documents: its formula, without a minus sign if it is a symbol.
     fn length(&self, length: &Formula, words: &str) -> Inline {
         let graph = Graph::new();
         let value = length.lower(&graph, &mut |name| graph.symbol(name));
@@ -382,7 +382,7 @@ impl<'r> Drawing<'r> {
         words.trim_end().to_owned()
     }
 
-    /// Whether labels are on top of each other.
+    /// Whether labels overlap.
     #[cfg(test)]
     pub(crate) fn crowds(mut self) -> bool {
         self.take_room();
@@ -391,12 +391,12 @@ impl<'r> Drawing<'r> {
     }
 }
 
-/// The colors of links.
+/// The class for the color of a link.
 fn hue(index: usize) -> String {
     format!("hue-{}", index % 8)
 }
 
-/// The length of an offset without its sign, and what it depends on.
+/// The length of an offset without its sign, and the tokens of its parameters.
 fn length_words(robot: &Robot, length: &Formula) -> (String, String) {
     let tokens: Vec<String> = length.symbols().map(|(name, _)| parts::parameter(name)).collect();
     if length.is_constant() {
@@ -410,7 +410,7 @@ fn length_words(robot: &Robot, length: &Formula) -> (String, String) {
     (text::shortened(&words, 22), tokens.join(" "))
 }
 
-/// The room that words take, roughly.
+/// The approximate size of a text.
 fn size_of(words: &str, letters: f64) -> Point {
     Point::new((words.chars().count() as f64 * 0.6 + 0.3) * letters, letters * 1.15)
 }

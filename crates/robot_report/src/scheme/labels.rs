@@ -1,56 +1,56 @@
-//! Labels of the scheme, set where nothing else is.
+//! Labels of the scheme, which are placed where nothing else is.
 
 use nalgebra::Vector2;
 
-/// An upright rectangle.
+/// A rectangle with horizontal and vertical sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rectangle {
     /// The corner with the smallest coordinates.
     pub(crate) low: Vector2<f64>,
-    /// The opposite one.
+    /// The opposite corner.
     pub(crate) high: Vector2<f64>,
 }
 
 impl Rectangle {
-    /// Of a width and a height about a point.
+    /// The rectangle of this size around a center.
     pub(crate) fn about(center: Vector2<f64>, size: Vector2<f64>) -> Rectangle {
         Rectangle { low: center - size / 2.0, high: center + size / 2.0 }
     }
 
-    /// The area that two have in common.
+    /// The area of the intersection of two rectangles.
     pub(crate) fn overlap(&self, other: &Rectangle) -> f64 {
         let low = self.low.sup(&other.low);
         let extent = (self.high.inf(&other.high) - low).map(|side| side.max(0.0));
         extent.x * extent.y
     }
 
-    /// The smallest rectangle around both.
+    /// The smallest rectangle that contains both.
     pub(crate) fn around(&self, other: &Rectangle) -> Rectangle {
         Rectangle { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 }
 
-/// The areas that are drawn on, as far as labels are concerned.
+/// The areas that are taken, as far as the placement of labels is concerned.
 #[derive(Default)]
 pub(crate) struct Room {
-    /// Labels: nothing may be on top of them.
+    /// The labels, which nothing can cover.
     labels: Vec<Rectangle>,
-    /// Symbols, lines in small pieces: with what it costs to cover a unit of their area.
+    /// The symbols and the small pieces of lines, with the cost of covering a unit of their area.
     drawn: Vec<(Rectangle, f64)>,
 }
 
-/// Distances from what they name at which labels are tried.
+/// The distances from the named point at which labels are tried.
 const RINGS: [f64; 9] = [0.0, 6.0, 14.0, 26.0, 42.0, 64.0, 92.0, 130.0, 180.0];
-/// Directions in which they are tried.
+/// The number of directions in which labels are tried.
 const DIRECTIONS: usize = 16;
 
 impl Room {
-    /// Takes the room of a symbol.
+    /// Reserves the area of a symbol.
     pub(crate) fn take(&mut self, rectangle: Rectangle) {
         self.drawn.push((rectangle, 1.0));
     }
 
-    /// Takes the room of a line.
+    /// Reserves the area of a line.
     pub(crate) fn take_line(&mut self, from: Vector2<f64>, to: Vector2<f64>) {
         let pieces = ((to - from).norm() / 5.0).ceil().max(1.0);
         for piece in 0..=pieces as usize {
@@ -59,25 +59,25 @@ impl Room {
         }
     }
 
-    /// The cost of setting a label there: area that it covers, labels counting so much that any
-    /// other place is better.
+    /// The cost of placing a label there: the area that it covers. Other labels cost so much that any other place is
+    /// better.
     pub(crate) fn cost(&self, label: &Rectangle) -> f64 {
         let labels: f64 = self.labels.iter().map(|taken| taken.overlap(label)).sum();
         let drawn: f64 = self.drawn.iter().map(|(taken, cost)| taken.overlap(label) * cost).sum();
         1e4 * labels + drawn
     }
 
-    /// Takes the room of a label that stays where it is.
+    /// Reserves the area of a label with a fixed place.
     pub(crate) fn set(&mut self, label: Rectangle) {
         self.labels.push(label);
     }
 
-    /// Finds the best place for a label near a point, keeping off it by `gap`, and takes its room.
+    /// Finds the best place for a label near a point, at least `gap` away from it, and reserves its area.
     pub(crate) fn find(&mut self, point: Vector2<f64>, size: Vector2<f64>, gap: f64) -> Rectangle {
         let mut best = (f64::INFINITY, Rectangle::about(point, size));
         for ring in RINGS {
             for step in 0..DIRECTIONS {
-                // To the right and above first.
+                // Directions to the right and upward are tried first.
                 let angle = std::f64::consts::TAU * (step as f64 / DIRECTIONS as f64) - 0.6;
                 let (sin, cos) = angle.sin_cos();
                 let reach = Vector2::new(cos, sin) * (gap + ring);
@@ -93,13 +93,13 @@ impl Room {
         best.1
     }
 
-    /// The smallest rectangle around everything.
+    /// The smallest rectangle around all reserved areas.
     pub(crate) fn bounds(&self) -> Option<Rectangle> {
         let drawn = self.drawn.iter().map(|(rectangle, _)| *rectangle);
         drawn.chain(self.labels.iter().copied()).reduce(|all, one| all.around(&one))
     }
 
-    /// Whether two labels are on top of each other.
+    /// Whether two labels overlap.
     #[cfg(test)]
     pub(crate) fn is_crowded(&self) -> bool {
         let pairs = self.labels.iter().enumerate();

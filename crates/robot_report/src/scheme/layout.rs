@@ -1,5 +1,5 @@
-//! The positions of the joints of the scheme: the offsets of the robot file at rest, in the base
-//! frame, with those too short to be seen drawn longer and joints at one point drawn apart.
+//! The positions of the joints in the scheme. They follow from the offsets of the robot file at q = 0, in the base
+//! frame. Offsets too short to be seen are lengthened, and joints at the same point are drawn apart.
 
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use robot_document::robot::words;
@@ -9,56 +9,56 @@ use robot_symbolic::Formula;
 use super::view::View;
 use crate::text;
 
-/// The longest offset on the page.
+/// The drawn length of the longest offset.
 const LONGEST: f64 = 190.0;
-/// No offset is drawn shorter.
+/// The smallest drawn length of an offset.
 const SHORTEST: f64 = 58.0;
-/// The distance of joints at one point that are drawn apart.
+/// The distance at which joints at the same point are drawn apart.
 const SPREAD: f64 = 86.0;
-/// Joints nearer to each other than this on the page are drawn apart.
+/// The distance on the page below which joints are drawn apart.
 const CLOSE: f64 = 46.0;
-/// Offsets shorter than this part of the longest are left out.
+/// The fraction of the longest offset below which an offset is omitted.
 const NEGLIGIBLE: f64 = 0.01;
-/// The placeholder of a length whose parameters have no values, m.
+/// The value of a length whose parameters have no values, in m.
 const UNKNOWN: f64 = 0.3;
 
 /// The robot on the page, in units of the page.
 pub(crate) struct Layout {
-    /// The links, in the robot's order, each at its joint.
+    /// The links in the order of the robot file, each at its joint.
     pub(crate) links: Vec<Place>,
-    /// Named frames with what the drawing shows of them, by index.
+    /// The named frames that are drawn, with their indices.
     pub(crate) frames: Vec<(usize, Place)>,
-    /// Named frames that are the base, by index.
+    /// The indices of named frames that coincide with the base.
     pub(crate) bases: Vec<usize>,
 }
 
 /// A frame on the page.
 pub(crate) struct Place {
-    /// Its origin.
+    /// The origin of the frame.
     pub(crate) position: Vector3<f64>,
-    /// Its axes, columns in the base frame.
+    /// The rotation matrix, whose columns are the frame's axes in the base frame.
     pub(crate) rotation: Matrix3<f64>,
-    /// Unit vector of the joint axis in the base frame; the last offset's for a named frame.
+    /// The unit vector of the joint axis in the base frame; for a named frame, that of the last offset.
     pub(crate) axis: Vector3<f64>,
-    /// The pieces of the carrier's body that lead to it.
+    /// The pieces of its carrier's body that lead to it.
     pub(crate) path: Vec<Segment>,
 }
 
-/// A straight piece of a link, along an axis of some frame.
+/// A straight piece of a link, along an axis of a frame.
 pub(crate) struct Segment {
-    /// Its ends.
+    /// The two ends.
     pub(crate) ends: [Vector3<f64>; 2],
-    /// Its length in the robot file; `None` if two frames at one point are drawn apart.
+    /// The length in the robot file; `None` for a piece between two frames at the same point that are drawn apart.
     pub(crate) length: Option<Formula>,
 }
 
-/// The base.
+/// The origin of the base.
 pub(crate) const BASE: Vector3<f64> = Vector3::new(0.0, 0.0, 0.0);
 
-/// More frames than this crowd the page: then tips alone are drawn.
+/// The largest number of frames that are all drawn; of more frames, only tips are.
 const MAX_FRAMES: usize = 4;
 
-/// Lays the robot out as it is best seen from a view.
+/// Lays out the robot for a view.
 pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
     let scale = LONGEST / longest(robot).max(f64::MIN_POSITIVE);
     let mut layout = Layout { links: vec![], frames: vec![], bases: vec![] };
@@ -70,7 +70,7 @@ pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
     }
     for (index, frame) in drawn_frames(robot) {
         let own = Vector3::zeros();
-        // What is at the base's origin is the base.
+        // A frame at the origin of the base is part of the base.
         if frame.link.is_none() && words::moves(&frame.placement).next().is_none() {
             layout.bases.push(index);
             continue;
@@ -88,7 +88,7 @@ pub(crate) fn drawn_frames(robot: &Robot) -> impl Iterator<Item = (usize, &Frame
     frames.filter(move |(_, frame)| !crowded || frame.wrench.is_some())
 }
 
-/// The longest component of all offsets, m.
+/// The largest component of all offsets, in m.
 fn longest(robot: &Robot) -> f64 {
     let of_links = robot.links.iter().map(|link| &link.placement);
     let placements = of_links.chain(robot.frames.iter().map(|frame| &frame.placement));
@@ -108,7 +108,7 @@ fn value(robot: &Robot, formula: &Formula) -> f64 {
 }
 
 impl Layout {
-    /// A frame by its moves in its carrier's; `axis` is in its own axes.
+    /// Places a frame by its moves in the frame of its carrier; `axis` is given in the frame's own axes.
     fn place(
         &self,
         robot: &Robot,
@@ -135,7 +135,7 @@ impl Layout {
             let before = carrier.and_then(|carrier| carrier.path.last());
             let before = walk.path.last().or(before);
             let before = before.map_or(view.vertical, |last| last.ends[1] - last.ends[0]);
-            // If there is an offset, what lies beside the carrier's axis stays there.
+            // After an offset, the frame can only move along its own axis, so that it stays off the carrier's axis.
             let outward = if walk.path.is_empty() { outward } else { own };
             let to = self.separated(view, walk.position, [own, outward], before);
             walk.step(to, None);
@@ -145,16 +145,16 @@ impl Layout {
         Place { position: walk.position, rotation, axis: axis.unwrap_or(along), path: walk.path }
     }
 
-    /// The distance of a place from the base and all joints, on the page.
+    /// The smallest distance on the page of a place from the base and from all joints.
     fn room(&self, view: &View, place: &Vector3<f64>) -> f64 {
         let end = view.point(place);
         let taken = self.links.iter().map(|link| (view.point(&link.position) - end).norm());
         taken.fold((view.point(&BASE) - end).norm(), f64::min)
     }
 
-    /// How a frame at the very place of its carrier is drawn beside it: along one of the joint axes,
-    /// on which a joint may be drawn anywhere, or upright; if there is most room, and rather on
-    /// in the direction that leads there.
+    /// The displacement of a frame at the same place as its carrier, so that it is drawn beside it. It is along one of
+    /// the joint axes, on which a joint can be drawn anywhere, or vertical: the direction with the most space is taken,
+    /// preferably one that continues the line that leads there.
     fn separated(
         &self,
         view: &View,
@@ -181,7 +181,7 @@ struct Walk {
 }
 
 impl Walk {
-    /// One piece for each component; that along the carrier's joint axis comes first.
+    /// Adds one piece for each component; the component along the carrier's joint axis comes first.
     fn translate(
         &mut self,
         robot: &Robot,
@@ -212,12 +212,12 @@ impl Walk {
     }
 }
 
-/// The unit vector along a vector of any length.
+/// The unit vector along a vector, whatever its length.
 fn direction(axis: &Vector3<f64>) -> Vector3<f64> {
     (axis / axis.amax()).normalize()
 }
 
-/// The rotation about a coordinate axis.
+/// The rotation about a coordinate axis, by an angle in rad.
 fn turn(axis: Axis, angle: f64) -> Matrix3<f64> {
     let axis = match axis {
         Axis::X => Vector3::x_axis(),
@@ -227,8 +227,7 @@ fn turn(axis: Axis, angle: f64) -> Matrix3<f64> {
     Rotation3::from_axis_angle(&axis, angle).into_inner()
 }
 
-/// The faults of a layout seen from its view: joints on top of each other or of links, and pieces seen
-/// from their end.
+/// Rates the faults of a layout in its view: joints that cover each other or links, and pieces that are seen end-on.
 pub(crate) fn confusion(layout: &Layout, view: &View) -> f64 {
     let places = || layout.links.iter().chain(layout.frames.iter().map(|(_, place)| place));
     let points: Vec<_> = places().map(|place| view.point(&place.position)).collect();
@@ -250,12 +249,12 @@ pub(crate) fn confusion(layout: &Layout, view: &View) -> f64 {
     for [a, b] in &segments {
         blame((a - b).norm(), 45.0);
     }
-    // Joints are drawn apart if they must be, not more.
+    // Drawing joints apart is a fault too, so that it is only done when necessary.
     let separated =
         places().flat_map(|place| &place.path).filter(|segment| segment.length.is_none());
     blame(0.0, 40.0 * (separated.count() as f64).sqrt());
     for place in &layout.links {
-        // An axis that points at the eye is not a line.
+        // An axis that points at the viewer is not visible as a line.
         blame(view.point(&place.axis).norm() * 60.0, 25.0);
     }
     sum

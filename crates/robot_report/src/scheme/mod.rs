@@ -1,8 +1,8 @@
-//! The kinematic scheme, as the paper's figure 3: joints as the signs of rotation and translation,
-//! frames with their axes, offsets as dimension lines, links by their names.
+//! The kinematic scheme, as in figure 3 of the paper: joints with the symbols of rotation and translation, frames with
+//! their axes, offsets as dimension lines, and links with their names.
 //!
-//! `layout` puts the robot's rest position on the page, `view` chooses from where it is seen,
-//! `symbols` has the signs, `labels` finds room for what is written.
+//! `layout` places the robot at q = 0 on the page, `view` chooses the direction from which it is seen, `symbols` draws
+//! the symbols, and `labels` finds space for labels.
 
 mod draw;
 mod labels;
@@ -27,26 +27,26 @@ pub(crate) use view::upright;
 use layout::{Layout, confusion, layout};
 use view::View;
 
-/// The scheme as SVG.
+/// Draws the scheme as SVG.
 pub(crate) fn scheme(robot: &Robot) -> Element {
     let (layout, view) = best(robot);
     draw::Drawing::of(robot, &layout, view).build()
 }
 
-/// The content of the scheme.
+/// The caption of the scheme.
 pub(crate) const CAPTION: &str = "The robot at q = 0. Cylinders rotate about their axes, boxes slide along \
     their guides; the arrow on or beside an axis points in the positive direction of its \
     coordinate. Directions are true; short offsets are enlarged, and joints at the same point are drawn \
     apart along a dotted line.";
 
-/// The scheme as lines, curves and labels, for documents.
+/// Draws the scheme with lines, curves and labels, for documents.
 #[must_use]
 pub fn figure(robot: &Robot) -> Figure {
     let (layout, view) = best(robot);
     draw::Drawing::of(robot, &layout, view).figure(CAPTION)
 }
 
-/// The clearest of all views.
+/// The layout and the view with the fewest faults.
 fn best(robot: &Robot) -> (Layout, View) {
     let [first, others @ ..] = view::views(robot).map(|view| (layout(robot, &view), view));
     let blame = |(layout, view): &(Layout, View)| confusion(layout, view);

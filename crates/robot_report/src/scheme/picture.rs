@@ -1,4 +1,4 @@
-//! The scheme as a file of its own.
+//! The scheme as a separate SVG file.
 
 use robot_build::MARKER;
 use robot_document::markup::holding;
@@ -6,7 +6,7 @@ use robot_model::robot::Robot;
 
 use super::scheme;
 
-/// The style of pages.
+/// The style sheet of pages.
 const STYLE: &str = include_str!("../style.css");
 
 /// The kinematic scheme of a robot as an SVG file in light colors, which needs no other file.
@@ -18,7 +18,8 @@ pub fn scheme_picture(robot: &Robot) -> String {
     format!("<!-- {MARKER} -->\n{picture}\n")
 }
 
-/// The rules of a page for its scheme, colors in place of their names: not all that shows SVG knows variables.
+/// The rules of the style sheet for the scheme, with colors in place of variables, which not all programs for SVG
+/// support.
 fn style() -> String {
     let rules = STYLE
         .lines()

@@ -1,4 +1,4 @@
-//! The parts of the scheme: a page gets them as SVG, a document as lines, curves and labels.
+//! The shapes of the scheme: SVG for a page; lines, curves and labels for a document.
 
 use nalgebra::{Rotation2, Vector2};
 use robot_document::document::Inline;
@@ -11,22 +11,22 @@ use crate::drawing::coordinate;
 
 type Point = Vector2<f64>;
 
-/// A part of the scheme.
+/// A shape of the scheme.
 #[derive(Clone, Debug)]
 pub(crate) enum Shape {
-    /// Parts that belong together.
+    /// Shapes that belong together.
     Group(Group),
     /// A line through points.
     Line(Line),
     /// A cylinder seen from the side.
     Cylinder(Cylinder),
-    /// Something written.
+    /// A text or a formula.
     Words(Words),
-    /// What a page says of the group that it is in.
+    /// The title that a page shows for the surrounding group.
     Title(String),
 }
 
-/// Parts that belong together, with their attributes on a page.
+/// Shapes that belong together, with the attributes of their element on a page.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Group {
     attributes: Vec<(&'static str, String)>,
@@ -41,36 +41,36 @@ pub(crate) struct Line {
     class: &'static str,
 }
 
-/// A cylinder: a strip between two ellipses.
+/// A cylinder, drawn as a strip between two ellipses.
 #[derive(Clone, Debug)]
 pub(crate) struct Cylinder {
-    /// Its middle.
+    /// The center.
     pub(crate) center: Point,
-    /// The direction of its axis on the page, rad.
+    /// The direction of the axis on the page, in rad.
     pub(crate) turn: f64,
-    /// Half its length on the page.
+    /// Half the length on the page.
     pub(crate) half: f64,
-    /// Its radius, across the axis.
+    /// The radius: the half axis of the end ellipses across the axis.
     pub(crate) radius: f64,
-    /// The other half axis of its ends, along the axis.
+    /// The half axis of the end ellipses along the axis.
     pub(crate) bulge: f64,
-    /// Whether the end in the direction of the axis is the one that is seen.
+    /// Whether the visible end is the one in the direction of the axis.
     pub(crate) is_near: bool,
 }
 
-/// Something written, about a point.
+/// A text or a formula, centered on a point.
 #[derive(Clone, Debug)]
 pub(crate) struct Words {
     pub(crate) center: Point,
-    /// As a page has it.
+    /// The text for a page.
     pub(crate) text: String,
-    /// As a document has it.
+    /// The text or formula for a document.
     pub(crate) inline: Inline,
-    /// The height of the letters.
+    /// The font size.
     pub(crate) size: f64,
 }
 
-/// A group without parts.
+/// Creates a group without shapes.
 pub(crate) fn group() -> Group {
     Group::default()
 }
@@ -80,7 +80,7 @@ pub(crate) fn line(points: &[Point], is_closed: bool) -> Line {
     Line { points: points.to_vec(), is_closed, class: "" }
 }
 
-/// A line with a head at its end.
+/// A line with an arrowhead at its end.
 pub(crate) fn arrow(from: Point, to: Point, head: f64) -> [Line; 2] {
     [line(&[from, to], false), line(&drawing::head(from, to, head), true).class("head")]
 }
@@ -143,7 +143,7 @@ impl From<Words> for Shape {
 }
 
 impl Shape {
-    /// The part as SVG.
+    /// Returns the shape as SVG.
     pub(crate) fn svg(&self) -> Element {
         match self {
             Shape::Group(group) => {
@@ -167,7 +167,7 @@ impl Shape {
         }
     }
 
-    /// The parts as lines, curves and labels, in a style that groups inside change.
+    /// Appends the shape as lines, curves and labels. Groups and lines change the style for what they contain.
     pub(crate) fn draw(&self, style: &Style, drawn: &mut Vec<robot_document::figure::Shape>) {
         use robot_document::figure::Shape as Drawn;
         match self {
@@ -198,7 +198,7 @@ impl Shape {
     }
 }
 
-/// The distance of the control points of a quarter of a circle from its ends.
+/// The distance between the ends of a quarter of a unit circle and their control points.
 const QUARTER: f64 = 0.552_284_75;
 
 impl Cylinder {
@@ -206,7 +206,7 @@ impl Cylinder {
         if self.is_near { self.half } else { -self.half }
     }
 
-    /// In coordinates with x along the axis on the page.
+    /// Draws the cylinder with x along its axis on the page.
     fn svg(&self) -> Element {
         let [half, bulge, radius] = [self.half, self.bulge, self.radius].map(coordinate);
         let arc = |x: &str, y: &str| format!("A{bulge} {radius} 0 0 1 {x} {y}");
@@ -228,7 +228,7 @@ impl Cylinder {
             .with(cap)
     }
 
-    /// The outline, and the end that is seen.
+    /// The outline and the visible end.
     fn paths(&self, style: &Style) -> [Path; 2] {
         let style = style.clone().with("joint");
         let turn = Rotation2::new(self.turn);
@@ -237,7 +237,7 @@ impl Cylinder {
             [turned.x, turned.y]
         };
         let (radius, bulge) = (self.radius, self.bulge);
-        // Half an ellipse about (x, 0), from its upper to its lower end for a side of 1, else back.
+        // Half an ellipse around (x, 0): from its upper to its lower end if `side` is 1, otherwise back.
         let half_ellipse = |x: f64, side: f64| {
             let (out, near) = (bulge * side, QUARTER * side);
             [

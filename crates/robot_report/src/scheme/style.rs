@@ -1,8 +1,8 @@
-//! The look of the scheme in documents: what the style sheet says for pages in light colors.
+//! The style of the scheme in documents, which matches the style sheet for pages in light colors.
 
 use robot_document::figure::{Color, Path, Point, Segment};
 
-/// The look of lines and words.
+/// The style of lines and text.
 #[derive(Clone, Debug)]
 pub(crate) struct Style {
     color: Color,
@@ -35,7 +35,7 @@ const HUES: [Color; 8] = [
 /// The colors of the axes of frames.
 const AXES: [Color; 3] = [color(0xb3_261e), color(0x1a_7f37), color(0x0b_57a4)];
 
-/// A line of ink, of the usual width.
+/// The default style: a line of ink with the usual width.
 impl Default for Style {
     fn default() -> Style {
         Style { color: INK, width: 1.5, dashes: &[], fill: None, text: INK, is_bold: false }
@@ -43,7 +43,7 @@ impl Default for Style {
 }
 
 impl Style {
-    /// With what a class changes.
+    /// Changes the style as a class does in the style sheet.
     pub(crate) fn with(self, class: &str) -> Style {
         let colored = |color: Color, style: Style| Style { color, text: color, ..style };
         match class {
@@ -78,7 +78,7 @@ impl Style {
 mod tests {
     use super::*;
 
-    /// Documents have the colors that pages have.
+    /// The colors in documents are those of pages.
     #[test]
     fn the_colors_are_those_of_the_style_sheet() {
         let sheet = include_str!("../style.css");

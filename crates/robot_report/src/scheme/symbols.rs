@@ -1,17 +1,17 @@
-//! The signs of the scheme: joints, frames, the ground.
+//! The symbols of the scheme: joints, frames, hands and the ground.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 use super::shape::{Cylinder, Group, Line, arrow, group, line};
 use super::view::View;
 
-/// Half the length of a joint's sign along its axis.
+/// Half the length of a joint's symbol along its axis.
 pub(crate) const HALF: f64 = 20.0;
-/// The radius of the cylinder, half the width of the box.
+/// The radius of the cylinder, which is also half the width of the box.
 const RADIUS: f64 = 12.0;
-/// The lengths of a joint's axis beyond its origin: against the axis, and along it.
+/// The distances from a joint's origin to the ends of its drawn axis: against the axis, and along it.
 pub(crate) const AXIS: [f64; 2] = [-40.0, 54.0];
-/// The length of the axes of a frame.
+/// The drawn length of the axes of a frame.
 pub(crate) const TRIAD: f64 = 38.0;
 
 /// The axis of a joint.
@@ -20,7 +20,7 @@ pub(crate) fn axis(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> G
     group().class("axis").with(line(&[from, to], false))
 }
 
-/// A revolute joint: a cylinder about its axis.
+/// The symbol of a revolute joint: a cylinder around its axis.
 pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) -> Cylinder {
     let along = view.point(axis);
     let nearness = view.nearness(axis);
@@ -34,7 +34,7 @@ pub(crate) fn cylinder(view: &View, origin: &Vector3<f64>, axis: &Vector3<f64>) 
     }
 }
 
-/// A prismatic joint: a box between the rails of its guide.
+/// The symbol of a prismatic joint: a box between the rails of its guide.
 pub(crate) fn slider(
     view: &View,
     origin: &Vector3<f64>,
@@ -49,7 +49,7 @@ pub(crate) fn slider(
     });
     let half = [axis * HALF, across * RADIUS, beside * RADIUS];
     let faces = (0..3).map(|face| {
-        // Of two opposite faces the eye sees one.
+        // Only one of two opposite faces is visible.
         let sign = if view.nearness(&half[face]) >= 0.0 { 1.0 } else { -1.0 };
         let center = origin + half[face] * sign;
         let (u, v) = (half[(face + 1) % 3], half[(face + 2) % 3]);
@@ -59,7 +59,7 @@ pub(crate) fn slider(
     group().class("joint").with_all(rails).with_all(faces)
 }
 
-/// Two directions across an axis, the first the one that is seen better.
+/// Two directions perpendicular to an axis; the first is the one that is seen better.
 fn normals(view: &View, axis: &Vector3<f64>, rotation: &Matrix3<f64>) -> [Vector3<f64>; 2] {
     let columns = rotation.column_iter().map(nalgebra::Matrix::into_owned);
     let across = |column: Vector3<f64>| (column - axis * column.dot(axis)).try_normalize(0.5);
@@ -79,7 +79,7 @@ pub(crate) fn triad(view: &View, origin: &Vector3<f64>, rotation: &Matrix3<f64>)
     group().class("triad").with_all(axes)
 }
 
-/// The ground under a point.
+/// The symbol of the ground under a point.
 pub(crate) fn ground(point: Vector2<f64>) -> Group {
     let edge = [-24.0, 24.0].map(|x| point + Vector2::new(x, 0.0));
     let hatch = (0..6).map(|index| {
@@ -89,7 +89,7 @@ pub(crate) fn ground(point: Vector2<f64>) -> Group {
     group().class("ground").with(line(&edge, false)).with_all(hatch)
 }
 
-/// The hand at a tip: a fork open to the outside.
+/// The hand at a tip: a fork that opens outward.
 pub(crate) fn hand(view: &View, origin: &Vector3<f64>, outward: &Vector3<f64>) -> Line {
     let point = view.point(origin);
     let along = view.point(outward).try_normalize(1e-3).unwrap_or(Vector2::new(1.0, 0.0));

@@ -1,28 +1,28 @@
-//! The direction from which the scheme is seen.
+//! The directions from which the scheme is seen.
 
 use nalgebra::{Vector2, Vector3};
 use robot_model::robot::Robot;
 
 use crate::text;
 
-/// A parallel projection: directions of the drawing in the base frame.
+/// A parallel projection, given by directions of the drawing in the base frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
-    /// To the right on the page.
+    /// The direction to the right on the page.
     right: Vector3<f64>,
-    /// To its top.
+    /// The direction to the top of the page.
     up: Vector3<f64>,
-    /// Out of it, to the eye.
+    /// The direction out of the page, toward the viewer.
     toward: Vector3<f64>,
-    /// Away from gravity; along a base axis.
+    /// The direction opposite to gravity, along a base axis.
     pub(crate) vertical: Vector3<f64>,
 }
 
-/// Angles from which the views are taken, degrees: about the vertical, and above the horizon.
+/// The angles of the views in degrees: about the vertical, and above the horizon.
 const ANGLES: [[f64; 2]; 6] =
     [[28.0, 20.0], [40.0, 24.0], [16.0, 18.0], [55.0, 22.0], [-25.0, 20.0], [-45.0, 24.0]];
 
-/// Views with gravity pointing down the page: the next base axis comes toward the eye.
+/// The views, with gravity pointing down the page and the next base axis toward the viewer.
 pub(crate) fn views(robot: &Robot) -> [View; 6] {
     let [up, front] = upright(robot);
     let side = up.cross(&front);
@@ -36,11 +36,11 @@ pub(crate) fn views(robot: &Robot) -> [View; 6] {
     ANGLES.map(view)
 }
 
-/// The base axis that points away from gravity, and the next one, which comes toward the eye.
+/// The base axis that points away from gravity, and the next one, which points toward the viewer.
 pub(crate) fn upright(robot: &Robot) -> [Vector3<f64>; 2] {
     let gravity = robot.gravity.each_ref().map(|part| text::value(robot, part));
     let gravity = Vector3::from(gravity.map(|part| if part.is_finite() { part } else { 0.0 }));
-    // If there is no gravity, z is upright.
+    // Without gravity, the z axis is vertical.
     let vertical = if gravity.norm() > 0.0 { gravity.iamax() } else { 2 };
     let sign = if gravity.norm() > 0.0 && gravity[vertical] > 0.0 { -1.0 } else { 1.0 };
     let axis = |index: usize| Vector3::ith(index % 3, 1.0);
@@ -48,12 +48,12 @@ pub(crate) fn upright(robot: &Robot) -> [Vector3<f64>; 2] {
 }
 
 impl View {
-    /// A point on the page, y down.
+    /// The projection of a point on the page, with y pointing down.
     pub(crate) fn point(&self, point: &Vector3<f64>) -> Vector2<f64> {
         Vector2::new(point.dot(&self.right), -point.dot(&self.up))
     }
 
-    /// The component of a direction toward the eye.
+    /// The component of a direction toward the viewer.
     pub(crate) fn nearness(&self, direction: &Vector3<f64>) -> f64 {
         direction.dot(&self.toward)
     }

@@ -1,9 +1,9 @@
-//! Many states at once: between states, one array each, and lanes, one state each.
+//! Conversions between states, with one array for each state, and lanes, with one state in each lane.
 
 use super::lanes::Lanes;
 use super::scalar::Scalar;
 
-/// The states' coordinates in lanes: lane n of element d is coordinate d of state n.
+/// Converts states to lanes: lane n of element d is coordinate d of state n.
 #[inline(always)]
 pub fn lanes_from_states<T: Scalar, const D: usize, const N: usize>(
     states: &[[T; D]; N],
@@ -20,7 +20,7 @@ pub fn states_from_lanes<T: Scalar, const D: usize, const N: usize>(
     core::array::from_fn(|n| core::array::from_fn(|d| lanes[d][n]))
 }
 
-/// The first `N` states, padded with zeros: for the remainder of a slice that is processed in blocks of `N`.
+/// Returns the first `N` states, padded with zeros, for the remainder of a slice that is processed in blocks of `N`.
 #[inline(always)]
 pub fn padded_states<T: Scalar, const D: usize, const N: usize>(states: &[[T; D]]) -> [[T; D]; N] {
     let mut block = [[T::ZERO; D]; N];

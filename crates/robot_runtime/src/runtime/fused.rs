@@ -1,13 +1,13 @@
-//! Multiply and add, in one instruction if the target has one.
+//! Multiply-add, as one instruction if the target has it.
 
 #[cfg(feature = "std")]
 extern crate std;
 
 /// Whether [`Scalar::mul_add`](super::Scalar::mul_add) rounds once.
 ///
-/// True with feature `std` (only the standard library offers the instruction in stable Rust) on a target compiled
-/// with it: x86 with `fma`, 64-bit ARM, RISC-V with `d`. On other targets it is a product and a sum, each rounded,
-/// with the same bits on every such target.
+/// True with feature `std` (only the standard library offers the instruction in stable Rust) if the program is compiled
+/// for a target that has the instruction: x86 with `fma`, 64-bit ARM, RISC-V with `d`. Otherwise a multiply-add is a
+/// product and a sum, each rounded, with the same bits on every such target.
 pub const FUSED: bool = cfg!(all(
     feature = "std",
     any(
@@ -25,8 +25,8 @@ macro_rules! multiply_add {
             if FUSED { $once(a, b, c) } else { a * b + c }
         }
 
-        /// `a · b + c`, rounded once with feature `std`: in software if the processor has no instruction
-        /// for it, so it is called only where it has one.
+        /// `a · b + c`, rounded once with feature `std`. Without the instruction this is slow software, so it is called
+        /// only if the processor has the instruction.
         #[inline(always)]
         pub(super) fn $once(a: $float, b: $float, c: $float) -> $float {
             #[cfg(feature = "std")]

@@ -1,4 +1,4 @@
-//! Several numbers computed side by side.
+//! Several numbers in lanes, which are computed at once.
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -12,11 +12,11 @@ use super::scalar::Scalar;
 ///
 /// The operations on this array use vector registers if `T` is `f64` or `f32` and `N` is a multiple of the numbers
 /// that a register of the target holds: on x86-64 two `f64` or four `f32`, with AVX2 four or eight, with AVX-512
-/// eight or sixteen; on 64-bit ARM two or four. Else, and on other targets, a loop of constant length, which LLVM may
-/// vectorise.
+/// eight or sixteen; on 64-bit ARM two or four. Otherwise, and on other targets, they are loops of constant length,
+/// which LLVM can vectorize.
 ///
-/// To evaluate a function of numbers at many states a loop over the states is as fast, at 2
-/// already, and leaves the function as it is: see [`sin_cos_each`](super::sin_cos_each).
+/// To evaluate a function of numbers at many states, a loop over the states is equally fast, even at `opt-level` 2, and
+/// needs no change to the function: see [`sin_cos_each`](super::sin_cos_each).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Lanes<T, const N: usize>([T; N]);
@@ -31,19 +31,19 @@ pub type F32x8 = Lanes<f32, 8>;
 pub type F32x16 = Lanes<f32, 16>;
 
 impl<T: Scalar, const N: usize> Lanes<T, N> {
-    /// The same number in every lane.
+    /// Puts the same number into every lane.
     #[inline(always)]
     pub const fn splat(value: T) -> Self {
         Self([value; N])
     }
 
-    /// Lane i holds element i.
+    /// Puts element i into lane i.
     #[inline(always)]
     pub const fn from_array(values: [T; N]) -> Self {
         Self(values)
     }
 
-    /// The array whose element i is lane i.
+    /// Returns the array whose element i is lane i.
     #[inline(always)]
     pub const fn to_array(self) -> [T; N] {
         self.0
@@ -92,8 +92,8 @@ impl<T: Scalar, const N: usize> From<Lanes<T, N>> for [T; N] {
     }
 }
 
-// Operations are inlined if the program is optimized, and called if it is debugged: unoptimized, the temporaries of inlined
-// operations in registers take kilobytes of stack each, and a long function overflows it.
+// Operations are inlined only if debug assertions are off: without optimization, the temporaries of each inlined
+// operation on registers take kilobytes of stack, and a long function would overflow it.
 
 macro_rules! lane_by_lane {
     ($operator:ident, $method:ident, $operation:ident) => {

@@ -1,4 +1,4 @@
-//! Lanes in the registers of the processor at hand: what kernels compute with side by side.
+//! Lanes in the registers of the current processor, for kernels.
 
 use core::fmt;
 use core::marker::PhantomData;
@@ -12,20 +12,20 @@ use super::processor::Arithmetic;
 use super::real::Real;
 use super::scalar::Scalar;
 
-/// `N` numbers that act lane by lane in the registers of the processor of `A`, as [`Lanes`](super::Lanes) do in those
-/// of the target.
+/// `N` numbers on which operations act lane by lane, in the registers of the processor of `A`;
+/// [`Lanes`](super::Lanes) use those of the target.
 ///
-/// Multiply-adds and sines round once where `A` can if `ONCE`; else they have the same bits for every `A`.
+/// With `ONCE`, multiply-adds and sines round once if `A` can; without it they have the same bits for every `A`.
 pub struct LanesOn<A, T, const N: usize, const ONCE: bool>([T; N], PhantomData<fn() -> A>);
 
 impl<A: Arithmetic, T: Real, const N: usize, const ONCE: bool> LanesOn<A, T, N, ONCE> {
-    /// Lane i holds element i.
+    /// Puts element i into lane i.
     #[inline(always)]
     pub const fn from_array(values: [T; N]) -> Self {
         Self(values, PhantomData)
     }
 
-    /// The array whose element i is lane i.
+    /// Returns the array whose element i is lane i.
     #[inline(always)]
     pub const fn to_array(self) -> [T; N] {
         self.0
@@ -61,8 +61,8 @@ impl<A, T: fmt::Debug, const N: usize, const ONCE: bool> fmt::Debug for LanesOn<
     }
 }
 
-// Operations are inlined if the program is optimized, and called if it is debugged: unoptimized, the temporaries of inlined
-// operations in registers take kilobytes of stack each, and a long function overflows it.
+// Operations are inlined only if debug assertions are off: without optimization, the temporaries of each inlined
+// operation on registers take kilobytes of stack, and a long function would overflow it.
 
 macro_rules! lane_by_lane {
     ($operator:ident, $method:ident, $operation:ident) => {

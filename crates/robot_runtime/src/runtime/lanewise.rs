@@ -1,8 +1,8 @@
-//! Operations that act lane by lane, whatever holds the lanes: an array, or registers.
+//! Operations that act lane by lane, on lanes in an array or in registers.
 
 use super::scalar::Scalar;
 
-/// An operation on `A` numbers with `R` results, the same for each lane.
+/// An operation on `A` numbers with `R` results, which is the same for each lane.
 pub trait Lanewise<const A: usize, const R: usize> {
     /// The operation.
     fn of<V: Scalar>(arguments: [V; A]) -> [V; R];
@@ -45,7 +45,7 @@ impl Lanewise<1, 2> for SineCosine {
     }
 }
 
-/// The operation of each lane by itself.
+/// Applies the operation to each lane separately.
 #[inline(always)]
 pub(super) fn one_by_one<T, O, const A: usize, const R: usize, const N: usize>(
     arguments: [&[T; N]; A],

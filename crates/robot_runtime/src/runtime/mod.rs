@@ -1,8 +1,8 @@
 //! The functions that generated robot code calls at run time.
 //!
-//! The one condition that these files lay on the crate around them is its feature `std`: with it,
+//! These files only require that the crate around them declares a feature `std`. With it,
 //! [`FUSED`] multiply-add, the processor's square root and `StdTrig` come from the standard
-//! library; without it nothing but `core` is used, and `StdTrig` cannot be called.
+//! library; without it, only `core` is used, and `StdTrig` cannot be called.
 
 mod batch;
 mod field;

@@ -1,14 +1,14 @@
-//! The substitute for the standard library's sine and cosine without feature `std`: names that cannot be called,
-//! so that the compiler says which feature is missing.
+//! The substitute for the standard library's sine and cosine without feature `std`: items that cannot be called,
+//! so that the error message of the compiler names the missing feature.
 
 use super::scalar::Scalar;
 use super::trig::Trig;
 
-/// The sine and cosine of the standard library, which do not exist without feature `std`.
+/// A placeholder for the sine and cosine of the standard library, which do not exist without feature `std`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StdTrig;
 
-/// Numbers with the sines and cosines of the standard library: none, without feature `std`.
+/// Numbers with the sines and cosines of the standard library; without feature `std` there are none.
 #[diagnostic::on_unimplemented(
     message = "sines and cosines of the standard library need the feature `std` of `robot_runtime`",
     label = "there is no sine of `{Self}` without the feature",
@@ -33,7 +33,7 @@ impl<T: FeatureStd> Trig<T> for StdTrig {
     }
 }
 
-/// Sines and cosines of `angles` by the standard library: cannot be called without feature `std`.
+/// Sines and cosines of `angles` by the standard library; cannot be called without feature `std`.
 pub fn std_sin_cos_array<T: Scalar, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N])
 where
     StdTrig: Trig<T>,

@@ -1,20 +1,20 @@
-//! What the polynomials of sine and cosine need of a number, or of a register of them.
+//! The operations on numbers, or on registers of numbers, that the polynomials of sine and cosine need.
 
 use core::ops::{Add, Mul, Neg, Sub};
 
 use super::fused::{once_f32, once_f64};
 
-/// A number of type `F`, or several side by side.
+/// A number of type `F`, or several in lanes.
 pub(super) trait Number<F>:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
 {
-    /// The number in every lane.
+    /// Puts the number into every lane.
     fn splat(value: F) -> Self;
 
-    /// `self · factor + addend`, rounded once if `ONCE`: only where there is an instruction for it.
+    /// `self · factor + addend`, rounded once if `ONCE`, which requires an instruction for it.
     fn multiply_add<const ONCE: bool>(self, factor: Self, addend: Self) -> Self;
 
-    /// `self`, and NaN where its magnitude is not below `limit`.
+    /// `self`, or NaN in lanes in which its magnitude is not below `limit`.
     fn nan_unless_below(self, limit: F) -> Self;
 
     /// Sine and cosine of r + k·π/2 from those of r; the low bits of `self` are those of k.
@@ -37,8 +37,8 @@ macro_rules! implement_number {
                 self * factor + addend
             }
 
-            // By a mask that waits for nothing but the angle. The sum's sign is the carry: LLVM turns
-            // what it sees to be a comparison into a jump.
+            // Uses a mask that depends only on the angle. The sign of the integer sum is the carry: LLVM would
+            // turn a comparison that it recognizes into a jump.
             #[inline(always)]
             fn nan_unless_below(self, limit: $float) -> Self {
                 const SIGN: $bits = 1 << ($bits::BITS - 1);

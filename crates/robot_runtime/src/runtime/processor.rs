@@ -1,8 +1,8 @@
-//! Code compiled for several processors in one program, and the choice between them when it runs.
+//! Code that is compiled for several processors in one program, and the choice between them at run time.
 //!
-//! A program for any x86-64 may use neither multiply-adds nor registers of 256 bits, and loses half of the
-//! speed. [`dispatch`] runs a [`Kernel`] compiled for the processor at hand: with feature `std`, on
-//! x86-64, if the program as a whole is not compiled for such processors anyway.
+//! A program for any x86-64 can use neither fused multiply-adds nor registers of 256 bits, and loses half of its
+//! speed. [`dispatch`] runs a [`Kernel`] that is compiled for the current processor, with feature `std` on
+//! x86-64, unless the whole program is compiled for such processors anyway.
 
 #![allow(unsafe_code)]
 
@@ -14,8 +14,8 @@ pub trait Kernel: Copy {
     /// The result.
     type Output;
 
-    /// The computation; `#[inline(always)]`, or it is compiled for the oldest processor only. The
-    /// multiply-adds and sines that may round once are those of `A`.
+    /// The computation. It must be `#[inline(always)]`; otherwise it is compiled for the oldest processor only. Only
+    /// the multiply-adds and sines of `A` can round once.
     fn run<A: Arithmetic>(self) -> Self::Output;
 }
 
@@ -24,17 +24,17 @@ pub trait Arithmetic: sealed::Sealed {
     /// `a · b + c`, in one instruction with one rounding if the processor has it.
     fn mul_add<T: Real>(a: T, b: T, c: T) -> T;
 
-    /// [`sin_cos_array`](super::sin_cos_array) with such multiply-adds.
+    /// Does the same as [`sin_cos_array`](super::sin_cos_array), with such multiply-adds.
     fn sin_cos_array<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
 
-    /// [`sin_cos_each`](super::sin_cos_each) with such multiply-adds.
+    /// Does the same as [`sin_cos_each`](super::sin_cos_each), with such multiply-adds.
     fn sin_cos_each<T: Real, const N: usize>(angles: &[T; N]) -> ([T; N], [T; N]);
 
-    /// Whether [`LanesOn`](super::LanesOn) are in vector registers, so that the limbs of a robot are computed faster
-    /// side by side than one after the other.
+    /// Whether [`LanesOn`](super::LanesOn) are in vector registers, so that computing the limbs of a robot in lanes is
+    /// faster than computing them one after the other.
     const SIDE_BY_SIDE: bool;
 
-    /// An operation on each lane of arrays; rounded once where the processor can if `ONCE`.
+    /// An operation on each lane of arrays. With `ONCE`, it rounds once if the processor can.
     #[doc(hidden)]
     fn lanewise<T: Real, O, const ONCE: bool, const K: usize, const R: usize, const N: usize>(
         arguments: [&[T; N]; K],
@@ -84,7 +84,7 @@ impl Arithmetic for Compiled {
 
 /// Runs `kernel` on the current processor, with AVX2 and fused multiply-adds if it has them.
 ///
-/// The choice is one load and one branch; the kernel then is a function that is not inlined. If there is only one
+/// The choice costs one load and one branch; the kernel is then a function that is not inlined. If there is only one
 /// choice, the kernel is inlined and runs as [`Compiled`].
 #[inline(always)]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
@@ -102,8 +102,8 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Compiled>()
 }
 
-/// [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64 it is never
-/// inlined if multiply-adds are compiled in.
+/// Does the same as [`dispatch`] for a kernel that follows calls of the standard library's sine and cosine: on x86-64
+/// it is never inlined if multiply-adds are compiled in.
 #[inline(always)]
 pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
     if cfg!(all(target_arch = "x86_64", target_feature = "fma")) {
@@ -112,8 +112,8 @@ pub fn dispatch_apart<K: Kernel>(kernel: K) -> K::Output {
     dispatch(kernel)
 }
 
-/// [`dispatch`] for a loop over states, also with AVX-512; never inlined, because the body of such a loop is
-/// vectorized only in a function of its own.
+/// Does the same as [`dispatch`] for a loop over states, also with AVX-512. The kernel is never inlined, because the
+/// body of such a loop is vectorized only in a function of its own.
 #[inline(always)]
 pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     #[cfg(all(feature = "std", target_arch = "x86_64", not(target_feature = "avx512f")))]
@@ -122,18 +122,18 @@ pub fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
     apart(kernel)
 }
 
-/// The same reference, but the compiler no longer knows what it refers to; this takes no instruction.
+/// Returns the same reference, but hides from the compiler what it refers to; this takes no instruction.
 ///
-/// LLVM loads numbers that lie side by side together if it sees that they do, and shuffles them: for lanes that are
-/// gathered from several places, in registers of 512 bits where there are some. Single ones among narrower
-/// instructions make processors of Intel slower by half.
+/// If LLVM sees that numbers are next to each other, it loads them together and shuffles them. For lanes that are
+/// gathered from several places, it does so in registers of 512 bits if there are any, and a few such instructions
+/// among narrower ones slow down Intel processors by half.
 #[inline(always)]
 #[allow(clippy::pointers_in_nomem_asm_block, reason = "nothing follows the pointer")]
 pub fn anywhere<T>(reference: &T) -> &T {
     #[cfg(all(target_arch = "x86_64", not(miri)))]
     {
         let mut pointer: *const T = reference;
-        // SAFETY: the pointer stays what it is.
+        // SAFETY: the pointer does not change.
         unsafe {
             core::arch::asm!(
                 "/* {0} */",
@@ -147,7 +147,7 @@ pub fn anywhere<T>(reference: &T) -> &T {
     reference
 }
 
-/// `kernel` as it is compiled for the target, out of line.
+/// Runs `kernel` as compiled for the target, not inlined.
 #[inline(never)]
 fn apart<K: Kernel>(kernel: K) -> K::Output {
     kernel.run::<Compiled>()
@@ -164,17 +164,18 @@ mod x86 {
     use super::super::real::Real;
     use super::{Arithmetic, Kernel, apart, sealed};
 
-    /// Not asked yet, or nothing beyond what every x86-64 has.
+    /// The processor has not been queried yet, or has nothing beyond what every x86-64 has.
     const PLAIN: u8 = 0;
-    /// AVX2 and fused multiply-adds.
+    /// The processor has AVX2 and fused multiply-adds.
     const AVX2: u8 = 1;
-    /// AVX-512 besides: its foundation, its double words and its shorter vectors.
+    /// The processor also has AVX-512 F, DQ and VL.
     const AVX512: u8 = 2;
 
-    /// What the processor has, once somebody asked.
+    /// The features of the processor, after it has been queried.
     static LEVEL: AtomicU8 = AtomicU8::new(PLAIN);
 
-    /// What the processor has as far as it was asked. A call in dev, so that whatever calls it stays flat in both.
+    /// The features of the processor as known so far. With debug assertions this is a call, so that callers have no
+    /// branches inside in either case.
     #[cfg_attr(debug_assertions, inline(never))]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn asked() -> u8 {
@@ -185,7 +186,7 @@ mod x86 {
     #[inline(always)]
     pub(super) fn dispatch<K: Kernel>(kernel: K) -> K::Output {
         if asked() >= AVX2 {
-            // SAFETY: the processor was asked.
+            // SAFETY: the processor was queried and has these features.
             return unsafe { with_avx2(kernel) };
         }
         undecided(kernel)
@@ -194,18 +195,19 @@ mod x86 {
     #[inline(always)]
     pub(super) fn dispatch_block<K: Kernel>(kernel: K) -> K::Output {
         if asked() == AVX512 {
-            // SAFETY: the processor was asked.
+            // SAFETY: the processor was queried and has these features.
             return unsafe { with_avx512(kernel) };
         }
         undecided_block(kernel)
     }
 
-    /// Asks the processor, in the first call; in each call where it has nothing to choose.
+    /// Queries the processor and runs the kernel. This happens in the first call, and in each call on a processor that
+    /// has only the baseline features.
     #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
     #[inline(never)]
     fn undecided<K: Kernel>(kernel: K) -> K::Output {
         if ask() >= AVX2 {
-            // SAFETY: the processor was asked.
+            // SAFETY: the processor was queried and has these features.
             return unsafe { with_avx2(kernel) };
         }
         apart(kernel)
@@ -214,7 +216,7 @@ mod x86 {
     #[inline(never)]
     fn undecided_block<K: Kernel>(kernel: K) -> K::Output {
         match ask() {
-            // SAFETY: the processor was asked.
+            // SAFETY: the processor was queried and has these features.
             AVX512 => unsafe { with_avx512(kernel) },
             #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
             AVX2 => unsafe { with_avx2(kernel) },
@@ -237,11 +239,11 @@ mod x86 {
         level
     }
 
-    /// `kernel` with AVX2 and fused multiply-adds.
+    /// Runs `kernel` with AVX2 and fused multiply-adds.
     ///
     /// # Safety
     ///
-    /// The processor has both.
+    /// The processor must have both.
     #[cfg(not(all(target_feature = "avx2", target_feature = "fma")))]
     #[target_feature(enable = "avx2,fma")]
     #[inline(never)]
@@ -249,20 +251,19 @@ mod x86 {
         kernel.run::<Fused>()
     }
 
-    /// `kernel` with AVX-512.
+    /// Runs `kernel` with AVX-512.
     ///
     /// # Safety
     ///
-    /// The processor has its foundation, its double words and its shorter vectors, AVX2 and fused
-    /// multiply-adds.
+    /// The processor must have AVX-512 F, DQ and VL, AVX2 and fused multiply-adds.
     #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2,fma")]
     #[inline(never)]
     unsafe fn with_avx512<K: Kernel>(kernel: K) -> K::Output {
         kernel.run::<Fused>()
     }
 
-    /// The arithmetic of a processor with AVX2 and fused multiply-adds. Nothing outside of this file can
-    /// name it, so that a kernel meets it only where the processor has both.
+    /// The arithmetic of a processor with AVX2 and fused multiply-adds. Code outside this file cannot
+    /// name it, so kernels run with it only on processors that have both.
     pub(super) struct Fused;
 
     impl sealed::Sealed for Fused {}
@@ -270,7 +271,7 @@ mod x86 {
     impl Arithmetic for Fused {
         #[inline(always)]
         fn mul_add<T: Real>(a: T, b: T, c: T) -> T {
-            // SAFETY: here and below, see the type.
+            // SAFETY: here and below, see the documentation of the type.
             unsafe { T::mul_add_once(a, b, c) }
         }
 

@@ -1,4 +1,4 @@
-//! The floating-point numbers themselves, with what they compute on processors that have been asked.
+//! Floating-point numbers, with operations for processors that have been queried.
 
 #![allow(unsafe_code)]
 
@@ -11,7 +11,7 @@ use super::trig::{block, double, single};
 
 /// `f64` or `f32`.
 pub trait Real: Scalar + sealed::Sealed + 'static {
-    /// Zeros that live for ever.
+    /// An array of zeros with static lifetime.
     #[doc(hidden)]
     fn zeros<const W: usize>() -> &'static [Self; W];
 
@@ -19,8 +19,8 @@ pub trait Real: Scalar + sealed::Sealed + 'static {
     ///
     /// # Safety
     ///
-    /// The processor has fused multiply-adds; the code around is compiled for it, or this is a call of a
-    /// function in software.
+    /// The processor must have fused multiply-adds. If the calling code is not compiled for them, this is a call
+    /// of a software function.
     #[doc(hidden)]
     unsafe fn mul_add_once(a: Self, b: Self, c: Self) -> Self;
 
@@ -28,7 +28,7 @@ pub trait Real: Scalar + sealed::Sealed + 'static {
     ///
     /// # Safety
     ///
-    /// The processor has fused multiply-adds and, if it is an x86-64, AVX2.
+    /// The processor must have fused multiply-adds and, if it is an x86-64, AVX2.
     #[doc(hidden)]
     unsafe fn sin_cos_array_once<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]);
 
@@ -36,15 +36,16 @@ pub trait Real: Scalar + sealed::Sealed + 'static {
     ///
     /// # Safety
     ///
-    /// The processor has fused multiply-adds.
+    /// The processor must have fused multiply-adds.
     #[doc(hidden)]
     unsafe fn sin_cos_each_once<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]);
 
-    /// An operation on each lane of arrays, in registers of up to 256 bits that `N` fills; rounded once if `ONCE`.
+    /// An operation on each lane of arrays, in registers of up to 256 bits that `N` numbers fill; rounds once if
+    /// `ONCE`.
     ///
     /// # Safety
     ///
-    /// The processor has fused multiply-adds and, if it is an x86-64, AVX2.
+    /// The processor must have fused multiply-adds and, if it is an x86-64, AVX2.
     #[doc(hidden)]
     unsafe fn lanewise_asked<
         O: Lanewise<K, R>,

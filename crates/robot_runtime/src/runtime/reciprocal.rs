@@ -1,13 +1,13 @@
-//! Reciprocals of divisors that are positive unless something is wrong: [`recip_positive_f64`] and
+//! Reciprocals of divisors that are positive unless there is an error: [`recip_positive_f64`] and
 //! [`recip_positive_f32`].
 
 macro_rules! recip_positive {
     ($name:ident, $float:ident, $integer:ident, $unsigned:ident) => {
-        /// 1/x if x is above 0 and finite, otherwise NaN; without a branch.
+        /// Returns 1/x if x is above 0 and finite, otherwise NaN; without a branch.
         #[inline(always)]
         #[must_use]
         pub const fn $name(x: $float) -> $float {
-            // The sign of either difference: LLVM turns comparisons into jumps.
+            // Uses the signs of differences, because LLVM turns comparisons into jumps.
             const LARGEST: $integer = $float::MAX.to_bits() as $integer;
             let bits = x.to_bits() as $integer;
             let outside = bits.wrapping_sub(1) | LARGEST.wrapping_sub(bits);

@@ -1,8 +1,8 @@
-//! Vector registers: the numbers of one act side by side.
+//! Vector registers, on which operations act lane by lane.
 //!
-//! The processor's instructions are functions of `core::arch` that may run only on a processor that
-//! has them. A type of this module exists if the code around it is compiled for such processors;
-//! beyond that [`processor`](super::processor) uses those of 256 bits after it has asked.
+//! The processor's instructions are functions of `core::arch` that must run only on processors that
+//! have them. A type of this module exists if the program is compiled for such processors;
+//! in addition, [`processor`](super::processor) uses those of 256 bits after it has queried the processor.
 
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
 mod neon;
@@ -20,16 +20,16 @@ use super::scalar::Scalar;
 #[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 /// A register of `W` numbers of type `F`.
 pub(super) trait Register<F, const W: usize>: Scalar {
-    /// Element i in lane i.
+    /// Loads element i into lane i.
     fn load(from: &[F; W]) -> Self;
 
-    /// Lane i in element i.
+    /// Stores lane i in element i.
     fn store(self, to: &mut [F; W]);
 }
 
 #[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
-/// `operation` of arrays whose length is a multiple of the register's, register by register; without
-/// a loop for the first four.
+/// Applies an operation to arrays register by register; their length is a multiple of the register's. The first
+/// four registers are computed without a loop.
 #[inline(always)]
 pub(super) fn by_register<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
     arguments: [&[F; N]; A],
@@ -60,7 +60,8 @@ where
 
 macro_rules! by_widest {
     ($float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal, $wide:ident $wide_lanes:literal) => {
-        /// An operation on each lane of arrays, in the widest registers that their length is a multiple of.
+        /// Applies an operation to each lane of arrays, in the widest registers whose number of lanes divides their
+        /// length.
         #[inline(always)]
         pub(super) fn $float<O, const A: usize, const R: usize, const N: usize>(
             arguments: [&[$float; N]; A],
@@ -97,7 +98,8 @@ macro_rules! by_widest {
     };
 }
 
-/// `operation` of the registers at `index`. A closure would keep instructions of a processor that was asked out of line.
+/// Applies an operation to the registers at `index`. If this were a closure, instructions that depend on the queried
+/// processor would not be inlined.
 #[cfg(any(target_arch = "x86_64", all(target_arch = "aarch64", target_feature = "neon")))]
 #[inline(always)]
 fn at<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
@@ -125,7 +127,7 @@ fn at<V, O, F, const W: usize, const A: usize, const R: usize, const N: usize>(
 #[cfg(target_arch = "x86_64")]
 macro_rules! asked {
     ($name:ident, $float:ident: $narrow:ident $narrow_lanes:literal, $middle:ident $middle_lanes:literal) => {
-        /// An operation on each lane of arrays on a processor that has AVX2 and fused multiply-adds.
+        /// Applies an operation to each lane of arrays on a processor that has AVX2 and fused multiply-adds.
         #[inline(always)]
         pub(super) fn $name<O, const ONCE: bool, const A: usize, const R: usize, const N: usize>(
             arguments: [&[$float; N]; A],
@@ -133,7 +135,7 @@ macro_rules! asked {
         where
             O: Lanewise<A, R>,
         {
-            // Where `ONCE` asks for nothing, operations round as they are compiled.
+            // Without `ONCE`, operations round as in the rest of the program.
             match (ONCE, N % $middle_lanes == 0) {
                 (true, true) => {
                     by_register::<x86::$middle<true>, O, $float, $middle_lanes, A, R, N>(arguments)

@@ -1,5 +1,5 @@
-//! Square root: the processor's with feature `std`, else [`software_sqrt_f64`] and
-//! [`software_sqrt_f32`], which differ from it in no bit of any number tried (every `f32`).
+//! Square root: the processor's with feature `std`, otherwise [`software_sqrt_f64`] and
+//! [`software_sqrt_f32`], whose bits were the same for all numbers that were tried (every `f32`).
 
 #[cfg(feature = "std")]
 extern crate std;
@@ -34,7 +34,7 @@ macro_rules! software_sqrt {
         /// Within 0.51 units in the last place; √±0 = ±0, √∞ = ∞, NaN below zero and for NaN.
         #[inline(always)]
         pub fn $name(x: $float) -> $float {
-            // Masks come from signs of differences of bits: LLVM turns comparisons into jumps.
+            // Masks are made from signs of differences of bits, because LLVM turns comparisons into jumps.
             let mask = |negative: $integer| negative >> ($integer::BITS - 1);
             let of_bits = |bits: $integer| $float::from_bits(bits as $unsigned);
             let power_of_two =
@@ -44,13 +44,13 @@ macro_rules! software_sqrt {
             const INFINITY: $integer = $float::INFINITY.to_bits() as $integer;
             const NAN: $integer = $float::NAN.to_bits() as $integer;
 
-            // 0, ∞ and NaN are their own roots and a number below zero has none; the computation
-            // is led past them with +0, whose root has no bits.
+            // 0, ∞ and NaN are their own roots, and a number below zero has none. For these, +0 is used
+            // in the computation, whose root has no bits set.
             let is_ordinary = mask(bits.wrapping_neg() & bits.wrapping_sub(INFINITY));
             let is_below_zero = mask(bits & $integer::MIN.wrapping_sub(bits));
             let special = (bits | NAN & is_below_zero) & !is_ordinary;
 
-            // Away from the ends of the range nothing overflows or loses its last bits.
+            // Scaled away from the ends of the range, so that nothing overflows or loses its last bits.
             let below_one = mask(bits.wrapping_sub(ONE));
             let a = of_bits(bits & is_ordinary);
             let up_or_down = (2 * $scale & below_one).wrapping_sub($scale);

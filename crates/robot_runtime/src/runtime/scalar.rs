@@ -1,4 +1,4 @@
-//! The number type that generated code computes with.
+//! The number type with which generated code computes.
 
 use core::fmt::Debug;
 use core::ops::{Add, Div, Mul, Neg, Sub};
@@ -11,14 +11,14 @@ use super::root::{sqrt_f32, sqrt_f64};
 use super::tanh::{tanh_f32, tanh_f64};
 use super::trig::{block, double, single};
 
-/// A real number, or several computed side by side: `f64`, `f32` and
+/// A real number, or several in lanes: `f64`, `f32` and
 /// [`Lanes`](super::Lanes) of either.
 ///
 /// No method branches on the value, allocates or panics; a NaN argument gives a NaN result.
 ///
-/// With the standard library in scope `f64` and `f32` have methods of their own called `mul_add`,
-/// `sqrt`, `tanh` and `sin_cos`, and method syntax on those two types prefers them. Code that is
-/// not generic calls the trait by path: `Scalar::mul_add(a, b, c)`.
+/// With the standard library, `f64` and `f32` have inherent methods `mul_add`, `sqrt`, `tanh` and
+/// `sin_cos`, and method syntax on these two types calls those. Code that is
+/// not generic must call the trait by path: `Scalar::mul_add(a, b, c)`.
 pub trait Scalar:
     Copy
     + Debug
@@ -34,16 +34,16 @@ pub trait Scalar:
     /// The number 1.
     const ONE: Self;
 
-    /// The number of this type nearest to `value`; all lanes alike.
+    /// The number of this type nearest to `value`, in all lanes.
     fn from_f64(value: f64) -> Self;
 
-    /// `self · factor + addend`, rounded once if [`FUSED`](super::FUSED) says that the target
-    /// has the instruction, twice elsewhere; never the slow software emulation.
+    /// `self · factor + addend`, rounded once if the target has the instruction
+    /// ([`FUSED`](super::FUSED)), otherwise twice; never by slow software emulation.
     #[must_use]
     fn mul_add(self, factor: Self, addend: Self) -> Self;
 
-    /// Square root, correctly rounded with feature `std` and to at most 0.51 units in the last
-    /// place without; √−0 = −0, and NaN for a number below zero.
+    /// Square root, correctly rounded with feature `std`, otherwise with an error of at most 0.51 units in the last
+    /// place; √−0 = −0, and NaN for a number below zero.
     #[must_use]
     fn sqrt(self) -> Self;
 
@@ -51,7 +51,7 @@ pub trait Scalar:
     #[must_use]
     fn abs(self) -> Self;
 
-    /// Sign with sgn 0 = 0: −1, 0 or 1, and NaN for NaN. The law of dry friction at rest.
+    /// The sign with sgn 0 = 0: −1, 0 or 1, and NaN for NaN. This is the sign in the law of dry friction.
     #[must_use]
     fn signum0(self) -> Self;
 
@@ -59,17 +59,17 @@ pub trait Scalar:
     #[must_use]
     fn tanh(self) -> Self;
 
-    /// 1/x if x is above 0 and finite, NaN elsewhere: for a divisor that is positive unless something is
-    /// wrong, so that a wrong one does not go unseen.
+    /// 1/x if x is above 0 and finite, otherwise NaN. For divisors that are positive unless there is an error, so that
+    /// the error does not go unnoticed.
     #[must_use]
     fn recip_positive(self) -> Self;
 
-    /// Sine and cosine of an angle in radians by branch-free polynomials. Range and worst error
-    /// are those of [`double`] and [`single`].
+    /// Sine and cosine of an angle in radians by branch-free polynomials. See [`double`] and [`single`] for the range
+    /// and the worst error.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Sines and cosines of all angles (radians), the same values as [`Scalar::sin_cos`] one by
-    /// one; `f64` and `f32` compute eight at a time in vector registers.
+    /// Sines and cosines of all angles (radians), with the same values as [`Scalar::sin_cos`] of each
+    /// angle; `f64` and `f32` compute eight at a time in vector registers.
     #[inline(always)]
     fn sin_cos_array<const N: usize>(angles: &[Self; N]) -> ([Self; N], [Self; N]) {
         block::one_by_one(angles, Self::sin_cos)
@@ -127,7 +127,7 @@ macro_rules! implement_scalar {
                 const SIGN: $bits = 1 << ($bits::BITS - 1);
                 let keep_if = |condition: bool| $bits::from(condition).wrapping_neg();
                 let unit = self.to_bits() & SIGN | Self::ONE.to_bits();
-                // The bits of 1 set in those of a NaN leave it a NaN.
+                // A NaN with the bits of 1 also set is still NaN.
                 let nan = self.to_bits() & keep_if(self.is_nan());
                 <$float>::from_bits(unit & keep_if(self != 0.0) | nan)
             }

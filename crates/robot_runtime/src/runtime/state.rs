@@ -1,6 +1,6 @@
-//! Many states at once: the numbers of one state, and those of several side by side.
+//! Many states at once: the numbers of one state, and those of several states in lanes.
 //!
-//! Several states lie in memory state by state (`[[f64; 6]]`), coordinate by coordinate (six `[f64]`, columns), or in
+//! Several states are in memory state by state (`[[f64; 6]]`), coordinate by coordinate (six `[f64]`, columns), or in
 //! blocks of a few states (`[[f64; 8]; 6]`: lane i of each coordinate belongs to state i).
 
 use super::real::Real;
@@ -8,22 +8,22 @@ use super::scalar::Scalar;
 
 /// The numbers of one state: a number, or an array of numbers.
 pub trait State: Copy {
-    /// The same of `W` states: each number is an array of `W`.
+    /// The numbers of `W` states: each number is an array of `W`.
     type Lanes<const W: usize>: Copy;
 
-    /// A column for each number, to be written to.
+    /// A mutable column for each number.
     type Columns<'c>;
 
-    /// Puts the state into a lane, if there is one.
+    /// Stores the state in a lane, if the lane exists.
     fn set_lane<const W: usize>(self, lanes: &mut Self::Lanes<W>, lane: usize);
 
-    /// The state of a lane; zeros if there is no such lane.
+    /// Returns the state of a lane; zeros if there is no such lane.
     fn of_lane<const W: usize>(lanes: &Self::Lanes<W>, lane: usize) -> Self;
 
-    /// The length of the shortest column; no limit if there is none.
+    /// Returns the length of the shortest column; `usize::MAX` if there are no columns.
     fn column_length(columns: &Self::Columns<'_>) -> usize;
 
-    /// Copies lanes into the columns from entry `start` on: `count` of them, as far as the columns have entries.
+    /// Copies `count` lanes into the columns from entry `start` on, as far as the columns have entries.
     fn to_columns<const W: usize>(
         lanes: &Self::Lanes<W>,
         columns: &mut Self::Columns<'_>,
@@ -111,13 +111,13 @@ impl<S: State, const N: usize> State for [S; N] {
     }
 }
 
-/// Lane `lane` of each coordinate.
+/// Returns lane `lane` of each coordinate.
 #[inline(always)]
 pub fn lane<T: Scalar, const W: usize, const N: usize>(lanes: [&[T; W]; N], lane: usize) -> [T; N] {
     lanes.map(|numbers| numbers.get(lane).copied().unwrap_or(T::ZERO))
 }
 
-/// State `index`; zeros beyond the last.
+/// Returns state `index`; zeros beyond the last state.
 #[inline(always)]
 pub fn state<T: Scalar, const N: usize, const W: usize>(
     states: &[[T; N]; W],
@@ -126,7 +126,7 @@ pub fn state<T: Scalar, const N: usize, const W: usize>(
     states.get(index).copied().unwrap_or([T::ZERO; N])
 }
 
-/// Writes a state to its place, if it exists.
+/// Stores a state at `index`, if this index exists.
 #[inline(always)]
 pub fn set_state<S, const W: usize>(state: S, states: &mut [S; W], index: usize) {
     if let Some(to) = states.get_mut(index) {
@@ -134,7 +134,7 @@ pub fn set_state<S, const W: usize>(state: S, states: &mut [S; W], index: usize)
     }
 }
 
-/// States side by side: lane i of each coordinate is that of state i.
+/// Converts states to lanes: lane i of each coordinate is that of state i.
 #[inline(always)]
 pub fn side_by_side<T: Scalar, const N: usize, const W: usize>(
     states: &[[T; N]; W],
@@ -148,13 +148,13 @@ pub fn side_by_side<T: Scalar, const N: usize, const W: usize>(
     lanes
 }
 
-/// The length of the shortest column; no limit if there is none.
+/// Returns the length of the shortest column; `usize::MAX` if there are no columns.
 #[inline(always)]
 pub fn column_length<T, const N: usize>(columns: &[&[T]; N]) -> usize {
     columns.iter().map(|column| column.len()).min().unwrap_or(usize::MAX)
 }
 
-/// `W` entries of each column from entry `start` on, in place; zeros for a column that ends before.
+/// Returns references to `W` entries of each column from entry `start` on; zeros for a column that is too short.
 #[inline(always)]
 pub fn chunks<'c, T: Real, const W: usize, const N: usize>(
     columns: &[&'c [T]; N],
@@ -166,7 +166,7 @@ pub fn chunks<'c, T: Real, const W: usize, const N: usize>(
     })
 }
 
-/// The entries of each column from entry `start` on, padded with zeros.
+/// Copies `W` entries of each column from entry `start` on, padded with zeros.
 #[inline(always)]
 pub fn padded_chunks<T: Scalar, const W: usize, const N: usize>(
     columns: &[&[T]; N],

@@ -7,8 +7,8 @@ use super::scalar::Scalar;
 use super::trig::Trig;
 use super::trig::block::one_by_one;
 
-/// The sine and cosine of the standard library, which are those of the platform: accurate for any angle, but not
-/// branch-free, and not with the same bits on every platform.
+/// The sine and cosine of the standard library, which come from the platform: accurate for any angle, but not
+/// branch-free, and with different bits on different platforms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StdTrig;
 

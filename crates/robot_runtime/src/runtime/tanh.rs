@@ -15,7 +15,7 @@ use super::fused::{mul_add_f32, mul_add_f64};
 /// The constants of the method, for other languages.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tanh<F: 'static> {
-    /// 1.5 · 2⁵² or 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits.
+    /// 1.5 · 2⁵² or 1.5 · 2²³: if it is added to a smaller number, the low bits of the sum are the nearest integer.
     pub shift: F,
     /// The value of 2|x| from which the result rounds to 1.
     pub saturated: F,
@@ -44,7 +44,7 @@ macro_rules! tanh {
         #[inline(always)]
         pub(super) fn $name(x: $float) -> $float {
             let twice = 2.0 * x.abs();
-            // From here on the result rounds to 1; a NaN passes.
+            // From this value on the result rounds to 1; NaN is kept.
             let limit: $float = $saturated;
             let beyond = $bits::from(twice > limit).wrapping_neg();
             let y = $float::from_bits(limit.to_bits() & beyond | twice.to_bits() & !beyond);

@@ -1,18 +1,18 @@
-//! Compiles a few lines against the module's files and counts the instructions of each function.
+//! Compiles a few lines of code with the module's files and lists the instructions of each function.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-/// The instructions of one function, labels and directives left out: operation and operands.
+/// The instructions of one function, without labels and directives, each as operation and operands.
 pub(crate) type Listing = Vec<(String, String)>;
 
-/// `rustc`, as Cargo would call it.
+/// The command `rustc` that Cargo would call.
 fn rustc() -> Command {
     Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
 }
 
-/// Whether the standard library's part for `target` is installed; says so if it is not.
+/// Whether the standard library for `target` is installed; prints a line if it is not.
 pub(crate) fn is_installed(target: &str) -> bool {
     let output = rustc().args(["--print", "target-libdir", "--target", target]).output();
     let folder = output.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
@@ -23,8 +23,8 @@ pub(crate) fn is_installed(target: &str) -> bool {
     installed
 }
 
-/// The functions of `source`, a crate root in which the module is named `runtime`, compiled for
-/// `target` with `options`. Functions carry `#[unsafe(no_mangle)]`.
+/// Compiles `source`, a crate root in which the module is named `runtime`, for `target` with `options`;
+/// returns its functions, which must have the attribute `#[unsafe(no_mangle)]`.
 pub(crate) fn compile(
     name: &str,
     source: &str,

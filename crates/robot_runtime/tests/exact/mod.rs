@@ -1,5 +1,5 @@
-//! Sine, cosine and hyperbolic tangent to some 30 digits: sums of two doubles, angles reduced in
-//! 128-bit integers. Slow and plain, to hold the fast ones against.
+//! Sine, cosine and hyperbolic tangent to about 30 digits, as sums of two doubles, with angles reduced in
+//! 128-bit integers. They are slow and simple, and the fast functions are compared with them.
 
 /// An unevaluated sum `high + low` with |low| ≤ half a last place of high.
 #[derive(Clone, Copy, Debug)]
@@ -44,13 +44,13 @@ impl Exact {
         first.plus(second).plus(Self::new(rest.high / divisor.high))
     }
 
-    /// How far `value` lies above this number.
+    /// The difference of `value` and this number.
     pub(crate) fn error_of(self, value: f64) -> f64 {
         (value - self.high) - self.low
     }
 }
 
-/// π/2 in units of 2⁻¹¹⁰: the nearest integer, and what is missing.
+/// π/2 in units of 2⁻¹¹⁰: the integer part; the next constant is the remainder.
 pub(crate) const HALF_PI: i128 = 0x6487_ed51_10b4_611a_6263_3145_c06e;
 const HALF_PI_TAIL: f64 = 0.05628326562056525;
 const UNIT: f64 = 7.703719777548943e-34;
@@ -64,7 +64,7 @@ pub(crate) fn sin_cos(angle: f64) -> (Exact, Exact) {
     let bits = angle.abs().to_bits();
     let mantissa = i128::from(bits & ((1 << 52) - 1) | 1 << 52);
     let exponent = (bits >> 52) as i64 - 1075;
-    // Of large angles bits go over the top, and as many of the multiple: the rest is small.
+    // For large angles, high bits overflow here and in the multiple alike, because the difference is small.
     let magnitude = mantissa << (exponent + 110);
     let fixed = if angle < 0.0 { magnitude.wrapping_neg() } else { magnitude };
     let k = (angle * std::f64::consts::FRAC_2_PI).round() as i128;
@@ -97,7 +97,7 @@ fn first_quadrant(r: Exact) -> (Exact, Exact) {
 /// Hyperbolic tangent of |x| ≤ 50.
 pub(crate) fn tanh(x: f64) -> Exact {
     assert!(x.abs() <= 50.0);
-    // e^y − 1 of y = 2x/2¹⁰ by its series, then e^2y − 1 = (e^y − 1)(e^y − 1 + 2) ten times.
+    // e^y − 1 for y = 2x/2¹⁰ by its series, then e^2y − 1 = (e^y − 1)(e^y − 1 + 2) ten times.
     let y = Exact::new(x * 2.0 / 1024.0);
     let series = (2..20).rev().fold(Exact::new(1.0), |tail, n| {
         Exact::new(1.0).plus(y.over(Exact::new(f64::from(n))).times(tail))

@@ -1,9 +1,9 @@
-//! Numbers that come near to a multiple of π/2.
+//! Numbers that are close to a multiple of π/2.
 
 use crate::exact::HALF_PI;
 
-/// The numbers from 1 to 2³⁰ that come nearest to a multiple of π/2: if one is m·u, m of 53 bits
-/// and u its last place, m/k is a best approximation to (π/2)/u, a convergent or semiconvergent of the
+/// The numbers from 1 to 2³⁰ that are closest to a multiple of π/2. If such a number is m·u, where m has 53 bits
+/// and u is its last place, then m/k is a best approximation of (π/2)/u: a convergent or semiconvergent of the
 /// continued fraction, or a multiple of one.
 pub(crate) fn nearest_angles() -> Vec<f64> {
     let mut angles = vec![];

@@ -1,6 +1,6 @@
 //! Random numbers that are the same in every run.
 
-/// Uniform random numbers in [0, 1): a linear congruential generator, Knuth's MMIX constants.
+/// Uniform random numbers in [0, 1) from a linear congruential generator with Knuth's MMIX constants.
 pub(crate) fn uniform(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed;
     move || {

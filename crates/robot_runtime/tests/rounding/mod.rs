@@ -1,5 +1,5 @@
-//! Sine and cosine as they are where a multiply-add rounds once and where it rounds twice, whichever
-//! of the two this build has.
+//! Sine and cosine with multiply-adds that round once, and with multiply-adds that round twice, independent
+//! of which of the two this build has.
 
 pub(crate) mod once;
 pub(crate) mod twice;

@@ -1,35 +1,35 @@
-//! Lines of a reader.
+//! Lines of text from a reader.
 
 use std::io::{BufRead, Read as _};
 
 use crate::error::Error;
 
-/// A longer line is refused: what has no lines may have no end.
+/// The largest number of bytes of a line. A longer one is an error, because a file without lines can be endless.
 const MAX_BYTES: usize = 1 << 20;
 
-/// The lines of a text that are not blank, one after the other; only one is in memory.
+/// The lines of a text that are not blank, read one by one; only one line is in memory.
 #[derive(Debug)]
 pub struct Lines<R> {
     source: String,
     reader: R,
     line: Vec<u8>,
-    /// Lines that have been read, blank ones too.
+    /// The number of lines that have been read, including blank ones.
     number: usize,
-    /// Bytes before the line.
+    /// The number of bytes before the current line.
     offset: u64,
 }
 
 impl<R: BufRead> Lines<R> {
-    /// The lines of a reader; `source` is its name in messages. A byte order mark at the start is not part of the text.
+    /// The lines of a reader; `source` is its name in messages. A byte order mark at the beginning is skipped.
     pub fn new(source: &str, reader: R) -> Lines<R> {
         Lines { source: source.to_owned(), reader, line: vec![], number: 0, offset: 0 }
     }
 
-    /// The next line that is not blank, with its number from 1 on and its line end.
+    /// Reads the next line that is not blank and returns it with its number, counted from 1, and its line end.
     ///
     /// # Errors
     ///
-    /// What the reader says; a line that is not UTF-8 or has more than a mebibyte.
+    /// If the reader fails, or if a line is not UTF-8 or has more than 1 MiB.
     pub fn next_line(&mut self) -> Result<Option<(usize, &str)>, Error> {
         loop {
             self.fill()?;
@@ -47,7 +47,7 @@ impl<R: BufRead> Lines<R> {
         }
     }
 
-    /// Reads a line; at the end it is empty.
+    /// Reads the next line into `self.line`, which is empty at the end.
     fn fill(&mut self) -> Result<(), Error> {
         self.offset += self.line.len() as u64;
         self.line.clear();
@@ -64,7 +64,7 @@ impl<R: BufRead> Lines<R> {
     }
 }
 
-/// That a text is not UTF-8, whose part behind `offset` bytes has that error.
+/// The message for a text that is not UTF-8; `error` is the error of the part of the text after `offset` bytes.
 #[must_use]
 pub fn not_utf8(source: &str, offset: u64, error: std::str::Utf8Error) -> String {
     let at = offset + error.valid_up_to() as u64;
@@ -75,7 +75,7 @@ pub fn not_utf8(source: &str, offset: u64, error: std::str::Utf8Error) -> String
     format!("{source} is not UTF-8 text: {what}")
 }
 
-/// Whether a line has spaces alone.
+/// Whether a line contains only white space.
 #[must_use]
 pub fn is_blank(line: &[u8]) -> bool {
     let is_space = |byte: &u8| matches!(byte, b'\t'..=b'\r' | b' ');

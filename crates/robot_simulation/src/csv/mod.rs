@@ -1,7 +1,7 @@
-//! CSV as this project reads and writes it: lines one by one, in memory for one line.
+//! CSV files as this project reads and writes them, line by line, with only one line in memory.
 //!
-//! Cells are separated by commas, may have spaces and quotes around them, and hold no commas; lines of spaces alone
-//! do not count.
+//! Cells are separated by commas and can have spaces and quotes around them; they cannot contain commas. Blank lines
+//! are ignored.
 
 mod lines;
 mod number;
@@ -19,14 +19,14 @@ fn cell(text: &str) -> &str {
     text.trim().trim_matches('"')
 }
 
-/// The number in a cell, if there is one and it is finite.
+/// The number in a cell; `None` if it is not a finite number.
 #[must_use]
 pub fn number(cell: &str) -> Option<f64> {
     cell.parse::<f64>().ok().filter(|number| number.is_finite())
 }
 
-/// Puts the numbers of a line's cells in place of what is in `found`; whether all cells are numbers. If not,
-/// [`cells`] and [`number`] show which.
+/// Replaces the content of `found` by the numbers in the cells of a line and returns whether all cells are finite
+/// numbers. If not, [`cells`] and [`number`] show which cell is wrong.
 pub fn numbers(line: &str, found: &mut Vec<f64>) -> bool {
     found.clear();
     let mut rest = line.trim_end();
@@ -39,7 +39,7 @@ pub fn numbers(line: &str, found: &mut Vec<f64>) -> bool {
                 found.push(number);
                 length
             }
-            // It has spaces or quotes around it, or is not a number.
+            // The cell has spaces or quotes around it, or is not a number.
             _ => {
                 let text = rest.split(',').next().unwrap_or_default();
                 let Some(number) = number(cell(text)) else { return false };

@@ -1,6 +1,6 @@
 use super::*;
 
-/// Numbers that look like chance: splitmix64.
+/// Pseudo-random numbers: SplitMix64.
 struct Random(u64);
 
 impl Random {
@@ -12,7 +12,7 @@ impl Random {
     }
 }
 
-/// Bits of chance, decimals of few digits, binary fractions, and what is special.
+/// Random bits, decimals with few digits, binary fractions, and special values.
 fn samples() -> Vec<f64> {
     let mut random = Random(7);
     let mut found = vec![
@@ -112,7 +112,7 @@ fn numbers_are_read_as_the_standard_library_does() {
 
 /// The lines with their numbers, or the error.
 fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, String> {
-    // A buffer of three bytes ends within everything once.
+    // The ends of a buffer of three bytes are in all kinds of places in the text.
     let mut lines = Lines::new("a", std::io::BufReader::with_capacity(3, bytes));
     let mut found = vec![];
     while let Some((number, line)) = lines.next_line().map_err(|error| error.to_string())? {

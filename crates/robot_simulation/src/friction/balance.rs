@@ -1,4 +1,4 @@
-//! Accelerations under given modes.
+//! Accelerations for given modes.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -6,43 +6,44 @@ use super::Mode;
 use crate::dynamics::{DryFriction, State};
 use crate::error::Cause;
 
-/// Rounds of the search for accelerations that agree with the friction that they cause by the load.
+/// The largest number of iterations to find accelerations that are consistent with the load-dependent friction they
+/// cause.
 const MAX_ROUNDS: usize = 60;
-/// A velocity that has a direction and does nothing else: its square is 0.
+/// A velocity that only gives friction its direction: its square is 0.
 const TINY: f64 = 1e-200;
-/// The change of the accelerations at which they have settled, in parts of 1 + the largest, rad/s² or
-/// m/s²: as tolerances are understood.
+/// The change of the accelerations at which the iteration has converged, relative to 1 + the largest one (rad/s² or
+/// m/s²), as in the definition of tolerances.
 const SETTLED: f64 = 1e-12;
-/// The rounding of a force, relative to its terms.
+/// The rounding error of a force, relative to its terms.
 const ROUNDING_OF_FORCES: f64 = 1e-14;
-/// The excess over the limit of friction that is still accepted, relative to the forces.
+/// The accepted excess over the limit of friction, relative to the forces.
 const SLACK: f64 = 1e-11;
 
-/// Accelerations, and what holds the coordinates at rest.
+/// The accelerations, and the friction that holds coordinates at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Balance {
-    /// q̈, rad/s² or m/s²; exactly 0 if a coordinate is held.
+    /// The accelerations q̈ in rad/s² or m/s²; exactly 0 for a coordinate that is held.
     pub(crate) qdd: Vec<f64>,
-    /// For each coordinate that is held, its friction.
+    /// The friction of each coordinate that is held; `None` for the others.
     pub(crate) holding: Vec<Option<Holding>>,
 }
 
-/// The friction of a coordinate at rest, N m or N.
+/// The friction of a coordinate at rest, in N m or N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Holding {
-    /// The force required of it.
+    /// The force that is required of the friction.
     pub(crate) force: f64,
-    /// The smallest and the largest force that it can supply.
+    /// The smallest and the largest force that the friction can supply.
     pub(crate) range: [f64; 2],
-    /// The rounding of these.
+    /// The rounding error of these forces.
     pub(crate) slack: f64,
-    /// The coordinate's inertia, kg m² or kg.
+    /// The inertia of the coordinate, in kg m² or kg.
     pub(crate) inertia: f64,
 }
 
 impl Holding {
-    /// By how much more is asked than friction can give, slack allowed for; not positive if it
-    /// holds.
+    /// The amount by which the required force is outside the range of the friction, minus the slack; not positive if
+    /// the coordinate is held.
     pub(crate) fn excess(&self) -> f64 {
         let [least, most] = self.range;
         (self.force - most).max(least - self.force) - self.slack
@@ -55,12 +56,12 @@ impl Holding {
     }
 }
 
-/// q̈ with M q̈ + C q̇ + g + Q_f = τ for the coordinates that move, and 0 for those that are held.
+/// Computes q̈ from M q̈ + C q̇ + g + Q_f = τ for the coordinates that move; it is 0 for those that are held.
 ///
 /// # Errors
 ///
-/// [`Cause::Accelerations`] if the moving coordinates have no positive definite mass matrix, and
-/// [`Cause::Friction`] if no accelerations agree with the friction that they cause by the load.
+/// [`Cause::Accelerations`] if the mass matrix of the moving coordinates is not positive definite, and
+/// [`Cause::Friction`] if no accelerations are consistent with the load-dependent friction that they cause.
 pub(crate) fn balance(
     friction: &dyn DryFriction,
     state: &State,
@@ -97,8 +98,8 @@ pub(crate) fn balance(
     Ok(Balance { qdd, holding })
 }
 
-/// The velocities with the directions of the modes, `held` that of coordinates at rest. Within a step
-/// a velocity may go past 0; its friction keeps the direction until the event is found.
+/// The velocities with the directions of the modes; `held` is the direction for coordinates at rest. Within a step a
+/// velocity can pass 0, but its friction keeps its direction until the event is found.
 fn directed(qd: &[f64], modes: &[Mode], held: f64) -> Vec<f64> {
     let directed = |(qd, mode): (&f64, &Mode)| match mode {
         Mode::Free => *qd,
@@ -108,9 +109,9 @@ fn directed(qd: &[f64], modes: &[Mode], held: f64) -> Vec<f64> {
     qd.iter().zip(modes).map(directed).collect()
 }
 
-/// q̈ of the coordinates that move. Without friction by load the equations are linear in q̈. With it
-/// they are M q̈ + Q_f(q̈) = …, solved by Broyden's method from the matrix M (Nocedal and Wright,
-/// Numerical Optimization, 2nd ed., 11.1), for Q_f is small against the joint torques.
+/// The accelerations q̈ of the moving coordinates. Without load-dependent friction, the equations are linear in q̈.
+/// Otherwise they are M q̈ + Q_f(q̈) = … and are solved by Broyden's method, starting from the matrix M (Nocedal and
+/// Wright, Numerical Optimization, 2nd ed., 11.1), because Q_f is small compared to the joint torques.
 fn accelerations(
     friction: &dyn DryFriction,
     state: &State,
@@ -155,7 +156,7 @@ fn accelerations(
         rest = next;
         add(&mut qdd, &moving, &step);
         let size = qdd.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
-        // If forces balance, the accelerations settle no further than their rounding.
+        // Even if the forces balance, the accelerations do not converge beyond their rounding errors.
         if step.amax() <= SETTLED * (1.0 + size) + (inverse.abs() * &rounding).amax() {
             return Ok(qdd);
         }

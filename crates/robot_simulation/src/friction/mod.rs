@@ -1,8 +1,8 @@
-//! Dry friction with a sharp sign: which coordinates stick, and what accelerates the others.
+//! Dry friction without smoothing: which coordinates stick, and how the others accelerate.
 //!
-//! Between two events each coordinate has a [`Mode`], and under given modes the equations are smooth
-//! ([`balance`]). An event is a sliding coordinate that comes to rest, or one at rest of which more is
-//! asked than friction can give; then the modes are chosen anew ([`modes`]).
+//! Between two events each coordinate has a [`Mode`], and for given modes the equations are smooth ([`balance`]). An
+//! event occurs when a sliding coordinate comes to rest, or when the force required to hold one at rest exceeds what
+//! its friction can supply; then the modes are chosen again ([`modes`]).
 
 mod balance;
 mod modes;
@@ -13,9 +13,9 @@ pub(crate) use modes::{chosen, starting};
 /// The mode of a coordinate until the next event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Mode {
-    /// Without dry friction that has a sharp sign.
+    /// Without dry friction, or with smoothed dry friction.
     Free,
-    /// In the direction 1 or −1, which its dry friction opposes.
+    /// Sliding in the direction 1 or −1; dry friction acts against it.
     Sliding(f64),
     /// At rest, held by dry friction.
     Held,

@@ -1,17 +1,18 @@
-//! Which coordinates at rest stay there, and in which direction the others set off.
+//! The choice of which coordinates at rest stay at rest, and of the directions in which the others start to move.
 
 use super::{Balance, Mode, balance};
 use crate::dynamics::{DryFriction, State};
 use crate::error::Cause;
 
-/// The most exchanges of modes. Without friction by load a few are enough, and the end is certain.
+/// The largest number of exchanges of modes. Without load-dependent friction a few are enough, and the method
+/// terminates.
 const MAX_EXCHANGES: usize = 300;
-/// The most modes of all coordinates at rest that are tried one by one: those of five coordinates.
+/// The largest number of combinations of modes that are tried one by one: those of five coordinates at rest.
 const MAX_TRIED: usize = 243;
-/// Rounds in which all wrong modes are exchanged though that makes them no fewer.
+/// The number of exchanges of all wrong modes that do not reduce their number before only one is exchanged.
 const PATIENCE: usize = 5;
 
-/// The first guess: what moves slides, what is at rest stays.
+/// The first guess: coordinates with a velocity slide, and those at rest stay at rest.
 pub(crate) fn starting(friction: &dyn DryFriction, qd: &[f64]) -> Vec<Mode> {
     let mode = |(qd, can_stick): (&f64, &bool)| match (can_stick, *qd == 0.0) {
         (false, _) => Mode::Free,
@@ -21,18 +22,18 @@ pub(crate) fn starting(friction: &dyn DryFriction, qd: &[f64]) -> Vec<Mode> {
     qd.iter().zip(friction.can_stick()).map(mode).collect()
 }
 
-/// The modes of a state that agree with the accelerations that they bring about: what is held asks no
-/// more of its friction than that can give, and what sets off does so in its direction. `guess` has
-/// the modes of the coordinates that move.
+/// Chooses modes that are consistent with the accelerations that they cause: the friction of held coordinates can
+/// supply the required force, and the others start to move in the direction of their mode. `guess` contains the modes
+/// of the coordinates that move.
 ///
-/// It is a linear complementarity problem with bounds, whose matrix M⁻¹ is positive definite, and is
-/// solved by exchanging all wrong modes at once and, if these become no fewer, one by one (Júdice
-/// and Pires, Computers & Operations Research 21, 1994), which ends. Friction by load makes it
-/// nonlinear; then the end is not certain, and few coordinates are tried out.
+/// This is a linear complementarity problem with bounds and the positive definite matrix M⁻¹. All wrong modes are
+/// exchanged at once and, if their number does not decrease, one by one (Júdice and Pires, Computers & Operations
+/// Research 21, 1994), which terminates. Load-dependent friction makes the problem nonlinear. Then the method need not
+/// terminate, and if there are only a few coordinates, all combinations are tried.
 ///
 /// # Errors
 ///
-/// [`Cause::Friction`] if no modes agree, or none is found; those of [`balance`].
+/// [`Cause::Friction`] if no consistent modes exist or are found, and the errors of [`balance`].
 pub(crate) fn chosen(
     friction: &dyn DryFriction,
     state: &State,
@@ -64,7 +65,7 @@ pub(crate) fn chosen(
     tried(friction, state, tau, guess, &at_rest)
 }
 
-/// The coordinates at rest whose modes do not agree with the accelerations, and what to try instead.
+/// The coordinates at rest whose modes are not consistent with the accelerations, and the modes to try instead.
 fn wrong(at_rest: &[usize], modes: &[Mode], found: &Balance) -> Vec<(usize, Mode)> {
     let size = found.qdd.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));
     let other = |index: &usize| match (modes[*index], &found.holding[*index]) {
@@ -81,7 +82,7 @@ fn wrong(at_rest: &[usize], modes: &[Mode], found: &Balance) -> Vec<(usize, Mode
     at_rest.iter().filter_map(other).collect()
 }
 
-/// All modes of the coordinates at rest, one by one.
+/// Tries all combinations of modes of the coordinates at rest.
 fn tried(
     friction: &dyn DryFriction,
     state: &State,
@@ -150,7 +151,7 @@ mod tests {
         }
     }
 
-    /// The modes of coordinates at rest, and their accelerations.
+    /// The modes of coordinates at rest and their accelerations.
     fn at_rest(mass: Vec<f64>, limits: Vec<f64>, tau: &[f64]) -> (Vec<Mode>, Balance) {
         let can_stick = vec![true; tau.len()];
         let rubbing = Rubbing { mass, limits, can_stick };
@@ -158,7 +159,8 @@ mod tests {
         chosen(&rubbing, &state, tau, starting(&rubbing, &state.qd)).unwrap()
     }
 
-    /// Held, both ask too much; let go both, the second goes backwards; it is held by the first's motion.
+    /// If both are held, the friction of neither is enough. If both are free, the second moves backward, so the motion
+    /// of the first holds it.
     #[test]
     fn what_sets_off_the_wrong_way_is_held() {
         let (modes, found) = at_rest(vec![4.0, 1.0, 1.0, 1.0], vec![1.0; 2], &[9.0, 1.2]);
@@ -166,7 +168,8 @@ mod tests {
         assert_eq!(found.qdd, [2.0, 0.0]);
     }
 
-    /// λ = τ − M q̈ lies within its limits, and at them against every acceleration.
+    /// The friction λ = τ − M q̈ is within its limits; it is at the limit that opposes the acceleration if there is
+    /// one.
     #[test]
     fn friction_is_within_its_limits_and_against_what_sets_off() {
         let mut seed = 1_u64;

@@ -1,18 +1,18 @@
-//! Ranges, ticks and labels of axes, for every plot.
+//! The ranges, ticks and labels of the axes of all plots.
 
-/// The range of an axis and the power of ten that its labels leave out.
+/// The range of an axis, and the power of ten that its labels omit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
-    /// The lower end, in units of 10^exponent.
+    /// The lower end, in units of 10^`exponent`.
     pub low: f64,
-    /// The upper end, in units of 10^exponent.
+    /// The upper end, in units of 10^`exponent`.
     pub high: f64,
-    /// The power of ten.
+    /// The exponent of the power of ten.
     pub exponent: i32,
 }
 
 impl Axis {
-    /// An axis for some values, with a margin; finite ones count.
+    /// An axis for some values, with a margin; values that are not finite are ignored.
     #[must_use]
     pub fn of(values: impl Iterator<Item = f64>) -> Axis {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -23,11 +23,11 @@ impl Axis {
             (low, high) = (0.0, 0.0);
         }
         let size = low.abs().max(high.abs());
-        // A constant curve gets some room.
+        // A constant curve gets a margin too.
         let room = if high - low > 1e-9 * size { 0.06 * (high - low) } else { 0.1 * size };
         let room = if room > 0.0 { room } else { 1.0 };
         let exponent = match size.log10().floor() {
-            // Smaller powers of ten are zero.
+            // Smaller powers of ten are 0.
             exponent if size > 0.0 && !(-2.0..5.0).contains(&exponent) => {
                 exponent.max(-300.0) as i32
             }
@@ -37,7 +37,7 @@ impl Axis {
         Axis { low: (low - room) / unit, high: (high + room) / unit, exponent }
     }
 
-    /// The axis of rising times, from the first to the last.
+    /// An axis for times in ascending order, from the first to the last.
     #[must_use]
     pub fn of_times(t: &[f64]) -> Axis {
         let (low, high) = match (t.first(), t.last()) {
@@ -48,8 +48,8 @@ impl Axis {
         Axis { low, high, exponent: 0 }
     }
 
-    /// The multiples of 1, 2 or 5 times a power of ten that are within the axis: of such steps the shortest
-    /// with at most so many of them.
+    /// The ticks: multiples of 1, 2 or 5 times a power of ten within the axis, with the shortest step that gives at
+    /// most `most` of them.
     #[must_use]
     pub fn ticks(&self, most: usize) -> Vec<f64> {
         let span = self.high - self.low;
@@ -69,13 +69,13 @@ impl Axis {
         }
     }
 
-    /// A value in the units of the axis.
+    /// Converts a value to the units of the axis.
     #[must_use]
     pub fn scaled(&self, value: f64) -> f64 {
         value / 10_f64.powi(self.exponent)
     }
 
-    /// `J`, or `10⁻⁹ J`.
+    /// The unit with the power of ten: `J`, or `10⁻⁹ J`.
     #[must_use]
     pub fn unit(&self, unit: &str) -> String {
         if self.exponent == 0 {
@@ -91,24 +91,25 @@ impl Axis {
     }
 }
 
-/// The multiples of a digit times a power of ten within an axis; `None` if there are more than so many.
+/// The multiples of a digit times a power of ten within an axis; `None` if there are more than `most`.
 fn multiples(axis: &Axis, digit: f64, power: i32, most: usize) -> Option<Vec<f64>> {
-    // A negative power of ten is not a binary number, but its inverse is: ticks are as exact as they can be.
+    // A negative power of ten is not a binary number, but its inverse is, so dividing by it makes ticks as exact as
+    // possible.
     let value = |index: f64| match power < 0 {
         true => index * digit / 10_f64.powi(-power),
         false => index * digit * 10_f64.powi(power),
     };
     let step = value(1.0);
-    // An end of the axis that is a tick but for rounding has its tick.
+    // An end of the axis that differs from a tick only by rounding gets this tick.
     let (first, last) = ((axis.low / step - 1e-9).ceil(), (axis.high / step + 1e-9).floor());
-    // A step that is lost in the rounding of the axis ends the search, too.
+    // The search also ends if the step is too small for the precision of the axis.
     let count = last - first + 1.0;
     let is_few = count <= most as f64 && first + 1.0 > first;
-    // No negative zero.
+    // Adding zero turns a negative zero into a positive one.
     is_few.then(|| (0..count as usize).map(|index| value(first + index as f64) + 0.0).collect())
 }
 
-/// A label: four decimals at most, a true minus sign.
+/// A label with at most four decimals and a true minus sign.
 #[must_use]
 pub fn label(value: f64) -> String {
     let text = format!("{value:.4}");
@@ -156,7 +157,7 @@ mod tests {
                 assert!(found.iter().all(|tick| (low..=high).contains(tick)), "{found:?}");
             }
         }
-        // No numbers are between these.
+        // There are no numbers between these.
         assert!(of(1.0, 1.0 + f64::EPSILON, 5).len() <= 5);
         for [low, high] in [[0.0, 0.0], [0.0, f64::INFINITY], [f64::NAN, 1.0]] {
             assert!(of(low, high, 5).is_empty());

@@ -1,4 +1,4 @@
-//! Drawing figures with plotters.
+//! The drawing of figures with plotters.
 
 use std::ops::Range;
 use std::sync::OnceLock;
@@ -18,7 +18,7 @@ use super::axis::{Axis, label};
 use super::simplify::simplified;
 use super::{Curve, Figure, Panel, SCALE};
 
-/// The width of a figure, and the sizes of its parts, px.
+/// The width of a figure and the sizes of its parts, in px.
 const WIDTH: u32 = 900;
 const TITLE: u32 = 44;
 const PANEL: u32 = 190;
@@ -27,16 +27,16 @@ const VALUE_LABELS: u32 = 76;
 const LEGEND: u32 = 110;
 const MARGIN: u32 = 12;
 
-/// The most ticks of each axis.
+/// The largest numbers of ticks of the axes.
 const TIME_TICKS: usize = 11;
 const VALUE_TICKS: usize = 6;
 
-/// Sizes of letters, px.
+/// The font sizes, in px.
 const TITLE_SIZE: u32 = 18;
 const TEXT_SIZE: u32 = 14;
 
-/// The palette of Okabe and Ito (Color Universal Design, 2008) but for its black, which is that
-/// of sums, and its yellow, which is hard to see on white: color-blind readers can distinguish them.
+/// The palette of Okabe and Ito (Color Universal Design, 2008), which color-blind readers can distinguish, without its
+/// black, which is used for sums, and its yellow, which is hard to see on white.
 const COLORS: [RGBColor; 6] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -48,16 +48,16 @@ const COLORS: [RGBColor; 6] = [
 const GRID: RGBColor = RGBColor(225, 225, 225);
 const INK: RGBColor = RGBColor(40, 40, 40);
 
-/// Curves may differ by so much from their samples, px.
+/// The largest difference of a drawn curve from its samples, in px.
 const TOLERANCE: f64 = 0.1;
 
-/// Width and height, px.
+/// The width and height of a figure, in px.
 pub(super) fn size(figure: &Figure) -> (u32, u32) {
     let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).clamp(1, 100);
     (WIDTH, TITLE + panels * PANEL + TIME_LABELS)
 }
 
-/// Draws a figure that is [`SCALE`] times its size.
+/// Draws a figure at [`SCALE`] times its size.
 pub(super) fn draw<D: DrawingBackend>(
     figure: &Figure,
     area: &DrawingArea<D, Shift>,
@@ -131,7 +131,7 @@ fn draw_panel<D: DrawingBackend>(
     draw_legend(&panel.curves, &right)
 }
 
-/// The coordinates of an axis, with its ticks.
+/// The coordinates of an axis and its ticks.
 struct Ticked {
     coordinates: RangedCoordf64,
     ticks: Vec<f64>,
@@ -161,7 +161,7 @@ impl Ranged for Ticked {
     }
 }
 
-/// The style of a curve: its line, and the length of its dashes, px.
+/// The style of a curve, and the length of its dashes in px.
 fn line(number: usize, curve: &Curve) -> (ShapeStyle, Option<u32>) {
     if curve.is_sum {
         return (BLACK.stroke_width(2 * SCALE), None);
@@ -171,7 +171,7 @@ fn line(number: usize, curve: &Curve) -> (ShapeStyle, Option<u32>) {
     (color.stroke_width(3 * SCALE / 2), dash.map(|dash| dash * SCALE))
 }
 
-/// The points of a curve, few enough; `across` and `up` are pixels to a unit of the axes.
+/// The points that are needed to draw a curve; `across` and `up` are the numbers of pixels per unit of the axes.
 fn points(t: &[f64], curve: &Curve, axis: &Axis, across: f64, up: f64) -> Vec<(f64, f64)> {
     let values = curve.values.iter().map(|value| axis.scaled(*value));
     let finite = t.iter().zip(values).filter(|(_, value)| value.is_finite());
@@ -200,7 +200,7 @@ fn style(size: u32) -> TextStyle<'static> {
     ("sans-serif", size * SCALE).into_font().color(&INK)
 }
 
-/// Makes the letters known, once.
+/// Registers the font, once.
 fn register() -> Result<(), String> {
     static REGISTERED: OnceLock<bool> = OnceLock::new();
     let regular = dejavu::sans::regular();

@@ -7,8 +7,8 @@ use super::{Curve, Figure, Panel};
 use crate::contributions::TorqueContributions;
 use crate::motion::{Energies, Motion};
 
-/// Positions, velocities, joint torques and energies of a motion. If `conserved`, a last panel
-/// shows by how much the energy has changed since the start: the error of the integration.
+/// The figure of a motion: its positions, velocities, joint torques and energies. If `conserved`, a last panel shows
+/// the change of the energy since the start, which is the error of the integration.
 #[must_use]
 pub fn motion_figure(
     robot: &Robot,
@@ -47,7 +47,7 @@ pub fn motion_figure(
     Figure { title: format!("Motion of {}", robot.name), t: motion.t.clone(), panels }
 }
 
-/// The joint torques along a trajectory by their contributions, a panel for each coordinate.
+/// The figure of the contributions to the joint torques along a trajectory, with a panel for each coordinate.
 #[must_use]
 pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {
@@ -67,7 +67,7 @@ pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) 
     Figure { title, t: contributions.t.clone(), panels: kinds.map(panel).collect() }
 }
 
-/// A panel for the coordinates that turn and one for those that slide, if there are such.
+/// A panel for all revolute coordinates and one for all prismatic coordinates, if there are any.
 fn by_unit(
     robot: &Robot,
     quantity: &str,
@@ -90,7 +90,7 @@ fn by_unit(
     [JointKind::Revolute, JointKind::Prismatic].into_iter().filter_map(panel).collect()
 }
 
-/// A variable as it is written, with the number of its coordinate below: `q̇₁`.
+/// The name of a variable with the number of its coordinate as a subscript: `q̇₁`.
 fn look(variable: JointVariable, index: Option<usize>) -> String {
     let letters = match variable {
         JointVariable::Velocity => "q\u{307}",
@@ -105,7 +105,7 @@ fn look(variable: JointVariable, index: Option<usize>) -> String {
     letters.chars().chain(lowered).collect()
 }
 
-/// An entry of every sample.
+/// One entry of every sample.
 fn entries(samples: &[impl AsRef<[f64]>], index: usize) -> Vec<f64> {
     samples.iter().filter_map(|sample| sample.as_ref().get(index).copied()).collect()
 }

@@ -1,11 +1,11 @@
-//! Letters at the height where they belong.
+//! The correction of the height of letters.
 
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
     FontTransform,
 };
 
-/// Plotters puts the letters of its own fonts above their place, by this part of their size.
+/// The distance by which plotters places the letters of its own fonts too high, as a fraction of the font size.
 const RISE: f64 = 0.2;
 
 /// A bitmap that draws letters lower than plotters does.
@@ -68,7 +68,7 @@ impl<B: DrawingBackend> DrawingBackend for Lowered<B> {
     }
 }
 
-/// A text with dots over letters as fractions, `dq₁/dt`: plotters draws an accent beside its letter.
+/// Writes dots over letters as fractions, `dq₁/dt`, because plotters draws an accent beside its letter.
 fn without_accents(text: &str) -> String {
     let mut parts = text.split("q\u{307}");
     let mut shown = parts.next().unwrap_or_default().to_owned();

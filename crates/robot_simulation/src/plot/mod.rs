@@ -1,7 +1,7 @@
-//! Pictures of series over time: SVG and PNG.
+//! Plots of values over time as SVG and PNG.
 //!
-//! The letters of a PNG are those of the DejaVu fonts, which are part of the program: no fonts of the system are needed.
-//! An SVG names the sans-serif font of whoever shows it. The same figure gives the same bytes everywhere.
+//! The letters of a PNG are those of the DejaVu fonts, which are part of the program, so no system fonts are needed. An
+//! SVG uses the sans-serif font of the program that shows it. Equal figures give the same bytes everywhere.
 
 mod axis;
 mod draw;
@@ -19,54 +19,54 @@ use letters::Lowered;
 pub use axis::{Axis, label};
 pub use figures::{contributions_figure, motion_figure};
 
-/// Panels one below the other over a common time.
+/// A figure: panels one below the other with a common time axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
     /// The title above the panels.
     pub title: String,
-    /// t, s, rising.
+    /// The times t in s, in ascending order.
     pub t: Vec<f64>,
-    /// The panels, from the top.
+    /// The panels, from top to bottom.
     pub panels: Vec<Panel>,
 }
 
-/// A panel: curves of one unit.
+/// A panel: curves with the same unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
-    /// The quantity shown, such as `q`.
+    /// The displayed quantity, such as `q`.
     pub quantity: String,
-    /// Its unit, such as `rad`.
+    /// The unit, such as `rad`.
     pub unit: String,
     /// The curves.
     pub curves: Vec<Curve>,
 }
 
-/// A curve: a value for each time.
+/// A curve, with one value for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
     /// The name in the legend.
     pub name: String,
-    /// The values; those that are not finite are left out.
+    /// The values; those that are not finite are omitted.
     pub values: Vec<f64>,
-    /// Whether it is the sum of the others, which is drawn in black.
+    /// Whether the curve is the sum of the others, which is drawn in black.
     pub is_sum: bool,
 }
 
-/// Figures are drawn this many times larger than they are shown, because coordinates are whole numbers.
+/// The factor by which figures are drawn larger than they are shown, because coordinates are integers.
 const SCALE: u32 = 4;
 
-/// The colors of an SVG where the reader's program asks for dark ones: each in place of one that is drawn. Programs that do
-/// not know the question, such as those that convert to PDF, show the light ones.
+/// The style with dark colors for an SVG, which replaces each of the drawn colors if the reader prefers dark ones.
+/// Programs that do not know this media query, such as those that convert to PDF, show the light colors.
 const DARK: &str = "<style>@media (prefers-color-scheme: dark) { \
     [fill='#FFFFFF'] { fill: #14171c } [fill='#282828'] { fill: #d8dce3 } [stroke='#282828'] { stroke: #d8dce3 } \
     [stroke='#E1E1E1'] { stroke: #353b45 } [stroke='#000000'] { stroke: #ffffff } [stroke='#0072B2'] { stroke: #3fa2e0 } \
     }</style>";
 
-/// Pixels of a PNG per unit of the figure.
+/// The number of pixels of a PNG per unit of the figure.
 const DENSITY: u32 = 2;
 
 impl Figure {
-    /// The figure as SVG.
+    /// Draws the figure as SVG.
     ///
     /// # Errors
     ///
@@ -78,7 +78,7 @@ impl Figure {
             let backend = SVGBackend::with_string(&mut text, (width * SCALE, height * SCALE));
             draw::draw(self, &backend.into_drawing_area()).map_err(Error::Plot)?;
         }
-        // The picture is shown smaller than it is drawn; the view box keeps what it shows.
+        // The picture is shown smaller than it is drawn, but its view box stays the same.
         let large = format!("width=\"{}\" height=\"{}\" viewBox", width * SCALE, height * SCALE);
         let small = format!("width=\"{width}\" height=\"{height}\" viewBox");
         let text = text.replacen(&large, &small, 1);
@@ -86,7 +86,7 @@ impl Figure {
         Ok(format!("<!-- {MARKER} -->\n{head}\n{DARK}\n{rest}"))
     }
 
-    /// The figure as PNG.
+    /// Draws the figure as PNG.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl Figure {
     }
 }
 
-/// Each block of so many pixels to a side as one, their mean: edges become smooth.
+/// Replaces each square of `block` × `block` pixels by one with their mean, which smooths edges.
 fn reduced(pixels: &[u8], width: usize, block: usize) -> Vec<u8> {
     let row = width * 3;
     let mut smaller = Vec::with_capacity(pixels.len() / (block * block));

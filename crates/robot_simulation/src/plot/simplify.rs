@@ -1,7 +1,7 @@
-//! Curves with fewer points that look the same.
+//! The simplification of curves.
 
-/// The points of a curve that are needed for a line within `tolerance` of it, by the method of Douglas
-/// and Peucker, without recursion.
+/// The points of a curve that are needed for a line within `tolerance` of it, found by the method of Douglas and
+/// Peucker without recursion.
 pub(super) fn simplified(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64)> {
     let Some(last) = points.len().checked_sub(1) else {
         return vec![];
@@ -24,7 +24,7 @@ pub(super) fn simplified(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64
     points.iter().zip(kept).filter(|(_, kept)| *kept).map(|(point, _)| *point).collect()
 }
 
-/// The distance of a point from the line through two others.
+/// The distance of a point from the line through two other points.
 fn distance((x, y): (f64, f64), (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
     let (dx, dy) = (x1 - x0, y1 - y0);
     let length = dx.hypot(dy);

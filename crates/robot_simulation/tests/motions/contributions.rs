@@ -1,4 +1,4 @@
-//! Joint torques along trajectories, split by cause.
+//! Joint torques along trajectories, divided into contributions.
 
 use robot_build::{Functions, Options, Programs, Source};
 use robot_codegen::Interpreter;
@@ -10,7 +10,7 @@ use robot_simulation::{
 
 use crate::{motion, robot_file};
 
-/// Programs for simulations and for shares.
+/// The programs for simulations and for contributions.
 fn compiled(text: &str, friction: bool, wrench: bool) -> Programs {
     let source = Source { name: "robot.toml".to_owned(), text: text.to_owned() };
     let robot = robot_build::read(&source).unwrap().robot;
@@ -25,7 +25,7 @@ fn of_robot(robot: robot_model::robot::Robot, friction: bool, wrench: bool) -> P
     robot_build::programs_of(robot, "robot", &options).unwrap()
 }
 
-/// What the torques of a motion are split into adds up to the torques that made it.
+/// Asserts that the contributions along a simulated motion add up to the joint torques of the simulation.
 fn assert_round_trip(programs: &Programs, start: &State, texts: &[String], friction: bool) {
     let program = RobotProgram::new(programs, &[], friction).unwrap();
     let robot = program.robot();
@@ -52,7 +52,7 @@ fn simulated_motions_give_back_their_torques() {
     let start = State { q: vec![0.3, -0.4], qd: vec![0.1, 0.2] };
     assert_round_trip(&compiled(&text, false, false), &start, &texts, false);
 
-    // Sliding joints, and friction by load.
+    // Prismatic joints, and load-dependent friction.
     let text = robot_file("trttr1").replace("friction = { ", "friction = { smoothing = 0.05, ");
     let texts = ["2 = 8*sin(3*t)".to_owned(), "5 = 2".to_owned(), "1 = 900".to_owned()];
     let start = State { q: vec![0.1, -0.7, 0.2, 0.3, 1.1], qd: vec![0.0; 5] };
@@ -61,7 +61,7 @@ fn simulated_motions_give_back_their_torques() {
     }
 }
 
-/// Random trees with sliding joints, drives, and joints that follow others.
+/// Random trees with prismatic joints, drives, and joints that follow others.
 #[test]
 fn trees_and_joints_that_follow_move_as_well() {
     for seed in 0..8 {
@@ -85,7 +85,7 @@ fn trees_and_joints_that_follow_move_as_well() {
     }
 }
 
-/// Joints that follow others have no number: a joint named `3` may be the second.
+/// Joints that follow others have no number, so a joint named `3` can be the second.
 #[test]
 fn numbers_and_names_of_joints_are_not_mixed_up() {
     let text = r#"
@@ -116,7 +116,7 @@ inertia = { zz = 1, unchecked = true }
     }
 }
 
-/// A robot with friction and a wrench: the shares add up to what one function gives.
+/// For a robot with friction and a wrench, the contributions add up to the result of a single function.
 #[test]
 fn all_contributions_add_up() {
     let programs = compiled(&robot_file("trttr1"), true, true);
@@ -157,7 +157,7 @@ fn all_contributions_add_up() {
     assert!(header.starts_with("t,tau1,tau2,tau3,tau4,tau5,inertia1,"), "{header}");
 }
 
-/// The shares of a pendulum are known: ml²/3 q̈, 0, mgl/2 cos q.
+/// The contributions for a pendulum are known: m l²/3 q̈, 0, m g l/2 cos q.
 #[test]
 fn expressions_are_differentiated() {
     let programs = compiled(crate::PENDULUM, false, false);
@@ -208,7 +208,7 @@ fn figures_are_the_same_bytes_each_time() {
     let motion = motion(&program, &Torques::none(6), &start, 2.0, 1e-9, 0.01);
     let energies = motion.energies(&program).unwrap();
     let figure = plot::motion_figure(program.robot(), &motion, &energies, true);
-    // Turning and sliding joints have panels of their own; nothing drives the arm.
+    // Revolute and prismatic joints have separate panels; the arm is not driven, so there is none for torques.
     let labels: Vec<String> =
         figure.panels.iter().map(|panel| format!("{} {}", panel.quantity, panel.unit)).collect();
     let expected = [

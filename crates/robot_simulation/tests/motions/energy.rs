@@ -1,11 +1,11 @@
-//! Without friction and joint torques the energy stays.
+//! Without friction and joint torques the energy is constant.
 
 use robot_simulation::{RobotProgram, Torques};
 
 use crate::{PENDULUM, compiled, motion, rest, robot_file};
 
-/// A change of the energy over 10 s, in units of tolerance · largest kinetic energy. Measured: 4.7
-/// for the pendulum, 3.5 for the double pendulum, 0.8 for the PUMA 560.
+/// The largest change of the energy over 10 s, in units of the tolerance times the largest kinetic energy. Measured:
+/// 4.7 for the pendulum, 3.5 for the double pendulum, 0.8 for the PUMA 560.
 const BOUND: f64 = 10.0;
 
 #[test]
@@ -14,13 +14,13 @@ fn energy_stays_within_the_tolerance() {
         (PENDULUM.to_owned(), vec![1.5]),
         (robot_file("planar_2r"), vec![1.5, 0.5]),
         (robot_file("puma560"), vec![0.0, 0.5, -1.0, 0.3, 0.4, 0.0]),
-        // A sliding joint.
+        // An arm with a prismatic joint.
         (robot_file("stanford"), vec![0.0, 0.5, 1.0, 0.3, 0.4, 0.0]),
     ];
     for (text, q) in robots {
         let programs = compiled(&text, false);
         let program = RobotProgram::new(&programs, &[], false).unwrap();
-        // Samples at 1 s leave the steps to the integrator.
+        // With samples 1 s apart, the integrator chooses the steps.
         for (tolerance, step) in [(1e-6, 1.0), (1e-9, 1.0), (1e-12, 1.0), (1e-9, 0.01)] {
             let motion =
                 motion(&program, &Torques::none(q.len()), &rest(&q), 10.0, tolerance, step);
@@ -37,7 +37,7 @@ fn energy_stays_within_the_tolerance() {
     }
 }
 
-/// q̈ = −9.81 q: q = cos √9.81 t.
+/// The solution of q̈ = −9.81 q is q = cos √9.81 t.
 #[test]
 fn an_oscillator_follows_its_solution() {
     use robot_simulation::{SimulationOptions, from_fn, simulate};

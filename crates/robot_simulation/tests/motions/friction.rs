@@ -1,4 +1,4 @@
-//! With friction the energy falls.
+//! With friction the energy decreases.
 
 use robot_build::{Effects, FunctionKind, Functions, Options, Source, programs};
 use robot_codegen::Interpreter;
@@ -11,7 +11,7 @@ fn rubbing(friction: &str) -> String {
     format!("{PENDULUM}friction = {{ {friction} }}\n")
 }
 
-/// TRTTR1 with a smooth sign in every dry friction: there it grows with the load.
+/// TRTTR1 with smoothing of all its dry friction, which depends on the load.
 fn trttr1() -> String {
     let text = robot_file("trttr1");
     let smooth = text.replace("friction = { ", "friction = { smoothing = 0.05, ");
@@ -42,7 +42,7 @@ fn energy_falls_at_every_sample() {
     }
 }
 
-/// Friction by load depends on the acceleration that it brings about: the two agree.
+/// Load-dependent friction depends on the acceleration that it causes, and the two are consistent.
 #[test]
 fn friction_by_load_agrees_with_the_acceleration() {
     let text = trttr1();
@@ -72,7 +72,7 @@ fn friction_by_load_agrees_with_the_acceleration() {
     }
 }
 
-/// `forward_dynamics_friction` in the programs of a robot.
+/// The programs of a robot with `forward_dynamics_friction`.
 fn forward(text: &str) -> robot_build::Programs {
     let source = Source { name: "robot.toml".to_owned(), text: text.to_owned() };
     let functions = Functions::Chosen(vec![
@@ -83,8 +83,8 @@ fn forward(text: &str) -> robot_build::Programs {
     programs(&source, &Options { functions, ..Options::default() }).unwrap()
 }
 
-/// The largest difference between the joint torques and those that the accelerations of
-/// `forward_dynamics_friction` take, in parts of the largest.
+/// The largest difference between the joint torques and those that the accelerations from `forward_dynamics_friction`
+/// require, relative to the largest joint torque.
 fn forward_error(programs: &robot_build::Programs, given: &[(&str, f64)]) -> f64 {
     let interpreter = Interpreter::new(&programs.module, given).unwrap();
     let mut worst = 0.0_f64;
@@ -109,8 +109,8 @@ fn forward_error(programs: &robot_build::Programs, given: &[(&str, f64)]) -> f64
     worst
 }
 
-/// Without friction by load to rounding; with it each round leaves of the error about the part that the
-/// coefficient is.
+/// Without load-dependent friction, the error is a rounding error. With it, each iteration multiplies the error by
+/// about the friction coefficient.
 #[test]
 fn forward_dynamics_with_friction_inverts_inverse_dynamics() {
     let constant = "coulomb_positive = 1, coulomb_negative = 2, viscous = 3, offset = 0.3";
@@ -132,7 +132,7 @@ fn forward_dynamics_with_friction_inverts_inverse_dynamics() {
     }
 }
 
-/// `forward_dynamics_friction` is the acceleration that simulations find.
+/// `forward_dynamics_friction` gives the accelerations that simulations use.
 #[test]
 fn forward_dynamics_with_friction_is_that_of_simulations() {
     let text = robot_file("trttr1");

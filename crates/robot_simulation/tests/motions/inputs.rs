@@ -1,4 +1,4 @@
-//! Joint torques, and what is said of wrong input.
+//! Joint torques, and messages about wrong inputs.
 
 use robot_simulation::{
     Cause, Error, RobotProgram, SimulationOptions, State, Table, TorqueLaw, Torques, from_fn,
@@ -64,7 +64,7 @@ fn tables_are_linear_between_samples() {
     assert_eq!(shown.lines().collect::<Vec<_>>(), expected);
 }
 
-/// A force that jumps is met at the jump: 1 N on 1 kg from 0.5 s to 0.5 s + 1 ms.
+/// A step ends at a jump of the force: 1 kg is driven by a pulse of up to 1 N from 0.5 s to 0.501 s.
 #[test]
 fn no_step_goes_over_a_corner() {
     let mass = from_fn(1, |_, tau| tau.to_vec());
@@ -78,7 +78,7 @@ fn no_step_goes_over_a_corner() {
     assert!((velocity - 0.0005).abs() < 1e-12, "{velocity}");
 }
 
-/// Pulses of expressions far shorter than a step of the output: 1 kg gets what they hold, in few steps.
+/// Pulses of expressions that are far shorter than the output step: 1 kg gets their whole momentum, in a few steps.
 #[test]
 fn no_step_goes_over_a_pulse_of_an_expression() {
     let mass = from_fn(1, |_, tau| tau.to_vec());

@@ -11,7 +11,7 @@ mod sticking;
 use robot_build::{Functions, Options, Programs, Source, programs};
 use robot_simulation::{Motion, RobotProgram, SimulationOptions, State, TorqueLaw, simulate};
 
-/// A rod of 1 kg and 1 m about its end.
+/// A rod of 1 kg and 1 m that rotates about its end.
 const PENDULUM: &str = r#"
 format = 1
 [robot]
@@ -45,7 +45,7 @@ fn rest(q: &[f64]) -> State {
     State { q: q.to_vec(), qd: vec![0.0; q.len()] }
 }
 
-/// The motion of so many seconds.
+/// The motion of this duration, in s.
 fn motion(
     program: &RobotProgram<'_>,
     torques: &impl TorqueLaw,

@@ -1,4 +1,4 @@
-//! Dry friction with a sharp sign: rest, break-away, stops.
+//! Dry friction without smoothing: rest, break-away, stops.
 
 use std::fmt::Write as _;
 
@@ -9,7 +9,7 @@ use robot_simulation::{
 
 use crate::{compiled, rest, robot_file};
 
-/// A slide of 1 kg along x, under gravity in x and y.
+/// A prismatic joint along x with a body of 1 kg, under gravity in x and y.
 fn slide(gravity: [f64; 2], friction: &str) -> String {
     let [x, y] = gravity;
     format!(
@@ -29,7 +29,7 @@ friction = {{ {friction} }}
     )
 }
 
-/// The motion with friction under torques from expressions.
+/// The motion with friction under torques that are given by expressions.
 fn run(
     programs: &Programs,
     given: &[(&str, f64)],
@@ -79,7 +79,7 @@ fn more_than_the_friction_accelerates_by_the_rest() {
     }
 }
 
-/// v = 3 m/s against μ m g + b v: t = m/b ln(1 + b v/F), x = m/b (v − F t/m).
+/// A block with v = 3 m/s stops under μ m g + b v: t = m/b ln(1 + b v/F), x = m/b (v − F t/m).
 #[test]
 fn a_block_stops_when_and_where_it_should_and_stays() {
     let weight = [0.0, -9.81];
@@ -104,11 +104,11 @@ fn a_block_stops_when_and_where_it_should_and_stays() {
     }
 }
 
-/// A block that slides to the right under a force that grows to the left stops, sticks while the force is
-/// below the friction, and turns.
+/// A block slides to the right under a force that increases to the left. It stops, sticks as long as the force is below
+/// the friction, and turns back.
 #[test]
 fn a_force_that_grows_breaks_away_at_its_time() {
-    // q̈ = −t − 2 until v = 1 is used up at t² / 2 + 2 t = 1; away at t = 2, then q̇ = −(t − 2)² / 2.
+    // q̈ = −t − 2 until v = 1 has become 0 at t²/2 + 2 t = 1. It breaks away at t = 2; then q̇ = −(t − 2)²/2.
     let motion = moved(&slide([0.0; 2], "coulomb_force = 2"), &["1 = -t"], &at(0.0, 1.0), 4.0, 0.1);
     let stop = 6.0_f64.sqrt() - 2.0;
     let way = stop - stop.powi(2) - stop.powi(3) / 6.0;
@@ -126,7 +126,7 @@ fn a_force_that_grows_breaks_away_at_its_time() {
     assert!(motion.steps < 300, "{}", motion.steps);
 }
 
-/// What a short push asks of the friction is not stepped over.
+/// No step misses a short push, which requires more than the friction can supply.
 #[test]
 fn a_short_push_between_samples_is_felt() {
     let push = ["1 = 5 + 9*(2/(2 + (10*(t - 3.3))^2))^2"];
@@ -135,7 +135,7 @@ fn a_short_push_between_samples_is_felt() {
     assert_eq!(motion.states[1].qd[0], 0.0);
 }
 
-/// By the load: a block slides down an incline of the angle α where tan α > μ.
+/// With load-dependent friction, a block slides down an incline of the angle α if tan α > μ.
 #[test]
 fn a_block_slides_down_an_incline_that_is_steeper_than_its_friction() {
     let friction: f64 = 0.3;
@@ -148,7 +148,7 @@ fn a_block_slides_down_an_incline_that_is_steeper_than_its_friction() {
             assert_near(state.q[0], excess.max(0.0) * t * t / 2.0, 1e-9);
             assert_eq!(state.qd[0] == 0.0, angle.tan() < friction || *t == 0.0);
         }
-        // Pushed upwards it stops, and comes back where it is steep.
+        // Pushed upward, it stops, and it comes back if the incline is steep enough.
         let up = moved(&text, &[], &at(0.0, -2.0), 3.0, 3.0);
         let against = 9.81 * (angle.sin() + friction * angle.cos());
         let (stop, top) = (2.0 / against, -2.0 / against);
@@ -157,15 +157,15 @@ fn a_block_slides_down_an_incline_that_is_steeper_than_its_friction() {
     }
 }
 
-/// A mass on a spring whose other end moves at v: it sticks while the spring stretches, then swings
-/// through and sticks again, with the period of the closed form.
+/// A mass on a spring whose other end moves at v sticks while the spring is stretched, then slips and sticks again,
+/// with the period of the exact solution.
 #[test]
 fn a_block_on_a_belt_sticks_and_slips() {
     let text = slide([0.0; 2], "coulomb_positive = 2, coulomb_negative = 2, offset = 0");
     let (k, v, limit): (f64, f64, f64) = (25.0, 0.1, 2.0);
-    // Slip from rest with the spring at the limit: its deviation from v t is a swing about −v t + …;
-    // with z = v t − q − F/k: z̈ = −k z, z = 0, ż = v at first: ż = v cos ω t, q̇ = v (1 − cos ω t):
-    // at rest again after a period, as far on as the target.
+    // It slips from rest with the spring at the limit. With z = v t − q − F/k: z̈ = −k z/m, z = 0 and ż = v at first.
+    // So ż = v cos ω t and q̇ = v (1 − cos ω t): after a period it is at rest again and has moved as far as the end of
+    // the spring.
     let away = limit / k / v;
     let period = 2.0 * std::f64::consts::PI / k.sqrt();
     let motion = moved(&text, &["1 = 25*(0.1*t - q1)"], &at(0.0, 0.0), 6.0, 0.01);
@@ -181,7 +181,7 @@ fn a_block_on_a_belt_sticks_and_slips() {
     assert!(away + period < 6.0);
 }
 
-/// The energy less the work of the torques never rises.
+/// The energy minus the work of the torques never increases.
 #[test]
 fn friction_only_takes_energy_from_trttr1() {
     let programs = compiled(&robot_file("trttr1"), true);
@@ -214,7 +214,7 @@ fn friction_only_takes_energy_from_trttr1() {
         let mut shown = String::new();
         let mut taken = 0.0;
         for index in 1..motion.t.len() {
-            // The trapezoid's error of a smooth power.
+            // The tolerance covers the error of the trapezoidal rule for a smooth power.
             let work = (power(index - 1) + power(index)) * 0.001;
             let gain = energies.total[index] - energies.total[index - 1];
             taken += work - gain;
@@ -227,8 +227,8 @@ fn friction_only_takes_energy_from_trttr1() {
     }
 }
 
-/// Of two coupled links one sticks while the other slips; the friction that holds it agrees with the
-/// equations, and the sticking ends when it must.
+/// One of the coupled links sticks while others slip; the friction that holds it is consistent with the equations, and
+/// it breaks away when it must.
 #[test]
 fn what_holds_a_joint_agrees_with_the_equations() {
     let programs = compiled(&robot_file("trttr1"), true);
@@ -277,8 +277,9 @@ fn chain(links: usize, friction: &str) -> String {
     })
 }
 
-/// Two links against impulses in small equal steps (Moreau's time stepping): M (v' − v) = h (τ − C v − g) − p
-/// with |p| ≤ h c, p against v', by the method of Gauss and Seidel.
+/// Two links, compared with impulses in small equal steps (Moreau's time stepping): M (v' − v) = h (τ − C v − g) − p
+/// with
+/// p| ≤ h c and p opposed to v', solved by the Gauss-Seidel method.
 #[test]
 fn two_joints_stick_and_slip_as_small_steps_say() {
     const STEP: f64 = 2e-5;
@@ -327,20 +328,20 @@ fn twenty_joints_fall_stick_and_stop_in_few_steps() {
     let programs = compiled(&chain(20, "coulomb_torque = 8"), true);
     let motion = run(&programs, &[], &[], &rest(&[-0.1; 20]), &options).unwrap();
     let last = motion.states.last().unwrap();
-    // The first joints give way, the last ones hold.
+    // The first joints give way, and the last ones hold.
     assert!(last.qd[0] != 0.0 && last.qd[19] == 0.0, "{last:?}");
     assert!(motion.steps < 2000, "{}", motion.steps);
     let programs = compiled(&chain(20, "coulomb_torque = 1e9"), true);
     let motion = run(&programs, &[], &[], &rest(&[-0.1; 20]), &options).unwrap();
     assert_eq!(motion.states.last().unwrap(), &rest(&[-0.1; 20]));
-    // Stopped at once from any velocity.
+    // The joints stop practically at once from all velocities.
     let moving = State { q: vec![0.0; 20], qd: (0..20).map(|i| f64::from(i) - 9.5).collect() };
     let motion = run(&programs, &[], &[], &moving, &options).unwrap();
     assert!(motion.states[1..].iter().all(|state| state.qd == [0.0; 20]));
     assert!(motion.steps < 5000, "{}", motion.steps);
 }
 
-/// A joint without inertia rests as long as its friction holds it; let go it has no acceleration.
+/// A joint without inertia is at rest as long as its friction holds it; after that, it has no finite acceleration.
 #[test]
 fn a_joint_without_inertia_is_held_or_ends_in_a_message() {
     let text = slide([0.0; 2], "coulomb_force = 10")
@@ -357,7 +358,7 @@ fn a_joint_without_inertia_is_held_or_ends_in_a_message() {
     assert_eq!(cause, Cause::Accelerations);
 }
 
-/// Wherever the friction would have to be larger than it is for any acceleration, there is none.
+/// If every acceleration would require more friction than there is, the motion has none and stops.
 #[test]
 fn friction_that_no_acceleration_agrees_with_is_named() {
     let programs = compiled(&robot_file("trttr1"), true);

@@ -1,4 +1,4 @@
-//! Coefficients in the angles that make them shortest, by the addition theorems in both directions.
+//! The rewriting of coefficients in the angles that make them shortest, by the addition theorems in both directions.
 
 use rustc_hash::FxHashMap;
 
@@ -7,11 +7,11 @@ use super::terms::{Powers, Term, Terms, Variable, term_length};
 use super::variables::Variables;
 use crate::rational::Rational;
 
-/// Sine and cosine.
+/// The sine and cosine of an angle.
 type Circle = [Terms; 2];
 
 impl Group {
-    /// The terms with each product of other variables multiplied by the shortest form of its coefficient.
+    /// Rewrites the coefficient of every product of variables outside the group in the basis that makes it shortest.
     pub(super) fn shortest(&self, terms: &Terms, variables: &Variables<'_>) -> Terms {
         let mut rewriters: Vec<Rewriter<'_, '_>> =
             self.bases.iter().map(|basis| Rewriter::new(self, basis, variables)).collect();
@@ -26,8 +26,8 @@ impl Group {
         Terms::sum(all)
     }
 
-    /// The terms in each basis, all coefficients in the same one: longer as a sum than [`Group::shortest`], but products
-    /// of sums of sines and cosines are seen.
+    /// The terms in each basis, with all coefficients in the same basis. Such a sum is longer than [`Group::shortest`],
+    /// but its factors can include sums of sines and cosines.
     pub(super) fn in_bases(
         &self,
         terms: &Terms,
@@ -38,7 +38,7 @@ impl Group {
         distinct.map(|(_, basis)| Rewriter::new(self, basis, variables).rewritten(terms))
     }
 
-    /// The printed symbols, and then the number of coordinates in the angles.
+    /// The number of printed symbols, then the number of coordinates in the angles.
     fn cost(&self, form: &Terms, cofactor: &Powers) -> (usize, usize) {
         let joints = |variable: Variable| {
             let edge = self.edge_of(variable);
@@ -50,8 +50,8 @@ impl Group {
         (lengths, angles.map(|(variable, exponent)| joints(variable) * usize::from(exponent)).sum())
     }
 
-    /// The terms with cos a cos b ∓ sin a sin b as one cosine and sin a cos b ± cos a sin b as one sine, as long as
-    /// a ± b is an angle of the group.
+    /// Replaces cos a cos b ∓ sin a sin b by one cosine, and sin a cos b ± cos a sin b by one sine, if a ± b is an
+    /// angle of the group.
     fn fused(&self, mut terms: Terms) -> Terms {
         while let Some((places, term)) = self.fusible(terms.as_slice()) {
             let rest = terms.without(&places);
@@ -60,7 +60,7 @@ impl Group {
         terms
     }
 
-    /// The first two terms that are one, and that one.
+    /// The places of the first two terms that can be merged into one, and the merged term.
     fn fusible(&self, terms: &[Term]) -> Option<([usize; 2], Term)> {
         for (i, (a, x)) in terms.iter().enumerate() {
             for (j, (b, y)) in terms.iter().enumerate().skip(i + 1) {
@@ -77,12 +77,12 @@ impl Group {
         None
     }
 
-    /// The sine or cosine that the sum (`same`) or difference of two products of two is, and whether with the
-    /// other sign.
+    /// The sine or cosine that equals the sum (if `same`) or difference of two products of two factors, and whether it
+    /// must be negated.
     fn sum_of(&self, products: [&Powers; 2], same: bool) -> Option<(Variable, bool)> {
         let [first, second] = products.map(|product| self.two(product));
         let ([a, b], [c, d]) = (first?, second?);
-        // Both products are of the same two angles.
+        // Both products must contain the same two angles.
         let (c, d) = if a.0 == c.0 { (c, d) } else { (d, c) };
         if a.0 != c.0 || b.0 != d.0 || a.0 == b.0 {
             return None;
@@ -111,7 +111,7 @@ impl Group {
         }
     }
 
-    /// The two factors of a product, by edge and whether it is the sine.
+    /// The two factors of a product, each with the index of its edge and whether it is the sine.
     fn two(&self, product: &Powers) -> Option<[(usize, bool); 2]> {
         let mut factors = product.iter();
         let (Some((a, 1)), Some((b, 1)), None) = (factors.next(), factors.next(), factors.next())
@@ -127,7 +127,7 @@ impl Group {
     }
 }
 
-/// Writes sines and cosines of coordinates in the angles of a basis.
+/// Rewrites sines and cosines of coordinates in the angles of a basis.
 struct Rewriter<'a, 'g> {
     circles: FxHashMap<Variable, Terms>,
     known: FxHashMap<Powers, Terms>,
@@ -177,7 +177,7 @@ impl<'a, 'g> Rewriter<'a, 'g> {
     }
 }
 
-/// Sine and cosine of a sum or difference of an angle and one of the group's.
+/// The sine and cosine of the sum or, if `negative`, the difference of an angle and one of the group's angles.
 fn turned([s, c]: &Circle, by: Angle, negative: bool, variables: &Variables<'_>) -> Circle {
     let sign = Rational::integer(if negative { -1 } else { 1 });
     let sine = (Powers::of(by.sine), sign.clone());
@@ -197,7 +197,7 @@ fn multiplied(a: &Terms, b: &Terms, variables: &Variables<'_>) -> Terms {
     reduced(products.collect(), variables)
 }
 
-/// The sum with each square of a sine as 1 − cos².
+/// The sum of the terms, with each square of a sine replaced by 1 − cos².
 pub(super) fn reduced(terms: Vec<Term>, variables: &Variables<'_>) -> Terms {
     let mut pending = terms;
     let mut done = vec![];

@@ -1,8 +1,8 @@
 //! Angles between the links of parallel joints.
 //!
-//! The links of n parallel joints, and the body before them, are n + 1 bodies that turn about one direction. The
-//! angles between any two of them are those that formulas are written in: c₁₂ = cos(q₁ + q₂). Angles from which
-//! all others follow are a spanning tree of the complete graph on the bodies.
+//! The links of n parallel joints and the body before them are n + 1 bodies that rotate about the same direction.
+//! Formulas are written in the angles between any two of them: c₁₂ = cos(q₁ + q₂). A set of angles that determines all
+//! others is a spanning tree of the complete graph on the bodies.
 
 use crate::expr::Expr;
 use crate::graph::Graph;
@@ -10,7 +10,7 @@ use crate::graph::Graph;
 use super::terms::{Term, Terms, Variable};
 use super::variables::Variables;
 
-/// The most trees that are tried for one group.
+/// The largest number of trees that are tried for one group.
 const MAX_TREES: usize = 128;
 
 /// A joint in a group of parallel joints.
@@ -24,21 +24,21 @@ pub struct Turn<'g> {
     pub parent: Option<usize>,
 }
 
-/// Revolute joints with parallel axes, whose angles therefore add up. Each joint stands after its parent.
+/// Revolute joints with parallel axes, whose angles add up.
 #[derive(Clone, Debug)]
 pub struct ParallelAngles<'g> {
-    /// The joints.
+    /// The joints; each one comes after its parent.
     pub turns: Vec<Turn<'g>>,
 }
 
 impl<'g> ParallelAngles<'g> {
-    /// The group if its angles are in use: two joints at least, and those before them.
+    /// Returns the whole group if the coordinates of at least two of its joints occur, otherwise `None`.
     pub(super) fn restricted(&self, occurs: impl Fn(&Expr<'g>) -> bool) -> Option<Self> {
         let used = self.turns.iter().filter(|turn| occurs(&turn.coordinate)).count();
         (used >= 2).then(|| self.clone())
     }
 
-    /// The angle from the body before the group to each body, by the sign of each coordinate in it.
+    /// For each body, the sign of every coordinate in the angle from the body before the group, or 0.
     fn positions(&self) -> Vec<Vec<i8>> {
         let mut positions: Vec<Vec<i8>> = vec![vec![0; self.turns.len()]];
         for (place, turn) in self.turns.iter().enumerate() {
@@ -51,7 +51,7 @@ impl<'g> ParallelAngles<'g> {
         positions
     }
 
-    /// The angles between any two bodies, their first coordinate positive.
+    /// The angles between any two bodies, with the first coordinate of each positive.
     pub(super) fn differences(&self, graph: &'g Graph) -> Vec<Expr<'g>> {
         let positions = self.positions();
         pairs(positions.len())
@@ -72,7 +72,8 @@ fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..count).flat_map(move |a| (a + 1..count).map(move |b| (a, b)))
 }
 
-/// The angle between two bodies, with its first coordinate positive, and whether its sign was changed for that.
+/// The angle between two bodies, given by the sign of every coordinate and negated if the first one is negative, and
+/// whether it was negated.
 fn difference(a: &[i8], b: &[i8]) -> (bool, Vec<i8>) {
     let signs: Vec<i8> = a.iter().zip(b).map(|(a, b)| b - a).collect();
     let negative = signs.iter().find(|sign| **sign != 0).is_some_and(|sign| *sign < 0);
@@ -87,24 +88,25 @@ pub(super) struct Angle {
     pub(super) cosine: Variable,
 }
 
-/// An angle with its coordinates.
+/// An angle between two bodies with the sign of every coordinate in it, or 0.
 #[derive(Clone, Debug)]
 pub(super) struct Edge {
     pub(super) angle: Angle,
     pub(super) signs: Vec<i8>,
 }
 
-/// Angles from which all of a group follow: each coordinate as a sum of them, by edge and sign.
+/// A set of angles that determines all angles of a group. Each coordinate is a sum of these angles, given by the
+/// indices of their edges and whether they are subtracted.
 pub(super) type Basis = Vec<Vec<(usize, bool)>>;
 
-/// A group of parallel joints, its angles given by the variables of their sines and cosines.
+/// A group of parallel joints; its angles are given by the variables of their sines and cosines.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
-    /// The angles between bodies.
+    /// The angles between any two bodies.
     pub(super) edges: Vec<Edge>,
-    /// The coordinates, as angles.
+    /// The angles of the joints.
     pub(super) coordinates: Vec<Angle>,
-    /// The bases: that of the coordinates themselves first.
+    /// The bases; the first one is that of the coordinates themselves.
     pub(super) bases: Vec<Basis>,
 }
 
@@ -129,7 +131,7 @@ impl Group {
         Some(Group { edges, coordinates: coordinates?, bases })
     }
 
-    /// The angle with these coordinates, if it lies between two bodies, and whether its sign is the other one.
+    /// Returns the angle with these signs of coordinates if it is between two bodies, and whether it must be negated.
     pub(super) fn angle_of(&self, signs: &[i8]) -> Option<(Angle, bool)> {
         let is = |edge: &Edge, negative: bool| {
             let mut pairs = edge.signs.iter().zip(signs);
@@ -146,13 +148,14 @@ impl Group {
         self.edge_of(variable).is_some()
     }
 
-    /// The angle that a variable is the sine or cosine of.
+    /// The angle whose sine or cosine a variable is; `None` for other variables.
     pub(super) fn edge_of(&self, variable: Variable) -> Option<&Edge> {
         let of = |edge: &&Edge| edge.angle.sine == variable || edge.angle.cosine == variable;
         self.edges.iter().find(of)
     }
 
-    /// The terms by their factors outside of the group: for each, what it is multiplied by.
+    /// Groups the terms by their factors outside the group of joints; the rest of the terms is the coefficient of
+    /// these.
     pub(super) fn by_cofactor(&self, terms: &Terms) -> Vec<(super::terms::Powers, Vec<Term>)> {
         use super::terms::Powers;
         let mut found: indexmap::IndexMap<Powers, Vec<Term>, rustc_hash::FxBuildHasher> =
@@ -167,8 +170,8 @@ impl Group {
     }
 }
 
-/// The spanning trees of the bodies as bases: the tree of the joints first, then the others in the order of their
-/// edges; stars alone for groups that have too many.
+/// The bases of the spanning trees of the bodies: first the tree of the joints, then all trees or, if there are too
+/// many, only the stars.
 fn bases(angles: &ParallelAngles<'_>, positions: &[Vec<i8>]) -> Vec<Basis> {
     let bodies = positions.len();
     let parents: Vec<(usize, usize)> = angles
@@ -190,7 +193,7 @@ fn bases(angles: &ParallelAngles<'_>, positions: &[Vec<i8>]) -> Vec<Basis> {
         parents.iter().map(|(from, to)| along(tree, *from, *to, positions)).collect()
     };
     let mut bases: Vec<Basis> = trees.iter().map(basis).collect();
-    // A coordinate that turns the other way round is a sum with the other signs.
+    // The coordinate of a joint that turns against the direction of the group is a sum with the opposite signs.
     for basis in &mut bases {
         for (sum, turn) in basis.iter_mut().zip(&angles.turns) {
             sum.iter_mut().for_each(|(_, negative)| *negative ^= turn.negative);
@@ -199,7 +202,8 @@ fn bases(angles: &ParallelAngles<'_>, positions: &[Vec<i8>]) -> Vec<Basis> {
     bases
 }
 
-/// All spanning trees of the complete graph, by their sequences of Prüfer; none if there are too many.
+/// All spanning trees of the complete graph, from their Prüfer sequences. If there are more than [`MAX_TREES`], the
+/// result is a longer list of empty trees.
 fn spanning_trees(bodies: usize) -> Vec<Vec<(usize, usize)>> {
     let Some(length) = bodies.checked_sub(2) else { return vec![] };
     let power = u32::try_from(length).ok().and_then(|length| bodies.checked_pow(length));
@@ -218,7 +222,7 @@ fn spanning_trees(bodies: usize) -> Vec<Vec<(usize, usize)>> {
     (0..count).map(|number| tree_of(&sequence(number), bodies)).collect()
 }
 
-/// The tree of a sequence of Prüfer.
+/// The tree of a Prüfer sequence.
 fn tree_of(sequence: &[usize], bodies: usize) -> Vec<(usize, usize)> {
     let mut degrees = vec![1_usize; bodies];
     for body in sequence {
@@ -239,7 +243,7 @@ fn tree_of(sequence: &[usize], bodies: usize) -> Vec<(usize, usize)> {
     tree
 }
 
-/// The way from one body to another along a tree, as edges with their signs.
+/// The path from one body to another along a tree, as edges and whether each is traversed backward.
 fn along(
     tree: &[(usize, usize)],
     from: usize,
@@ -266,7 +270,7 @@ fn along(
     while let Some(previous) = before.get(body).copied().flatten() {
         let (low, high) = (previous.min(body), previous.max(body));
         let edge = pairs(positions.len()).position(|pair| pair == (low, high)).unwrap_or_default();
-        // Edges point from the lower body to the higher one, but for those whose sign was changed.
+        // Edges point from the lower body to the higher one, except for those whose sign was changed.
         let turned = difference(&positions[low], &positions[high]).0;
         way.push((edge, turned != (previous > body)));
         body = previous;

@@ -1,4 +1,4 @@
-//! Candidates for common factors of a sum f: f = K Q + R.
+//! Candidates K for common factors of a sum f = K Q + R.
 
 use std::cmp::Reverse;
 
@@ -8,16 +8,17 @@ use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 use super::terms::{Powers, Term, Terms, is_unit, term_length};
 use crate::rational::Rational;
 
-/// Sums of more terms are searched for single variables alone, not for what pairs of terms share.
+/// The largest number of terms of a sum in which pairs of terms are compared.
 const MAX_PAIRED: usize = 160;
 
-/// The common powers by which sums of several terms are sought, those first that shorten most.
+/// The number of common powers whose quotients are tried as factors themselves; those that shorten the sum most are
+/// used.
 const MAX_KERNELS: usize = 48;
 
-/// Integers up to this may be made as coefficients though no term has them.
+/// The largest integer that is allowed as a coefficient even if no term has it.
 const MAX_INTEGER: i64 = 16;
 
-/// Longer sums are not squared: their brackets could not be broken over lines.
+/// The largest length of a sum that is written as a square: the brackets of longer sums could not be broken over lines.
 const MAX_SQUARED: usize = 5;
 
 /// A way to write a sum f as K Q + R.
@@ -25,29 +26,30 @@ const MAX_SQUARED: usize = 5;
 pub(super) struct Candidate {
     /// K.
     pub(super) factor: Terms,
-    /// Q; for a square, K.
+    /// Q; equal to K for a square.
     pub(super) quotient: Terms,
-    /// The places of the terms of K Q, in order: R is the other terms.
+    /// The sorted places of the terms of K Q; the other terms are R.
     used: Vec<usize>,
-    /// The printed symbols that it saves, by lengths of parts that are not yet factored.
+    /// The number of printed symbols that it saves, estimated from K, Q and R before they are factored.
     gain: isize,
 }
 
 impl Candidate {
-    /// Whether a square is taken apart: x (x + y).
+    /// Whether the candidate splits a square, as in x (x + y).
     fn splits_power(&self) -> bool {
         let [(factor, _)] = self.factor.as_slice() else { return false };
         let quotient = self.quotient.as_slice();
         factor.iter().any(|(one, _)| quotient.iter().any(|(powers, _)| powers.exponent(one) > 0))
     }
 
-    /// R, of the terms of f.
+    /// Returns R, given the terms of f.
     pub(super) fn rest(&self, terms: &Terms) -> Terms {
         terms.without(&self.used)
     }
 }
 
-/// The candidates of a sum, best first. `figures` are the absolute values of coefficients that may be printed.
+/// Returns the candidates of a sum, best first. `figures` are the absolute values of coefficients that are allowed in
+/// the result, besides small integers.
 pub(super) fn candidates(terms: &Terms, figures: &FxHashSet<Rational>) -> Vec<Candidate> {
     let seeker = Seeker::new(terms, figures);
     let mut found = seeker.squares();
@@ -57,12 +59,12 @@ pub(super) fn candidates(terms: &Terms, figures: &FxHashSet<Rational>) -> Vec<Ca
     found.extend(seeker.pairs());
     found.extend(seeker.numbers());
     found.retain(|candidate| candidate.gain >= 0);
-    // The sort is stable: of equal gains the first kind, but x (x + y) after others.
+    // The sort is stable: equal gains stay in the order of the kinds above, but candidates like x (x + y) come last.
     found.sort_by_key(|candidate| (Reverse(candidate.gain), candidate.splits_power()));
     found
 }
 
-/// Two terms of a sum, divided by what they have in common, the lesser one first.
+/// Two terms of a sum, divided by their common powers; the numbers are in the order of the remaining powers.
 struct Pair<'t> {
     common: Powers,
     numbers: [&'t Rational; 2],
@@ -73,11 +75,11 @@ struct Seeker<'t> {
     terms: &'t Terms,
     figures: &'t FxHashSet<Rational>,
     places: FxHashMap<&'t Powers, usize>,
-    /// The variables of each term, by [`Powers::bits`].
+    /// The variables of each term, as given by [`Powers::bits`].
     bits: Vec<u64>,
-    /// The printed symbols of each term without its sign.
+    /// The number of printed symbols of each term, without its sign.
     lengths: Vec<usize>,
-    /// The printed symbols of all.
+    /// The number of printed symbols of the sum.
     length: usize,
 }
 
@@ -90,11 +92,11 @@ impl<'t> Seeker<'t> {
         Seeker { terms, figures, places, bits, lengths, length: terms.unsigned_length() }
     }
 
-    /// f = K Q + R from the places of the terms of K Q.
+    /// Creates the candidate f = K Q + R from K, Q and the places of the terms of K Q.
     fn candidate(&self, factor: Terms, quotient: Terms, mut used: Vec<usize>) -> Candidate {
         used.sort_unstable();
         let taken: usize = used.iter().filter_map(|place| self.lengths.get(*place)).sum();
-        // A sign less for each term that is taken, and none within K Q.
+        // Each term of K Q also takes its sign with it; the sign of K Q as a whole is added below.
         let rest = (self.length - taken).saturating_sub(used.len());
         let square = factor == quotient && factor.len() > 1;
         let product = match square {
@@ -106,15 +108,15 @@ impl<'t> Seeker<'t> {
         Candidate { factor, quotient, used, gain }
     }
 
-    /// Whether a coefficient may be printed.
+    /// Whether a coefficient is allowed in the result.
     fn allows(&self, number: &Rational) -> bool {
         let number = number.abs();
         number.to_integer().is_some_and(|integer| integer <= MAX_INTEGER)
             || self.figures.contains(&number)
     }
 
-    /// Single variables and the common powers of pairs of terms, and the sums that they are multiplied by as factors
-    /// themselves (co-kernels and kernels).
+    /// Candidates whose factor is a variable or the common powers of two terms (co-kernels), and candidates whose
+    /// factor is the quotient of one of these (kernels).
     fn powers(&self) -> (Vec<Candidate>, Vec<Candidate>) {
         let mut seeds: IndexSet<Powers, FxBuildHasher> = IndexSet::default();
         seeds.extend(self.terms.variables().into_iter().map(Powers::of));
@@ -146,7 +148,8 @@ impl<'t> Seeker<'t> {
         (candidates, kernels)
     }
 
-    /// The terms that some powers divide, two at least, divided by all that these have in common.
+    /// Divides the terms that `seed` divides by all that these terms have in common; `None` if there are fewer than
+    /// two.
     fn divided(&self, seed: &Powers) -> Option<(Powers, Terms, Vec<usize>)> {
         let mut used = vec![];
         let mut quotient: Vec<Term> = vec![];
@@ -171,7 +174,7 @@ impl<'t> Seeker<'t> {
         Some((seed.product(&more), quotient.over(&more), used))
     }
 
-    /// The weak division by a sum of several terms, if it is a factor of several products.
+    /// Divides weakly by a sum of several terms; `None` unless it is a factor of several products.
     fn by_sum(&self, divisor: &Terms) -> Option<Candidate> {
         let (first, inverse) = divisor
             .as_slice()
@@ -197,12 +200,12 @@ impl<'t> Seeker<'t> {
         (quotient.len() > 1).then(|| self.candidate(divisor.clone(), quotient, used))
     }
 
-    /// Whether a term has these powers.
+    /// Whether one of the terms has these powers.
     fn has(&self, powers: &Powers) -> bool {
         self.places.contains_key(powers)
     }
 
-    /// The places of the terms of a product of a sum with one term, all of them unused.
+    /// The places of the terms of the product of a sum and one term; `None` if a term is missing or already used.
     fn places_of(
         &self,
         sum: &Terms,
@@ -218,7 +221,7 @@ impl<'t> Seeker<'t> {
         sum.as_slice().iter().map(place).collect()
     }
 
-    /// Sums of two terms that are factors of several products (double-cube divisors).
+    /// Candidates whose factor is a sum of two terms that occurs in several products (double-cube divisors).
     fn pairs(&self) -> Vec<Candidate> {
         let all = self.terms.as_slice();
         if all.len() > MAX_PAIRED {
@@ -233,7 +236,7 @@ impl<'t> Seeker<'t> {
                 alike.entry((a, b)).or_default().push(Pair { common, numbers, places: [i, j] });
             }
         }
-        // Most pairs occur once: only of the others the numbers are compared.
+        // Most pairs occur only once, so the numbers are compared only for the others.
         let mut found: Vec<(Powers, Powers, Rational, Vec<Pair<'t>>)> = vec![];
         for ((a, b), pairs) in alike.into_iter().filter(|(_, pairs)| pairs.len() > 1) {
             let mut by_ratio: IndexMap<Rational, Vec<Pair<'t>>, FxBuildHasher> =
@@ -246,7 +249,7 @@ impl<'t> Seeker<'t> {
             let several = by_ratio.into_iter().filter(|(_, pairs)| pairs.len() > 1);
             found.extend(several.map(|(ratio, pairs)| (a.clone(), b.clone(), ratio, pairs)));
         }
-        // In the order of the first pair of each.
+        // Each is sorted by its first pair.
         found.sort_by_key(|(.., pairs)| pairs.first().map(|pair| pair.places));
         let candidate = |(a, b, ratio, pairs): (Powers, Powers, Rational, Vec<Pair<'t>>)| {
             self.by_pair(&a, &b, &ratio, &pairs)
@@ -261,7 +264,8 @@ impl<'t> Seeker<'t> {
         ratio: &Rational,
         pairs: &[Pair<'t>],
     ) -> Option<Candidate> {
-        // Of the ways to share numbers between the two factors the first that makes no new ones.
+        // Numbers can be shared between the two factors in several ways; the first way that makes no new numbers is
+        // used.
         let first = |pair: &Pair<'t>| pair.numbers[0];
         let mut scales =
             std::iter::once(Rational::ONE).chain(pairs.iter().map(|pair| first(pair).abs()));
@@ -288,7 +292,7 @@ impl<'t> Seeker<'t> {
         (quotient.len() > 1).then(|| self.candidate(factor, quotient, used))
     }
 
-    /// Numbers that several terms have.
+    /// Candidates whose factor is a number that several terms have.
     fn numbers(&self) -> Vec<Candidate> {
         let mut by_number: IndexMap<Rational, Vec<usize>, FxBuildHasher> = IndexMap::default();
         for (place, (_, number)) in self.terms.as_slice().iter().enumerate() {
@@ -306,7 +310,7 @@ impl<'t> Seeker<'t> {
         several.filter_map(candidate).collect()
     }
 
-    /// Complete squares of sums.
+    /// Candidates that are complete squares of sums.
     fn squares(&self) -> Vec<Candidate> {
         let all = self.terms.as_slice();
         let root = |(powers, number): &Term| number.is_one().then(|| powers.root()).flatten();
@@ -331,7 +335,7 @@ impl<'t> Seeker<'t> {
         found
     }
 
-    /// The sign of a further term of a sum, by the double products of a square.
+    /// The sign of a further term of a sum, from the double products of the square; `None` if these do not fit.
     fn sign_of(&self, sum: &[Term], other: &Powers) -> Option<Rational> {
         let sign = |(powers, own): &Term| {
             let number = &self.terms.as_slice().get(*self.places.get(&powers.product(other))?)?.1;
@@ -356,7 +360,7 @@ impl<'t> Seeker<'t> {
     }
 }
 
-/// The printed symbols of a factor, in brackets if it is a sum.
+/// The number of printed symbols of a factor, with brackets if it is a sum.
 fn part(terms: &Terms) -> usize {
     match terms.as_slice() {
         [(powers, number)] if powers.is_one() && is_unit(number) => 0,
@@ -365,7 +369,7 @@ fn part(terms: &Terms) -> usize {
     }
 }
 
-/// The length of a sum that has not been factored: less if it is a complete square.
+/// Estimates the length of a sum that is not yet factored; a common factor or a complete square makes it shorter.
 fn estimate(terms: &Terms) -> usize {
     let content = terms.content();
     if content.is_one() {
@@ -375,7 +379,7 @@ fn estimate(terms: &Terms) -> usize {
     terms.unsigned_length().min(content.length() + inner + 1)
 }
 
-/// The length of a sum, or that of the power that it is.
+/// The length of a sum, or of its square root with an exponent if it can be a complete square.
 fn flat_or_square(terms: &Terms) -> usize {
     let roots = terms.as_slice().iter();
     let roots = roots.filter(|(powers, number)| number.is_one() && powers.root().is_some());
@@ -384,6 +388,6 @@ fn flat_or_square(terms: &Terms) -> usize {
         return terms.unsigned_length();
     }
     let root: usize = roots.filter_map(|(powers, _)| powers.root()).map(|it| it.length() + 1).sum();
-    // As long as the signs of the double products agree, which the search for squares looks at.
+    // The signs of the double products are not checked here; the search for squares does that.
     terms.unsigned_length().min(root + 1)
 }

@@ -1,4 +1,4 @@
-//! Nested sums of products: factors are taken out recursively, the best of a few ways at each step.
+//! Nested sums of products: factors are taken out recursively, by the best of a few candidates at each step.
 
 use std::cmp::Ordering;
 use std::rc::Rc;
@@ -9,16 +9,16 @@ use super::divisors::{Candidate, candidates};
 use super::terms::{Powers, Term, Terms, Variable, is_unit};
 use crate::rational::Rational;
 
-/// The ways that are followed at each depth; one beyond.
+/// The number of candidates that are tried at each depth; beyond these depths one is tried.
 const WIDTHS: [usize; 3] = [4, 3, 2];
 
-/// Brackets within brackets within brackets, and no deeper.
+/// The deepest nesting of brackets.
 const MAX_BRACKETS: usize = 3;
 
-/// Sums of sums of sums: beyond this depth they stay as they are.
+/// The deepest nesting of sums that are factored; deeper sums stay as they are.
 const MAX_DEPTH: usize = 16;
 
-/// The work, in squares of numbers of terms, after which only the best way is followed.
+/// The work, in squares of numbers of terms, after which only the best candidate is tried.
 const MAX_WORK: usize = 400_000;
 
 /// A sum of products.
@@ -27,7 +27,7 @@ pub(super) struct Formula {
     pub(super) products: Vec<Product>,
 }
 
-/// A coefficient, powers of variables, and powers of sums.
+/// A product of a coefficient, powers of variables, and powers of sums.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Product {
     pub(super) coefficient: Rational,
@@ -51,8 +51,9 @@ impl Product {
         }
     }
 
-    /// The product of a variable and a sum as people write it if both ways have the same length: not in brackets if
-    /// it is a parameter before a sum of sines and cosines that have coefficients in brackets themselves.
+    /// Multiplies out a parameter times a sum of two products with sines, cosines or motions, if the sum has brackets
+    /// itself: both ways have the same length, and people write it without the outer brackets. Other products are
+    /// returned unchanged.
     fn opened(self, early: usize) -> Vec<Product> {
         let is_early = |(variable, _): (Variable, u16)| usize::from(variable) < early;
         let variable = Product { sums: vec![], ..self.clone() };
@@ -76,7 +77,7 @@ impl Product {
         }
     }
 
-    /// The variables that stand both before and within brackets.
+    /// The number of variables that stand both before and within brackets.
     fn split_powers(&self) -> usize {
         let within = |variable: Variable| {
             let products = self.sums.iter().flat_map(|(sum, _)| &sum.products);
@@ -87,7 +88,7 @@ impl Product {
             + inside.sum::<usize>()
     }
 
-    /// The variables from `early` on that are in brackets.
+    /// The number of variables from `early` on that are within brackets.
     fn late_in_brackets(&self, early: usize) -> usize {
         let sums = self.sums.iter();
         sums.map(|(sum, _)| sum.products.iter().map(|it| it.late(early)).sum::<usize>()).sum()
@@ -99,7 +100,7 @@ impl Product {
         own + self.late_in_brackets(early)
     }
 
-    /// The printed symbols without the sign.
+    /// The number of printed symbols, without the sign.
     fn length(&self) -> usize {
         let alone = self.powers.is_one() && self.sums.is_empty();
         let number = usize::from(alone || !is_unit(&self.coefficient));
@@ -112,7 +113,7 @@ impl Product {
         self.sums.iter().map(|(sum, _)| 1 + sum.depth()).max().unwrap_or_default()
     }
 
-    /// The first term of the product once it is multiplied out, by which products are listed.
+    /// The first term of the product when it is multiplied out; products are sorted by it.
     fn first(&self) -> Powers {
         self.sums.iter().fold(self.powers.clone(), |first, (sum, exponent)| {
             let own = sum.products.iter().map(Product::first).min().unwrap_or_default();
@@ -122,17 +123,17 @@ impl Product {
 }
 
 impl Formula {
-    /// The printed symbols.
+    /// The number of printed symbols.
     pub(super) fn length(&self) -> usize {
         let products: usize = self.products.iter().map(Product::length).sum();
         let leading = self.products.first().is_some_and(|first| first.coefficient.is_negative());
         products + self.products.len().saturating_sub(1) + usize::from(leading)
     }
 
-    /// What makes a formula harder to read: its printed symbols, then brackets within brackets, then squares that are
-    /// taken apart (x (x + y)), then sines, cosines and motions within brackets, then the number of its products.
+    /// Measures how hard a formula is to read, by the following numbers in this order: printed symbols, nested
+    /// brackets, squares that are split as in x (x + y), sines, cosines and motions within brackets, and products.
     ///
-    /// A common factor in front of brackets reads better than in every term, but not in brackets again.
+    /// A common factor reads better before brackets than in every term, but not if it is within brackets itself.
     fn measure(&self, early: usize, is_within: bool) -> [usize; 5] {
         let late = match self.depth() {
             0 if is_within => 1,
@@ -143,12 +144,12 @@ impl Formula {
         [self.length(), self.depth().saturating_sub(1), split, late, self.products.len()]
     }
 
-    /// The depth of brackets within brackets.
+    /// The depth of nested brackets.
     fn depth(&self) -> usize {
         self.products.iter().map(Product::depth).max().unwrap_or_default()
     }
 
-    /// The terms as they are.
+    /// The terms without any brackets.
     pub(super) fn flat(terms: &Terms) -> Formula {
         let products = terms.as_slice().iter();
         let products =
@@ -156,8 +157,8 @@ impl Formula {
         Formula::sorted(products.collect(), |_| false)
     }
 
-    /// A sum in the order in which products are listed, those that are late after the others, but that it begins
-    /// with a minus sign only if all have one.
+    /// A sum with its products in the order in which they are listed, and with late ones after the others. The first
+    /// positive product is moved to the beginning, so the sum begins with a minus sign only if all products have one.
     fn sorted(mut products: Vec<Product>, is_late: impl Fn(&Powers) -> bool) -> Formula {
         products.sort_by_cached_key(|product| {
             let first = product.first();
@@ -170,7 +171,7 @@ impl Formula {
         Formula { products }
     }
 
-    /// The sum as it stands in brackets, where sines, cosines and motions come last, times 1 or −1.
+    /// The sum times `sign`, 1 or −1, as it is written in brackets: products with sines, cosines and motions come last.
     fn in_brackets(&self, sign: &Rational, early: usize) -> Formula {
         let signed = |product: &Product| Product {
             coefficient: &product.coefficient * sign,
@@ -181,7 +182,8 @@ impl Formula {
         Formula::sorted(self.products.iter().map(signed).collect(), is_late)
     }
 
-    /// The sum without a minus sign at its beginning, if brackets can take it: `(b - a) c` for `-(a - b) c`.
+    /// Removes the minus sign at the beginning if brackets can absorb it: `(b - a) c` for `-(a - b) c`. Otherwise
+    /// `None`.
     fn without_leading_minus(&self, early: usize) -> Option<Formula> {
         if !self.products.first()?.coefficient.is_negative() {
             return None;
@@ -205,7 +207,8 @@ impl Formula {
         Some(formula)
     }
 
-    /// The formula with each sum in brackets multiplied out that is as short so, if it has brackets within brackets.
+    /// Multiplies out the sums in brackets that do not become longer, if this reduces the nesting of brackets;
+    /// otherwise `None`.
     fn unnested(&self, early: usize) -> Option<Formula> {
         if self.depth() < 2 {
             return None;
@@ -220,7 +223,7 @@ impl Formula {
         (formula.depth() < self.depth()).then_some(formula)
     }
 
-    /// The sum multiplied out.
+    /// The terms of the sum when it is multiplied out.
     fn terms(&self) -> Terms {
         Terms::sum(self.products.iter().flat_map(|product| {
             let own = Terms::single(product.powers.clone(), product.coefficient.clone());
@@ -236,7 +239,7 @@ impl Formula {
         }))
     }
 
-    /// Whether the sum reads better with its signs changed: most of them are minus.
+    /// Whether the sum reads better with its signs changed, because most of them are minus.
     fn is_rather_negative(&self) -> bool {
         let is_negative = |product: &&Product| product.coefficient.is_negative();
         let negative = self.products.iter().filter(is_negative).count();
@@ -249,22 +252,22 @@ impl Formula {
     }
 }
 
-/// Where a sum stands.
+/// The place of a sum within the formula.
 #[derive(Clone, Copy)]
 struct Place {
-    /// The sums that it is a part of.
+    /// The number of sums that contain it.
     depth: usize,
-    /// The brackets that may be put into it within each other.
+    /// The number of nested brackets that are still allowed within it.
     brackets: usize,
 }
 
-/// The short forms of the parts of one sum.
+/// The search for the short forms of one sum and its parts.
 pub(super) struct Factoring {
-    /// The absolute values of its coefficients: other numbers are not made.
+    /// The absolute values of its coefficients; no other numbers are made, except small integers.
     figures: FxHashSet<Rational>,
     known: FxHashMap<(Terms, usize), Rc<Formula>>,
     work: usize,
-    /// The number of variables that stand before brackets.
+    /// The number of variables that are written before brackets.
     early: usize,
 }
 
@@ -274,7 +277,7 @@ impl Factoring {
         Factoring { figures, known: FxHashMap::default(), work: 0, early }
     }
 
-    /// The shortest form that is found.
+    /// Returns the shortest form that is found.
     pub(super) fn formula(&mut self, terms: &Terms) -> Formula {
         let best = self.best(terms, Place { depth: 0, brackets: MAX_BRACKETS });
         best.without_leading_minus(self.early).unwrap_or_else(|| (*best).clone())
@@ -334,7 +337,7 @@ impl Factoring {
         Formula::sorted(products, |_| false)
     }
 
-    /// The product of sums, each in its best form, with the sign that has fewer minus signs.
+    /// The product of sums, each in its best form and with the sign that gives fewer minus signs.
     fn product(&mut self, factors: &[&Terms], place: Place) -> Product {
         let mut product = Product::single(Powers::default(), Rational::ONE);
         let within = Place { depth: place.depth + 1, brackets: place.brackets.saturating_sub(1) };
@@ -354,7 +357,7 @@ impl Factoring {
     }
 }
 
-/// The powers that divide all terms, and the number if it is the same in all but for the sign.
+/// The powers that divide all terms, and the absolute value of their coefficients if all have the same, otherwise 1.
 fn common_factor(terms: &Terms) -> Term {
     let mut numbers = terms.as_slice().iter().map(|(_, number)| number.abs());
     let first = numbers.next().unwrap_or(Rational::ONE);
@@ -362,7 +365,7 @@ fn common_factor(terms: &Terms) -> Term {
     (terms.content(), if is_common { first } else { Rational::ONE })
 }
 
-/// The terms divided by a product that divides all of them.
+/// Divides the terms by a product that divides all of them.
 fn divided(terms: &Terms, (powers, number): &Term) -> Terms {
     let inverse = number.recip().unwrap_or(Rational::ONE);
     terms.over(powers).scaled(&inverse)

@@ -1,21 +1,21 @@
-//! Short formulas: sums of products with what they have in common taken out of brackets, and sines
-//! and cosines of sums of angles where these are shorter.
+//! Short formulas: sums of products in which common factors are taken out of brackets, with sines and cosines of sums
+//! of angles where these are shorter.
 //!
-//! A [`Collector`] turns a canonical [`Polynomial`] into a nested sum of products. Its steps:
+//! A [`Collector`] turns a canonical [`Polynomial`] into a nested sum of products in three steps:
 //!
-//! 1. in every group of parallel joints, each coefficient is written in the angles between links that make it
-//!    shortest, and in small groups all coefficients in the same angles, whichever gives the shorter formula in the end
-//!    (`angles`, `addition`);
-//! 2. of the squares of a sine and a cosine the shorter one is chosen (`squares`);
-//! 3. common factors are taken out, recursively: products of powers, sums that occur several times, and
-//!    complete squares (`divisors`, `factoring`), after the weak division of R. Brayton and C. McMullen, "The
-//!    decomposition and factorization of Boolean expressions", 1982, and the two-term divisors of
-//!    J. Rajski and J. Vasudevamurthy, 1992.
+//! 1. In every group of parallel joints, each coefficient is written in the angles between links that make it shortest.
+//!    In a small polynomial, all coefficients are also written in the same angles, and the form that gives the shorter
+//!    formula in the end is kept (`angles`, `addition`).
+//! 2. For each angle, the squares of the sine or those of the cosine are used, whichever gives shorter terms
+//!    (`squares`).
+//! 3. Common factors are taken out recursively: products of powers, sums that occur several times, and complete squares
+//!    (`divisors`, `factoring`). This follows the weak division of R. Brayton and C. McMullen, "The decomposition and
+//!    factorization of Boolean expressions", 1982, and the two-term divisors of J. Rajski and J. Vasudevamurthy, 1992.
 //!
 //! The length of a formula is the number of its printed symbols: a symbol with its index, a number, a sign, an
-//! exponent, a pair of brackets, and the sine or cosine of a sum of angles count one each. Numbers do not
-//! change: no coefficient is printed that is neither in the polynomial nor an integer. The result is proved equal
-//! to the polynomial by expanding it again; what cannot be proved is left as the sum that it was.
+//! exponent, a pair of brackets, and the sine or cosine of a sum of angles count one each. Numbers do not change: every
+//! printed coefficient is one of the polynomial or an integer. The result is proved equal to the polynomial by
+//! expanding it again; if the proof fails, the polynomial is printed as a plain sum.
 
 mod addition;
 mod angles;
@@ -40,28 +40,29 @@ use factoring::{Factoring, Formula};
 use terms::Terms;
 use variables::Variables;
 
-/// Polynomials with more terms are not collected: the time grows with the third power of their number.
+/// The largest number of terms of a polynomial that is collected, because the time grows with the third power of it.
 pub const MAX_TERMS: usize = 400;
 
-/// A polynomial of at most so many terms, with one group of parallel joints of at most so many bases of angles, is tried in
-/// each basis as a whole, too.
+/// A polynomial is also written in each basis of angles as a whole if it has at most this many terms and one group of
+/// parallel joints, and if this group has at most `MAX_BASES` bases.
 const MAX_WHOLE: usize = 60;
 const MAX_BASES: usize = 4;
 
 /// Builds short forms of the polynomials of one graph.
 #[derive(Clone, Copy, Debug)]
 pub struct Collector<'g, 'a> {
-    /// Groups of parallel joints, whose sums of angles may be written; none if sums of angles are to be expanded.
+    /// The groups of parallel joints whose sums of angles can be written; empty if all sums of angles are to stay
+    /// expanded.
     pub angles: &'a [ParallelAngles<'g>],
-    /// Whether common factors are taken out of parentheses.
+    /// Whether common factors are taken out of brackets.
     pub factors: bool,
 }
 
 impl<'g> Collector<'g, '_> {
-    /// The terms of the short form of a polynomial in which angle sums are expanded, with the factors in the
-    /// order of the ranks that `rank` gives to atoms; sums in brackets have the rank `brackets`.
+    /// Returns the terms of the short form of a polynomial in which angle sums are expanded. The factors of a term are
+    /// in the order of the ranks that `rank` gives to atoms; sums in brackets have the rank `brackets`.
     ///
-    /// A polynomial that has floating-point numbers or more than [`MAX_TERMS`] terms is arranged as it is.
+    /// A polynomial with floating-point numbers or with more than [`MAX_TERMS`] terms is only arranged.
     #[must_use]
     pub fn collect<K: Ord>(
         &self,
@@ -75,7 +76,7 @@ impl<'g> Collector<'g, '_> {
         cancel(&mut terms, polynomial.graph());
         match proved(&terms, polynomial) {
             Some(Proved::Same) => terms,
-            // A factor has met the same sum under a fraction bar.
+            // A sum in the numerator has cancelled the same sum in a denominator.
             Some(Proved::Shorter(cancelled)) => self.collect(&cancelled, rank, brackets),
             None => {
                 debug_assert!(false, "a collected formula differs from its polynomial");
@@ -143,7 +144,7 @@ fn term_length(term: &ArrangedTerm<'_>) -> usize {
     number + bar + term.factors.iter().map(factor).sum::<usize>()
 }
 
-/// Cancels sums in brackets that are in the same term's denominator.
+/// Cancels each sum in brackets with the same sum in the denominator of its term.
 fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
     let of = |value: Expr<'g>| Polynomial::of(value, &PolynomialOptions::default()).ok();
     for term in terms {
@@ -180,15 +181,15 @@ fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
     }
 }
 
-/// What is known of terms that are equal to a polynomial.
+/// The result of a proof that terms are equal to a polynomial.
 enum Proved<'g> {
-    /// They stay.
+    /// The terms can be kept.
     Same,
-    /// Multiplied out they are this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
+    /// The terms, multiplied out, are this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
     Shorter(Polynomial<'g>),
 }
 
-/// Whether terms, multiplied out, are the polynomial.
+/// Proves that terms are equal to the polynomial by multiplying them out; `None` if this fails.
 fn proved<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> Option<Proved<'g>> {
     let value = crate::print::arranged_value(terms, polynomial.graph());
     let expanded = Polynomial::of(value, &PolynomialOptions::default()).ok()?;
@@ -204,10 +205,11 @@ fn proved<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> Option
     })
 }
 
-/// Sums under the fraction bars of sums: beyond this depth nothing is proved.
+/// The deepest nesting of sums in denominators with which equality is proved.
 const MAX_DENOMINATORS: usize = 4;
 
-/// Whether a polynomial is 0 once it is multiplied by the sums in its denominators, which are atoms to it.
+/// Whether a polynomial is 0 after it is multiplied by the sums in its denominators, which are atoms otherwise. `None`
+/// if this cannot be decided within the limits.
 fn is_zero(mut polynomial: Polynomial<'_>) -> Option<bool> {
     let graph = polynomial.graph();
     for _ in 0..MAX_DENOMINATORS {

@@ -1,12 +1,12 @@
-//! The square of a sine or that of a cosine: whichever is shorter.
+//! The choice between the squares of a sine and those of the cosine, whichever is shorter.
 
 use super::terms::{Powers, Term, Terms, Variable};
 use super::variables::Variables;
 
-/// The most angles whose squares are chosen together; of further ones the cosine's stays.
+/// The largest number of angles whose squares are chosen together; the cosines of further angles keep their squares.
 const MAX_ANGLES: usize = 4;
 
-/// The terms, with squares of cosines, by squares of sines where that is shorter.
+/// Replaces squares of cosines by squares of sines for the angles where this gives shorter terms.
 pub(super) fn chosen(terms: &Terms, variables: &Variables<'_>) -> Terms {
     let mut squared: Vec<Variable> = vec![];
     for (powers, _) in terms.as_slice() {
@@ -26,7 +26,7 @@ pub(super) fn chosen(terms: &Terms, variables: &Variables<'_>) -> Terms {
     forms.min_by_key(Terms::length).unwrap_or_else(|| terms.clone())
 }
 
-/// The terms with 1 − sin² for the square of a cosine.
+/// Replaces the square of a cosine by 1 − sin².
 fn by_sine(terms: &Terms, cosine: Variable, variables: &Variables<'_>) -> Terms {
     let Some(sine) = variables.partner(cosine) else { return terms.clone() };
     let mut pending: Vec<Term> = terms.as_slice().to_vec();
@@ -47,7 +47,7 @@ fn square(variable: Variable) -> Powers {
     Powers::from_unsorted([(variable, 2)].into_iter())
 }
 
-/// The terms with k m − k m cos² as k m sin², and with sines and cosines the other way round.
+/// Replaces k m − k m cos² by k m sin², and the same with sines and cosines exchanged.
 fn merged(mut terms: Terms, variables: &Variables<'_>) -> Terms {
     while let Some((places, term)) = mergeable(terms.as_slice(), variables) {
         let rest = terms.without(&places);
@@ -56,7 +56,7 @@ fn merged(mut terms: Terms, variables: &Variables<'_>) -> Terms {
     terms
 }
 
-/// The places, in order, of two terms that are one, and that one.
+/// The sorted places of two terms that can be merged into one, and the merged term.
 fn mergeable(terms: &[Term], variables: &Variables<'_>) -> Option<([usize; 2], Term)> {
     for (place, (powers, number)) in terms.iter().enumerate() {
         for (variable, exponent) in powers.iter() {

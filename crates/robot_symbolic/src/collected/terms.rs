@@ -1,4 +1,4 @@
-//! Sums of products over numbered variables: the polynomials on which factors are sought.
+//! Sums of products of numbered variables: the polynomials in which common factors are searched for.
 
 use std::cmp::Ordering;
 
@@ -7,20 +7,20 @@ use smallvec::SmallVec;
 use crate::polynomial::compare_powers;
 use crate::rational::Rational;
 
-/// The number of a variable. Variables are numbered in the order in which they print.
+/// The number of a variable. Variables are numbered in the order in which they are printed.
 pub(super) type Variable = u16;
 
-/// A product of powers of variables, by variable; the exponents are positive.
+/// A product of powers of variables, sorted by variable; the exponents are positive.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct Powers(SmallVec<[(Variable, u16); 7]>);
 
 impl Powers {
-    /// A variable.
+    /// The first power of a variable.
     pub(super) fn of(variable: Variable) -> Powers {
         Powers(SmallVec::from_slice(&[(variable, 1)]))
     }
 
-    /// Powers in any order, each variable once.
+    /// The product of powers that are in any order, with no variable twice.
     pub(super) fn from_unsorted(powers: impl Iterator<Item = (Variable, u16)>) -> Powers {
         let mut powers: SmallVec<_> = powers.filter(|(_, exponent)| *exponent > 0).collect();
         powers.sort_unstable();
@@ -61,7 +61,7 @@ impl Powers {
         }
     }
 
-    /// The quotient, if the divisor divides.
+    /// The quotient; `None` if the divisor does not divide the product.
     pub(super) fn quotient(&self, divisor: &Powers) -> Option<Powers> {
         let mut quotient = SmallVec::new();
         let mut divisors = divisor.0.iter().peekable();
@@ -86,7 +86,7 @@ impl Powers {
         Powers(self.iter().filter_map(shared).collect())
     }
 
-    /// The largest product that divides both, and both divided by it.
+    /// The largest product that divides both, and the quotients of both by it.
     pub(super) fn split(&self, other: &Powers) -> [Powers; 3] {
         let (mut common, mut own, mut others) = (SmallVec::new(), SmallVec::new(), SmallVec::new());
         let (mut a, mut b) = (self.iter().peekable(), other.iter().peekable());
@@ -107,12 +107,12 @@ impl Powers {
         }
     }
 
-    /// A set that has the variables of the product, as bits; others may share a bit.
+    /// The set of variables of the product, as bits; variables whose numbers are equal modulo 64 share a bit.
     pub(super) fn bits(&self) -> u64 {
         self.iter().fold(0, |bits, (variable, _)| bits | 1 << (variable % 64))
     }
 
-    /// The square root, if all exponents are even.
+    /// The square root; `None` unless all exponents are even.
     pub(super) fn root(&self) -> Option<Powers> {
         let halved = |(variable, exponent): (Variable, u16)| {
             (exponent % 2 == 0).then_some((variable, exponent / 2))
@@ -120,14 +120,14 @@ impl Powers {
         Some(Powers(self.iter().map(halved).collect::<Option<_>>()?))
     }
 
-    /// The printed symbols: a variable and its exponent count one each.
+    /// The number of printed symbols: a variable counts one, and an exponent above 1 counts one.
     pub(super) fn length(&self) -> usize {
         self.iter().map(|(_, exponent)| 1 + usize::from(exponent > 1)).sum()
     }
 }
 
 impl Ord for Powers {
-    /// As terms are listed: higher powers of the first variable first.
+    /// The order in which terms are listed: higher powers of the first variable first.
     fn cmp(&self, other: &Powers) -> Ordering {
         let power = |power: &(Variable, u16)| (u32::from(power.0), i32::from(power.1));
         compare_powers(&self.0, &other.0, power)
@@ -143,12 +143,12 @@ impl PartialOrd for Powers {
 /// A product of powers with its coefficient, which is not 0.
 pub(super) type Term = (Powers, Rational);
 
-/// A sum of terms, each product once, in the order in which they are listed.
+/// A sum of terms in the order in which they are listed; no product of powers occurs twice.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub(super) struct Terms(Vec<Term>);
 
 impl Terms {
-    /// The sum of terms in any order, like ones merged.
+    /// The sum of terms in any order; terms with the same powers are merged.
     pub(super) fn sum(terms: impl IntoIterator<Item = Term>) -> Terms {
         let mut all: Vec<Term> = terms.into_iter().collect();
         all.sort_by(|(a, _), (b, _)| a.cmp(b));
@@ -163,7 +163,7 @@ impl Terms {
         Terms(merged)
     }
 
-    /// One term.
+    /// The sum that consists of one term.
     pub(super) fn single(powers: Powers, coefficient: Rational) -> Terms {
         Terms(vec![(powers, coefficient)])
     }
@@ -176,20 +176,20 @@ impl Terms {
         self.0.len()
     }
 
-    /// The terms but those at `places`, which are in order.
+    /// The terms except those at `places`, which must be sorted.
     pub(super) fn without(&self, places: &[usize]) -> Terms {
         let kept = self.0.iter().enumerate();
         let kept = kept.filter(|(place, _)| places.binary_search(place).is_err());
         Terms(kept.map(|(_, term)| term.clone()).collect())
     }
 
-    /// The product with a number that is not 0.
+    /// The product of the sum and a number that is not 0.
     pub(super) fn scaled(&self, factor: &Rational) -> Terms {
         let scaled = |(powers, number): &Term| (powers.clone(), number * factor);
         Terms(self.0.iter().map(scaled).collect())
     }
 
-    /// The product with one term.
+    /// The product of the sum and one term.
     pub(super) fn times(&self, (powers, number): &Term) -> Terms {
         let times = |(own, coefficient): &Term| (own.product(powers), coefficient * number);
         Terms::sum(self.0.iter().map(times))
@@ -208,13 +208,13 @@ impl Terms {
         powers.fold(first, |common, powers| common.common(powers))
     }
 
-    /// The printed symbols of the sum as it is: factors, exponents, coefficients, signs.
+    /// The number of printed symbols of the sum as it is: factors, exponents, coefficients, signs.
     pub(super) fn length(&self) -> usize {
         let leading = self.0.first().is_some_and(|(_, number)| number.is_negative());
         self.unsigned_length() + usize::from(leading)
     }
 
-    /// The printed symbols but for a minus sign at the beginning, which the term that has the sum in brackets may take.
+    /// The length without a minus sign at the beginning, which the term that contains the sum in brackets can absorb.
     pub(super) fn unsigned_length(&self) -> usize {
         self.0.iter().map(term_length).sum::<usize>() + self.0.len().saturating_sub(1)
     }
@@ -229,7 +229,7 @@ impl Terms {
     }
 }
 
-/// The printed symbols of a term without its sign.
+/// The number of printed symbols of a term, without its sign.
 pub(super) fn term_length((powers, number): &Term) -> usize {
     powers.length() + usize::from(powers.is_one() || !is_unit(number))
 }

@@ -1,10 +1,10 @@
-//! Short forms of small polynomials, and random ones proved equal.
+//! Short forms of small polynomials, and random polynomials, whose short forms are proved equal to them.
 
 use crate::collected::{Collector, ParallelAngles, Turn};
 use crate::print::{arranged_text, default_rank};
 use crate::{Graph, Polynomial, PolynomialOptions};
 
-/// The short form of text, with the angles of parallel joints `q1`, `q2`, … in a chain.
+/// The short form of a text, with parallel joints `q1`, `q2`, … in a chain.
 fn collected(source: &str, joints: usize) -> String {
     let graph = Graph::new();
     let turns = (0..joints).map(|joint| Turn {
@@ -64,7 +64,7 @@ fn coefficients_of_sines_are_in_brackets() {
 
 #[test]
 fn sums_under_fraction_bars_cancel() {
-    // Masses that add up: the center of two bodies has their sum in its denominator.
+    // Masses can add up: the center of mass of two bodies has the sum of their masses in its denominator.
     for (source, expected) in [
         ("m^3*r/(m + n)^2 + 2*m^2*n*r/(m + n)^2 + m*n^2*r/(m + n)^2", "m*r"),
         ("k*m/(m + n) + k*n/(m + n) + a*k", "k*(a + 1)"),

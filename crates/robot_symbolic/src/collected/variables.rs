@@ -1,5 +1,5 @@
-//! The variables of a polynomial: its atoms, the reciprocals of atoms, and the sines and cosines of all
-//! angles between the links of its groups of parallel joints.
+//! The variables of a polynomial: its atoms, the reciprocals of atoms, and the sines and cosines of all angles between
+//! the links of its groups of parallel joints.
 
 use rustc_hash::FxHashMap;
 
@@ -13,23 +13,23 @@ use crate::polynomial::Polynomial;
 use crate::print::{ArrangedFactor, ArrangedTerm};
 use crate::walk;
 
-/// What a variable is for the atoms of the polynomial: an atom, or 1 over it.
+/// The meaning of a variable: an atom of the polynomial, or its reciprocal if the second entry is true.
 type Meaning = (Id, bool);
 
 /// The variables of a polynomial, in the order in which they print.
 pub(super) struct Variables<'g> {
     meanings: Vec<(Expr<'g>, bool)>,
     places: FxHashMap<Meaning, Variable>,
-    /// For the sine or cosine of an angle the variable of the other one.
+    /// For the sine or cosine of an angle, the variable of the cosine or sine of the same angle.
     partners: Vec<Option<Variable>>,
     groups: Vec<Group>,
 }
 
-/// Where a variable is listed: by its rank, then by the coordinates of its angle, sines first.
+/// The sort key of a variable: its rank, then the coordinates of its angle, with sines before cosines.
 type Place<K> = (K, Vec<K>, bool, Id, bool);
 
 impl<'g> Variables<'g> {
-    /// The variables of a polynomial and of groups of angles of which at least two occur in it.
+    /// The variables of a polynomial and of all groups of angles of which at least two occur in it.
     pub(super) fn new<K: Ord>(
         polynomial: &Polynomial<'g>,
         angles: &[ParallelAngles<'g>],
@@ -80,17 +80,17 @@ impl<'g> Variables<'g> {
         if *inverse { None } else { self.find(other) }
     }
 
-    /// The variable of an atom.
+    /// Returns the variable of an atom.
     pub(super) fn find(&self, atom: Expr<'g>) -> Option<Variable> {
         self.places.get(&(atom.id(), false)).copied()
     }
 
-    /// The sine of the angle of a cosine, and the other way round; `None` for other variables.
+    /// The cosine of the same angle for a sine, and the sine for a cosine; `None` for other variables.
     pub(super) fn partner(&self, variable: Variable) -> Option<Variable> {
         self.partners.get(usize::from(variable)).copied().flatten()
     }
 
-    /// The cosine of the angle of a sine; `None` for other variables.
+    /// The cosine of the same angle for a sine; `None` for other variables.
     pub(super) fn cosine_of(&self, sine: Variable) -> Option<Variable> {
         self.partner(sine).filter(|_| !self.is_cosine(sine))
     }
@@ -106,7 +106,7 @@ impl<'g> Variables<'g> {
         &self.groups
     }
 
-    /// The polynomial by variables; `None` if it has floating-point numbers or very large exponents.
+    /// Rewrites the polynomial in the variables; `None` if it has floating-point numbers or very large exponents.
     pub(super) fn read(&self, polynomial: &Polynomial<'g>) -> Option<Terms> {
         let term = |(monomial, number): (&crate::Monomial, &Number)| -> Option<Term> {
             let power = |factor: &crate::polynomial::Factor| {
@@ -120,12 +120,13 @@ impl<'g> Variables<'g> {
         Some(Terms::sum(polynomial.terms().map(term).collect::<Option<Vec<_>>>()?))
     }
 
-    /// The number of variables whose atoms are `early`; these are the first ones.
+    /// The number of variables whose atoms are `early`; they are the first variables.
     pub(super) fn before(&self, early: impl Fn(Expr<'g>) -> bool) -> usize {
         self.meanings.partition_point(|(atom, _)| early(*atom))
     }
 
-    /// A formula as terms for print, with sums in brackets after the factors among the first `early` variables.
+    /// Converts a formula to terms for printing. Sums in brackets stand after the factors among the first `early`
+    /// variables.
     pub(super) fn written(&self, formula: &Formula, early: usize) -> Vec<ArrangedTerm<'g>> {
         formula.products.iter().map(|product| self.product(product, early)).collect()
     }

@@ -1,4 +1,4 @@
-//! Slopes from operands to results.
+//! The forward mode: derivatives propagated from operands to results.
 
 use rustc_hash::FxHashMap;
 
@@ -6,7 +6,7 @@ use crate::expr::{Expr, View};
 use crate::graph::Id;
 use crate::walk;
 
-/// The partial derivatives of `roots` by `symbols`: a row per root, a column per symbol.
+/// Returns the partial derivatives of `roots` with respect to `symbols`: one row per root, one column per symbol.
 #[must_use]
 pub fn forward<'g>(roots: &[Expr<'g>], symbols: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
     let nodes = walk::reachable(roots);
@@ -22,7 +22,7 @@ pub fn forward<'g>(roots: &[Expr<'g>], symbols: &[Expr<'g>]) -> Vec<Vec<Expr<'g>
     rows
 }
 
-/// The slopes of nodes, operands before results, by one symbol; `None` for 0.
+/// The derivatives of nodes, sorted with operands before results, with respect to one symbol; `None` stands for 0.
 fn slopes<'g>(
     nodes: &[Expr<'g>],
     places: &FxHashMap<Id, usize>,

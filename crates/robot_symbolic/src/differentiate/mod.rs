@@ -1,9 +1,10 @@
-//! Jacobian matrices of many expressions by many symbols, in two modes that reuse different intermediate results.
+//! Jacobian matrices of many expressions with respect to many symbols, in two modes that reuse different intermediate
+//! results.
 //!
-//! [`forward`] carries the slopes by every symbol from operands to results: cheap if few symbols
-//! reach a node. [`reverse`] carries, for every root, the weights of nodes from results to operands:
-//! cheap if few roots see a node. Both give the same values; which expressions are cheaper is
-//! found by counting.
+//! [`forward`] propagates the derivatives with respect to every symbol from operands to results, which is cheap if each
+//! node depends on few symbols. [`reverse`] propagates, for every root, the derivatives with respect to the nodes from
+//! results to operands, which is cheap if few roots depend on each node. Both give the same values; a count of the
+//! operations shows which mode gives the cheaper expressions.
 //!
 //! As everywhere, |x| has the derivative sgn x, and sgn x the derivative 0.
 

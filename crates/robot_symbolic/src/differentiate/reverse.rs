@@ -1,4 +1,4 @@
-//! Weights from results to operands.
+//! The reverse mode: derivatives propagated from results to operands.
 
 use rustc_hash::FxHashMap;
 
@@ -6,7 +6,7 @@ use crate::expr::{Expr, View};
 use crate::graph::Id;
 use crate::walk;
 
-/// The partial derivatives of `roots` by `symbols`: a row per root, a column per symbol.
+/// Returns the partial derivatives of `roots` with respect to `symbols`: one row per root, one column per symbol.
 #[must_use]
 pub fn reverse<'g>(roots: &[Expr<'g>], symbols: &[Expr<'g>]) -> Vec<Vec<Expr<'g>>> {
     roots.iter().map(|root| gradient(*root, symbols)).collect()
@@ -19,7 +19,7 @@ fn gradient<'g>(root: Expr<'g>, symbols: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let places: FxHashMap<Id, usize> =
         nodes.iter().enumerate().map(|(place, node)| (node.id(), place)).collect();
     let leads = leads_to(&nodes, &places, symbols);
-    // The derivative of the root by each node.
+    // The derivative of the root with respect to each node.
     let mut weights = vec![graph.zero(); nodes.len()];
     if let Some(last) = weights.last_mut() {
         *last = graph.one();
@@ -64,7 +64,7 @@ fn gradient<'g>(root: Expr<'g>, symbols: &[Expr<'g>]) -> Vec<Expr<'g>> {
     symbols.iter().map(weight).collect()
 }
 
-/// Which nodes depend on the symbols.
+/// For each node, whether it depends on one of the symbols.
 fn leads_to<'g>(
     nodes: &[Expr<'g>],
     places: &FxHashMap<Id, usize>,

@@ -1,9 +1,9 @@
-//! Both ways against each other, against single derivatives and against differences.
+//! Both modes compared with each other, with single derivatives and with finite differences.
 
 use super::{forward, reverse};
 use crate::{Expr, Graph, walk};
 
-/// Values of the symbols x, y, z by order of first use.
+/// The value of an expression for values of the symbols x, y and z, in the order of their first use.
 fn at(expr: Expr<'_>, values: [f64; 3]) -> f64 {
     expr.evaluate(|symbol| values[symbol.index()])
 }

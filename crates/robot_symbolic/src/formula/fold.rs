@@ -1,4 +1,4 @@
-//! Formulas walked step by step.
+//! Folds over the steps of formulas.
 
 use std::ops::Range;
 
@@ -6,14 +6,14 @@ use super::{Formula, Op};
 use crate::graph::Function;
 use crate::rational::Rational;
 
-/// One step of a formula: a leaf, or an operation on the results of its operands.
+/// One step of a formula: a leaf, or an operation on the results for its operands.
 #[derive(Clone, Debug)]
 pub enum Step<'f, T> {
-    /// A number without its sign.
+    /// A number that is not negative: a minus sign is a step of its own.
     Number(&'f Rational),
     /// π.
     Pi,
-    /// A name, and its bytes in the formula's text.
+    /// A name with its bytes in the formula's text.
     Symbol(&'f str, Range<usize>),
     /// a + b.
     Add(T, T),
@@ -27,15 +27,15 @@ pub enum Step<'f, T> {
     Neg(T),
     /// a to an integer power.
     Power(T, i32),
-    /// A function of a.
+    /// A function applied to a.
     Call(Function, T),
     /// tan a.
     Tan(T),
 }
 
 impl Formula {
-    /// The result of `step` for the whole formula, operands before operations; `None` if `step` returns `None` for
-    /// one of the steps.
+    /// Applies `step` to every step of the formula, operands before operations, and returns the result of the last one.
+    /// Returns `None` if `step` returns `None` for one of the steps.
     pub fn fold<T>(&self, mut step: impl FnMut(Step<'_, T>) -> Option<T>) -> Option<T> {
         let mut stack: Vec<T> = vec![];
         for op in &self.ops {

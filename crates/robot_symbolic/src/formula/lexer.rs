@@ -1,4 +1,4 @@
-//! Text to tokens.
+//! The lexer, which splits text into tokens.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::rational::Rational;
 pub(super) enum Names {
     /// `[A-Za-z_][A-Za-z0-9_]*`.
     Plain,
-    /// Names in parts joined by dots.
+    /// Names with parts joined by dots.
     Dotted,
 }
 
@@ -42,7 +42,7 @@ impl<'t> Lexer<'t> {
         Lexer { text, position: 0, names }
     }
 
-    /// The next token and its bytes; [`Token::End`] with an empty range at the end.
+    /// Returns the next token and its bytes; at the end of the text [`Token::End`] with an empty range.
     pub(super) fn next(&mut self) -> Result<(Token, Range<usize>), ParseError> {
         self.skip(|byte| byte.is_ascii_whitespace());
         let start = self.position;
@@ -96,7 +96,7 @@ impl<'t> Lexer<'t> {
         let separated = text.contains('_');
         let value = Rational::from_decimal(text).filter(|_| !separated);
         match value {
-            // Without an exponent the digits themselves are the bound: long integers are exact.
+            // A number without an exponent is limited by its digits alone, so long integers are exact.
             Some(value) if !exponent || in_range(&value) => Ok(Token::Number(value)),
             None if separated => Err(ParseError::new(span, "numbers cannot contain `_`")
                 .help(format!("write `{}`", text.replace('_', "")))),
@@ -113,7 +113,8 @@ impl<'t> Lexer<'t> {
         }
     }
 
-    /// Takes `e12`, `E-3` if digits follow, for otherwise the letter begins a name.
+    /// Consumes an exponent such as `e12` or `E-3` and returns whether there is one; without digits, the letter begins
+    /// a name.
     fn exponent(&mut self) -> bool {
         let mut end = self.position;
         if !matches!(self.byte(end), Some(b'e' | b'E')) {
@@ -131,7 +132,7 @@ impl<'t> Lexer<'t> {
         digits
     }
 
-    /// The error for a character that no formula has.
+    /// The error for a character that cannot occur in a formula.
     fn stranger(&self, start: usize) -> ParseError {
         let rest = self.text.get(start..).unwrap_or_default();
         let character = rest.chars().next().unwrap_or_default();
@@ -174,7 +175,7 @@ fn unknown(character: char) -> String {
     format!("`{}` has no meaning in a formula", character.escape_debug().collect::<String>())
 }
 
-/// Whether the nearest `f64` is finite, and 0 for 0 alone.
+/// Whether the nearest `f64` is finite, and is 0 only for the number 0.
 fn in_range(value: &Rational) -> bool {
     let float = value.to_f64();
     float.is_finite() && (float != 0.0 || value.is_zero())

@@ -1,4 +1,4 @@
-//! Expression text that belongs to no graph: what robot files hold.
+//! Formulas: texts of expressions that belong to no graph, as in robot files.
 
 mod error;
 mod fold;
@@ -16,11 +16,11 @@ use crate::rational::Rational;
 pub use error::ParseError;
 pub use fold::Step;
 
-/// Powers beyond this exponent are refused.
+/// The largest absolute value of an exponent; a larger one is an error.
 pub const MAX_EXPONENT: i64 = 64;
-/// Parentheses and signs nested deeper than this are refused.
+/// The deepest nesting of parentheses, signs and powers; deeper nesting is an error.
 pub const MAX_DEPTH: usize = 256;
-/// Texts with more numbers, names and signs than this are refused.
+/// The largest number of tokens (numbers, names, operators and parentheses) in a formula; more are an error.
 pub const MAX_TOKENS: usize = 100_000;
 
 /// One step of a formula in postfix order.
@@ -28,7 +28,7 @@ pub const MAX_TOKENS: usize = 100_000;
 enum Op {
     Number(Rational),
     Pi,
-    /// A name, by its place in the text.
+    /// A name, given by its bytes in the text.
     Symbol(Range<usize>),
     Add,
     Sub,
@@ -40,12 +40,12 @@ enum Op {
     Tan,
 }
 
-/// An expression as text, checked: numbers, names, `pi`, `+ - * / ^`, parentheses, and the
-/// functions `sin cos tan sqrt abs sign tanh`.
+/// The checked text of an expression: numbers, names, `pi`, the operators `+ - * / ^`, parentheses, and the functions
+/// `sin cos tan sqrt abs sign tanh`.
 ///
-/// A formula belongs to no [`Graph`] and can be kept, copied and sent; [`Formula::lower`] makes an
-/// expression of it. Exponents are integers of at most [`MAX_EXPONENT`]; `-x^2` is `-(x^2)` and
-/// `x^2^3` is `x^(2^3)`. Numbers are exact decimals.
+/// A formula belongs to no [`Graph`], so it can be kept, copied and sent; [`Formula::lower`] makes an expression from
+/// it. Exponents are integers of at most [`MAX_EXPONENT`]; `-x^2` is `-(x^2)`, and `x^2^3` is `x^(2^3)`. Numbers are
+/// exact decimals.
 ///
 /// ```
 /// use robot_symbolic::{Formula, Graph};
@@ -65,7 +65,7 @@ pub struct Formula {
 }
 
 impl Formula {
-    /// Reads a formula; names are `[A-Za-z_][A-Za-z0-9_]*`.
+    /// Reads a formula in which names have the form `[A-Za-z_][A-Za-z0-9_]*`.
     ///
     /// # Errors
     ///
@@ -74,8 +74,7 @@ impl Formula {
         parser::parse(text, lexer::Names::Plain)
     }
 
-    /// Reads a formula in which a name may have parts joined by dots, as those of printed equations
-    /// do: `F_l5.y`.
+    /// Reads a formula in which names can have parts joined by dots, as in printed equations: `F_l5.y`.
     ///
     /// # Errors
     ///
@@ -84,7 +83,7 @@ impl Formula {
         parser::parse(text, lexer::Names::Dotted)
     }
 
-    /// The formula that is one number.
+    /// Creates a formula that consists of one number.
     #[must_use]
     pub fn number(value: &Rational) -> Formula {
         let mut ops = vec![Op::Number(value.abs())];
@@ -94,7 +93,7 @@ impl Formula {
         Formula { text: print::exact_text(value), ops }
     }
 
-    /// The formula that is one name, taken as it is.
+    /// Creates a formula that consists of one name, which is not checked.
     #[must_use]
     pub fn symbol(name: &str) -> Formula {
         Formula { text: name.to_owned(), ops: vec![Op::Symbol(0..name.len())] }
@@ -106,8 +105,7 @@ impl Formula {
         &self.text
     }
 
-    /// Each use of a name (not of a function or `pi`), with its bytes in [`Formula::text`], from
-    /// left to right.
+    /// Every use of a name (not of a function or `pi`) with its bytes in [`Formula::text`], from left to right.
     pub fn symbols(&self) -> impl Iterator<Item = (&str, Range<usize>)> {
         self.ops.iter().filter_map(|op| match op {
             Op::Symbol(span) => Some((self.name(span), span.clone())),
@@ -121,10 +119,10 @@ impl Formula {
         self.symbols().next().is_none()
     }
 
-    /// The value of a formula without names if it is a [`Number`] (`pi/2` is not, `sin(pi/2)`
-    /// and `sqrt(4)` are).
+    /// Returns the value of a formula without names if it is a [`Number`]: `sin(pi/2)` and `sqrt(4)` are numbers,
+    /// `pi/2` is not.
     ///
-    /// A division by zero gives a NaN, which the reader should refuse.
+    /// A division by zero gives a NaN, which the caller should refuse.
     #[must_use]
     pub fn as_number(&self) -> Option<Number> {
         if let [Op::Number(value)] = self.ops.as_slice() {
@@ -137,7 +135,7 @@ impl Formula {
         self.lower(&graph, &mut |_| graph.zero()).as_number()
     }
 
-    /// The expression of the formula in a graph; `resolve` gives the meaning of each name.
+    /// Makes the expression of the formula in a graph; `resolve` gives the expression that each name stands for.
     pub fn lower<'g>(
         &self,
         graph: &'g Graph,
@@ -166,7 +164,7 @@ impl Formula {
         stack.pop()
     }
 
-    /// The value in floating point with the names at the values that `value` gives.
+    /// Evaluates the formula in floating point; `value` gives the value of each name.
     #[must_use]
     pub fn evaluate(&self, mut value: impl FnMut(&str) -> f64) -> f64 {
         let mut stack = Stack::new(f64::NAN);
@@ -194,7 +192,7 @@ impl Formula {
     }
 }
 
-/// The source text.
+/// Writes the source text.
 impl std::fmt::Display for Formula {
     fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         formatter.write_str(&self.text)
@@ -202,7 +200,7 @@ impl std::fmt::Display for Formula {
 }
 
 impl Graph {
-    /// The expression of a text, its names the graph's symbols (see [`Formula`]).
+    /// Makes an expression from a text, in which each name is a symbol of the graph (see [`Formula`]).
     ///
     /// # Errors
     ///
@@ -212,13 +210,13 @@ impl Graph {
     }
 }
 
-/// Whether `name` has a meaning of its own in a formula: `pi` and the functions.
+/// Whether `name` is `pi` or a function in formulas, and so cannot be a symbol.
 #[must_use]
 pub fn is_reserved(name: &str) -> bool {
     name == "pi" || name == "tan" || Function::ALL.iter().any(|f| f.name() == name)
 }
 
-/// Whether `name` can be a symbol: `[A-Za-z_][A-Za-z0-9_]*` and not reserved.
+/// Whether `name` can be a symbol: it has the form `[A-Za-z_][A-Za-z0-9_]*` and is not reserved.
 #[must_use]
 pub fn is_symbol_name(name: &str) -> bool {
     let mut bytes = name.bytes();
@@ -227,8 +225,8 @@ pub fn is_symbol_name(name: &str) -> bool {
         && !is_reserved(name)
 }
 
-/// Operands of a postfix walk. The parser yields well-formed formulas only, so the fallback of an
-/// empty stack is never seen.
+/// The operands during the evaluation of postfix steps. The parser only makes well-formed formulas, so the stack is
+/// never empty when an operand is taken, and `fallback` is never used.
 struct Stack<T> {
     values: Vec<T>,
     fallback: T,

@@ -1,5 +1,5 @@
-//! Tokens to postfix, by the shunting-yard algorithm: the stacks are data, so that no depth of
-//! nesting can exhaust the machine's.
+//! The parser, which converts tokens to postfix steps by the shunting-yard algorithm. Its stacks are vectors, so deeply
+//! nested formulas cannot overflow the call stack.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use super::{Formula, MAX_DEPTH, MAX_EXPONENT, MAX_TOKENS, Op};
 use crate::graph::Function;
 use crate::spelling::nearest_word;
 
-/// An entry that waits on the stack of operators.
+/// An entry on the stack of pending operators.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Pending {
     Open,
@@ -20,7 +20,7 @@ enum Pending {
 }
 
 impl Pending {
-    /// Its precedence; parentheses never yield to an operator.
+    /// The precedence. Parentheses have the lowest, so no operator removes them from the stack.
     const fn strength(self) -> u8 {
         match self {
             Pending::Open | Pending::Call(_) | Pending::Tan => 0,
@@ -36,8 +36,8 @@ impl Pending {
     }
 }
 
-/// A finished operand: where its postfix begins, its bytes, and its value where that is an integer
-/// (which exponents must be).
+/// A finished operand: the index of its first postfix step, its bytes, and its value if that is an integer, because
+/// exponents must be integers.
 struct Operand {
     start: usize,
     span: Range<usize>,
@@ -50,13 +50,13 @@ struct Parser<'t> {
     ops: Vec<Op>,
     operands: Vec<Operand>,
     pending: Vec<(Pending, Range<usize>)>,
-    /// Open parentheses, signs and powers.
+    /// The number of open parentheses, signs and powers.
     depth: usize,
-    /// The bytes of the token before.
+    /// The bytes of the previous token.
     last: Range<usize>,
 }
 
-/// See [`Formula::parse`].
+/// Parses a formula; see [`Formula::parse`].
 pub(super) fn parse(text: &str, names: Names) -> Result<Formula, ParseError> {
     if text.trim().is_empty() {
         return Err(ParseError::new(0..text.len(), "expected a formula, found nothing")
@@ -89,7 +89,8 @@ impl Parser<'_> {
             if end {
                 return Ok(());
             }
-            // A function has taken its parenthesis as well.
+            // The span of a function excludes its parenthesis, which has been consumed as well and is already in
+            // `last`.
             if self.last.end < span.end {
                 self.last = span;
             }
@@ -101,7 +102,7 @@ impl Parser<'_> {
         .help("introduce names for parts of it"))
     }
 
-    /// Takes a token where an operand is due; whether one is still due after it.
+    /// Consumes a token at a position for an operand. Returns whether the next token must be an operand too.
     fn operand(&mut self, token: Token, span: Range<usize>) -> Result<bool, ParseError> {
         match token {
             Token::Number(value) => {
@@ -140,7 +141,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes a token where an operator is due; whether an operand is due after it.
+    /// Consumes a token at a position for an operator. Returns whether the next token must be an operand.
     fn operator(&mut self, token: &Token, span: Range<usize>) -> Result<bool, ParseError> {
         match token {
             Token::Sign(b')') => {
@@ -245,8 +246,8 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Applies the waiting operators that bind at least as tightly as `limit`, which is at least 1, so
-    /// that parentheses stay.
+    /// Applies the pending operators that bind at least as tightly as `limit`. The limit is at least 1, so parentheses
+    /// stay on the stack.
     fn reduce(&mut self, limit: u8) -> Result<(), ParseError> {
         while let Some((pending, span)) = self.pending.last().cloned()
             && pending.strength() >= limit
@@ -314,13 +315,13 @@ impl Parser<'_> {
             .integer
             .filter(|_| value >= 0)
             .and_then(|base| base.checked_pow(value.unsigned_abs() as u32));
-        // The exponent's own steps are replaced by the one number.
+        // The steps of the exponent are replaced by its value.
         self.ops.truncate(exponent.start);
         self.ops.push(Op::Power(value as i32));
         Ok(())
     }
 
-    /// The text of a span, its middle left out if it is long.
+    /// The text of a span, without its middle if it is long.
     fn quote(&self, span: &Range<usize>) -> String {
         shorten(self.text.get(span.clone()).unwrap_or_default())
     }
@@ -331,7 +332,7 @@ impl Parser<'_> {
     }
 }
 
-/// Tokens are ASCII, but for those of an error in the lexer, which are not quoted here.
+/// Shortens long texts. Tokens are ASCII except in errors of the lexer, which are not quoted here.
 fn shorten(text: &str) -> String {
     match text.get(..30).zip(text.get(text.len().saturating_sub(10)..)) {
         Some((head, tail)) if text.len() > 40 => format!("{head}…{tail}"),

@@ -99,7 +99,7 @@ fn dotted_names_are_for_printed_equations() {
     assert_eq!(error.span, 0..5);
 }
 
-/// Text, offending bytes, part of the message, part of the help.
+/// For each text: the bytes in error, a part of the message and a part of the help.
 const BROKEN: &[(&str, Range<usize>, &str, &str)] = &[
     ("", 0..0, "found nothing", "l1 + l2/2"),
     ("  ", 0..2, "found nothing", "l1 + l2/2"),
@@ -197,8 +197,7 @@ fn reserved_names_are_no_symbols() {
     }
 }
 
-/// Whatever the text, an answer: a formula that lowers and evaluates, or an error with a place in
-/// the text and a remedy.
+/// Every text gives a formula that can be lowered and evaluated, or an error with a place in the text and a remedy.
 #[test]
 fn random_texts_end_in_an_answer() {
     const TOKENS: [&str; 33] = [
@@ -218,7 +217,7 @@ fn random_texts_end_in_an_answer() {
                 let graph = Graph::new();
                 let expr = formula.lower(&graph, &mut |name| graph.symbol(name));
                 let (direct, lowered) = (formula.evaluate(|_| 0.7), expr.evaluate(|_| 0.7));
-                // Where a quotient is beyond all numbers, the exact rules know more.
+                // If a quotient overflows, the exact rules can give a finite value and the direct evaluation not.
                 let same = (direct - lowered).abs() <= 1e-9 * direct.abs();
                 assert!(same || !direct.is_finite() || !lowered.is_finite(), "seed {seed}: {text}");
                 for (name, span) in formula.symbols() {

@@ -1,4 +1,4 @@
-//! Sums of products of terms, with squares of sines and roots reduced as they arise.
+//! Sums of products of terms, in which squares of sines and roots are replaced as they arise.
 
 use indexmap::IndexMap;
 use rustc_hash::FxBuildHasher;
@@ -9,18 +9,18 @@ use super::{PolynomialError, PolynomialOptions};
 use crate::graph::Graph;
 use crate::number::Number;
 
-/// A coefficient with its monomial.
+/// A monomial with its coefficient.
 pub(crate) type Term = (Monomial, Number);
 
-/// Terms sorted by monomial, each monomial once, no coefficient 0.
+/// Terms sorted by their monomials; no monomial occurs twice, and no coefficient is 0.
 pub(super) type Terms = Vec<Term>;
 
-/// The memory and work that a computation may still use.
+/// The memory and the work that a computation is still allowed.
 pub(super) struct Budget {
     max_terms: usize,
     products_left: u64,
     max_products: u64,
-    /// Terms of finished intermediate results.
+    /// The number of terms in finished intermediate results.
     pub(super) live: usize,
 }
 
@@ -41,8 +41,8 @@ impl Budget {
         Ok(())
     }
 
-    /// Pays for all products of a term of `a` with a term of `b`: of two terms with coefficients of
-    /// the weights v and w, 1 + v + w + v w / 8.
+    /// Charges for all products of a term of `a` with a term of `b`. Two terms whose coefficients have the weights v
+    /// and w cost 1 + v + w + v w / 8.
     pub(super) fn multiply(&mut self, a: &[Term], b: &[Term]) -> Result<(), PolynomialError> {
         let weights = |terms: &[Term]| -> u64 {
             terms.iter().map(|(_, coefficient)| coefficient.weight()).sum()
@@ -68,14 +68,14 @@ impl Budget {
     }
 }
 
-/// `factor · a · b`, or `factor · a`.
+/// The product `factor · a · b`, or `factor · a` without `b`.
 pub(super) struct Part<'a> {
     pub(super) a: &'a [Term],
     pub(super) b: Option<&'a [Term]>,
     pub(super) factor: &'a Number,
 }
 
-/// The sum of products of reduced terms.
+/// Computes a sum of products of reduced terms.
 pub(super) fn sum_of_products(
     graph: &Graph,
     budget: &mut Budget,
@@ -87,7 +87,7 @@ pub(super) fn sum_of_products(
     }
 }
 
-/// A wider variant, for monomials of any width and squares of any kind.
+/// Like [`sum_of_products`], without packing: for monomials of any width and squares of any atoms.
 pub(super) fn sum_unpacked(
     graph: &Graph,
     budget: &mut Budget,
@@ -151,7 +151,7 @@ impl Accumulator<'_> {
         }
     }
 
-    /// The sum.
+    /// Returns the sum.
     fn finish(self) -> Terms {
         let mut terms: Terms =
             self.terms.into_iter().filter(|(_, coefficient)| !coefficient.is_zero()).collect();
@@ -173,7 +173,7 @@ impl Accumulator<'_> {
         }
     }
 
-    /// Adds a term after replacing each square s² by 1 − c², (√x)² by x, |x|² by x².
+    /// Adds a term after replacing every square: s² by 1 − c², (√x)² by x, and |x|² by x².
     fn reduce(&mut self, monomial: Monomial, coefficient: Number) -> Result<(), PolynomialError> {
         let mut pending = vec![(monomial, coefficient)];
         while let Some((monomial, coefficient)) = pending.pop() {

@@ -11,7 +11,7 @@ use crate::number::Number;
 use crate::rational::Rational;
 use crate::trigonometry::quarter_turns;
 
-/// Sine and cosine of one angle.
+/// The sine and cosine of one angle.
 type Circle = [Rc<Terms>; 2];
 
 impl Expander<'_> {
@@ -44,7 +44,7 @@ impl Expander<'_> {
         Ok(if phase >= 2 { terms::scaled(&value, &Number::integer(-1)) } else { value })
     }
 
-    /// The circle of a sum of angles, from those of its terms.
+    /// The sine and cosine of a sum of angles, from those of its terms.
     fn sum_circle(&mut self, angle: &[Term]) -> Result<Circle, PolynomialError> {
         let mut sum: Option<Circle> = None;
         for term in angle {
@@ -57,8 +57,8 @@ impl Expander<'_> {
         Ok(sum.unwrap_or_else(zero_circle))
     }
 
-    /// The circle of `n x` for an integer `n`, by doubling from that of `x`; other terms are single
-    /// angles.
+    /// The sine and cosine of `n x` for an integer `n`, by repeated doubling of `x`. Terms with other coefficients are
+    /// single angles.
     fn multiple_circle(&mut self, (monomial, number): &Term) -> Result<Circle, PolynomialError> {
         let multiple = number
             .as_rational()
@@ -94,7 +94,7 @@ impl Expander<'_> {
         })
     }
 
-    /// The circle of a sum of two angles.
+    /// The sine and cosine of a sum of two angles.
     fn turn(&mut self, a: &Circle, b: &Circle) -> Result<Circle, PolynomialError> {
         let ([s, c], [t, d]) = (a, b);
         let (plus, minus) = (Number::integer(1), Number::integer(-1));
@@ -109,7 +109,7 @@ fn zero_circle() -> Circle {
     [0, 1].map(|value| Rc::new(terms::constant(Number::integer(value))))
 }
 
-/// The sine or cosine of an angle as it is, an atom or a number.
+/// The sine or cosine of an angle that is not expanded: a multiple of an atom, or a number.
 fn single(graph: &Graph, function: Function, angle: &[Term]) -> Terms {
     let negative = terms::leads_negative(angle);
     let sign = Number::integer(if negative { -1 } else { 1 });
@@ -119,7 +119,7 @@ fn single(graph: &Graph, function: Function, angle: &[Term]) -> Terms {
     if negative && function == Function::Sin { terms::scaled(&value, &sign) } else { value }
 }
 
-/// The quarter turns of an angle, modulo 4, and the angle without them.
+/// Splits an angle into its quarter turns, modulo 4, and the rest.
 fn split_quarters(graph: &Graph, angle: &Terms) -> (u8, Terms) {
     let place = angle.iter().position(|(monomial, number)| {
         let [factor] = monomial.factors() else {

@@ -1,5 +1,4 @@
-//! The atoms of a polynomial: symbols, π, functions of canonical arguments, and the sums
-//! in denominators.
+//! The atoms of a polynomial: symbols, π, functions of canonical arguments, and sums in denominators.
 
 use std::rc::Rc;
 
@@ -12,11 +11,11 @@ use crate::expr::{Expr, View};
 use crate::graph::{Function, Graph, Id, Node};
 use crate::number::Number;
 
-/// The terms that the square of an atom is replaced by.
+/// The terms that replace the square of an atom.
 #[derive(Clone)]
 pub(super) struct Square(pub(super) Rc<[Term]>);
 
-/// The nodes of a graph as atoms of polynomials.
+/// What is known about the nodes of a graph that are atoms: the squares of some, and the terms of sums.
 #[derive(Default)]
 pub(crate) struct AtomTable {
     squares: FxHashMap<Id, Square>,
@@ -24,13 +23,13 @@ pub(crate) struct AtomTable {
 }
 
 impl Graph {
-    /// The square of a reducible atom.
+    /// The terms that replace the square of a reducible atom.
     pub(super) fn square(&self, atom: Id) -> Square {
         let known = self.atoms().borrow().squares.get(&atom).cloned();
         known.unwrap_or_else(|| Square(Rc::from([])))
     }
 
-    /// The cosine of the angle of a sine.
+    /// The cosine of the same angle as a sine; `None` for other nodes.
     pub(super) fn cosine_of(&self, sine: Id) -> Option<Id> {
         match self.node(sine) {
             Node::Call(Function::Sin, angle) => Some(self.intern(Node::Call(Function::Cos, angle))),
@@ -38,20 +37,20 @@ impl Graph {
         }
     }
 
-    /// The terms of a sum that is an atom of denominators.
+    /// The terms of a sum that is an atom in denominators; `None` for other atoms.
     pub(super) fn sum_terms(&self, atom: Id) -> Option<Rc<[Term]>> {
         self.atoms().borrow().sums.get(&atom).cloned()
     }
 
-    /// An atom to the first power.
+    /// The first power of an atom.
     pub(super) fn factor(&self, atom: Id) -> Factor {
         let reducible = self.atoms().borrow().squares.contains_key(&atom);
         Factor::new(atom, reducible, 1)
     }
 
-    /// The function of a canonical argument as terms: a number, or a multiple of an atom.
+    /// The terms of a function of a canonical argument: a number, or a multiple of an atom.
     ///
-    /// `argument` holds the terms that `canonical` is made of.
+    /// `argument` holds the terms of `canonical`.
     pub(super) fn call_terms(
         &self,
         function: Function,
@@ -66,8 +65,8 @@ impl Graph {
         vec![(Monomial::from_factor(self.factor(atom)), coefficient)]
     }
 
-    /// The sum as an atom of denominators, and the number that the atom must be multiplied by to
-    /// give the sum.
+    /// Returns `(c, x)` with the sum equal to `c x`, where `x` is an atom for denominators; no `x` if the sum is the
+    /// number `c`.
     pub(super) fn sum_atom(&self, sum: &[Term], canonical: Expr<'_>) -> (Number, Option<Id>) {
         let (coefficient, atom) = split_multiple(canonical);
         if let Some(atom) = atom {
@@ -79,7 +78,7 @@ impl Graph {
         (coefficient, atom)
     }
 
-    /// Notes the square of a sine, of a root, and of the absolute value of one term.
+    /// Stores the square of an atom if it is a sine, a root, or the absolute value of one term.
     fn register(&self, atom: Id, function: Function, argument: &[Term]) {
         if self.atoms().borrow().squares.contains_key(&atom) {
             return;
@@ -95,7 +94,8 @@ impl Graph {
                     (Monomial::one(), Number::integer(1)),
                 ]
             }
-            // The exact sines of multiples of π/6 and π/4 bring roots of numbers.
+            // The argument can be a number, because the exact sines of multiples of π/6 and π/4 contain roots of
+            // numbers.
             Node::Call(Function::Sqrt, x) => match self.as_number(x) {
                 Some(number) => terms::constant(number),
                 None if function == Function::Sqrt => argument.to_vec(),
@@ -103,7 +103,7 @@ impl Graph {
             },
             Node::Call(Function::Abs, _) if function == Function::Abs => match argument {
                 [(monomial, coefficient)] => match monomial.product(monomial) {
-                    // A square that would itself have to be reduced is left alone.
+                    // A square that would itself have to be reduced is not used.
                     Some((square, false)) => vec![(square, coefficient * coefficient)],
                     _ => return,
                 },
@@ -116,8 +116,8 @@ impl Graph {
     }
 }
 
-/// `(c, x)` with the expression equal to `c x`, signs and constants taken out; no `x` if the
-/// expression is the number `c`.
+/// Splits an expression into `(c, x)` such that it equals `c x`, with the sign and the constant in `c`. There is no `x`
+/// if the expression is the number `c`.
 fn split_multiple(expr: Expr<'_>) -> (Number, Option<Id>) {
     if let Some(number) = expr.as_number() {
         return (number, None);

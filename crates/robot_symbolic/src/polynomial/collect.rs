@@ -1,4 +1,4 @@
-//! Collection by symbols, and derivatives.
+//! Collection of terms by symbols, and derivatives.
 
 use std::collections::BTreeMap;
 
@@ -12,10 +12,10 @@ use crate::graph::Id;
 use crate::number::Number;
 
 impl<'g> Polynomial<'g> {
-    /// The polynomial as a polynomial in some of its symbols: each monomial over them, with the
-    /// polynomial in the other atoms that it is multiplied by.
+    /// Collects the terms by some symbols: returns each monomial in these symbols with its coefficient, a polynomial in
+    /// the other atoms.
     ///
-    /// The groups come in order of their monomials. A chosen symbol inside a function, such as q in sin(q), or in a
+    /// The groups are in the order of their monomials. A chosen symbol inside a function, such as q in sin(q), or in a
     /// denominator that is a sum, stays in the coefficient.
     #[must_use]
     pub fn collect(&self, symbols: &[&str]) -> Vec<(Monomial, Polynomial<'g>)> {
@@ -37,7 +37,7 @@ impl<'g> Polynomial<'g> {
             .collect()
     }
 
-    /// The polynomials that add up to this one, each of the terms whose monomials have a key in common.
+    /// Splits the polynomial into polynomials that add up to it. The monomials of each have the same key.
     #[must_use]
     pub fn split_by<K: Ord>(&self, key: impl Fn(&Monomial) -> K) -> BTreeMap<K, Polynomial<'g>> {
         let mut parts: BTreeMap<K, Terms> = BTreeMap::new();
@@ -47,13 +47,13 @@ impl<'g> Polynomial<'g> {
         parts.into_iter().map(|(key, terms)| (key, self.with_terms(terms))).collect()
     }
 
-    /// The polynomial of one monomial.
+    /// The polynomial that consists of one monomial.
     #[must_use]
     pub fn of_monomial(&self, monomial: &Monomial) -> Polynomial<'g> {
         self.with_terms(vec![(monomial.clone(), Number::integer(1))])
     }
 
-    /// The partial derivative by a symbol, functions included.
+    /// The partial derivative with respect to a symbol; functions of the symbol are differentiated too.
     ///
     /// |x| has the derivative sgn x, and sgn x the derivative 0, everywhere.
     ///

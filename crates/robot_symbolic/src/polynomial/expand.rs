@@ -1,4 +1,4 @@
-//! Expressions to terms, in one pass over the nodes in the order of their ids.
+//! Expansion of expressions into terms, in one pass over the nodes in the order of their ids.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -13,7 +13,7 @@ use crate::graph::{Function, Graph, Id};
 use crate::number::Number;
 use crate::walk;
 
-/// Denominators are taken apart up to this many nodes.
+/// The largest number of nodes of a denominator that are split into factors.
 const MAX_FACTORS: usize = 256;
 
 /// The canonical terms of each root.
@@ -38,15 +38,15 @@ pub(super) struct Expander<'g> {
     pub(super) graph: &'g Graph,
     pub(super) options: PolynomialOptions,
     pub(super) budget: Budget,
-    /// Finished terms of nodes that are still to be used.
+    /// The terms of finished nodes that are still needed.
     memo: FxHashMap<Id, Rc<Terms>>,
-    /// The number of uses of each node that are left.
+    /// The number of remaining uses of each node.
     uses: FxHashMap<Id, u32>,
-    /// Parts of sums, and products in sums, that are used once: the sum adds them up directly.
+    /// Sums and products that are used only once, as an operand of a sum: that sum adds their terms directly.
     inlined: FxHashSet<Id>,
-    /// Reciprocals of denominators, most of which occur under many numerators.
+    /// The reciprocals of denominators, most of which occur under many numerators.
     inverses: FxHashMap<Id, Rc<Terms>>,
-    /// Sine and cosine of expanded angles, by the angle.
+    /// The sine and cosine of each expanded angle.
     pub(super) circles: FxHashMap<Id, [Rc<Terms>; 2]>,
 }
 
@@ -57,7 +57,7 @@ impl<'g> Expander<'g> {
         for root in roots {
             *uses.entry(root.id()).or_default() += 1;
         }
-        // From results to operands: what only a denominator needs may not be needed itself.
+        // From results to operands. A product in a denominator need not be expanded itself, because its factors are.
         for expr in order.iter().rev() {
             if uses.contains_key(&expr.id()) {
                 for operand in needs(*expr) {
@@ -94,7 +94,7 @@ impl<'g> Expander<'g> {
         Ok(())
     }
 
-    /// The terms of a finished node, forgotten after the last use.
+    /// The terms of a finished node, which are removed from the memo at the last use.
     fn take(&mut self, id: Id) -> Rc<Terms> {
         let left = self.uses.entry(id).or_default();
         *left = left.saturating_sub(1);
@@ -143,7 +143,7 @@ impl<'g> Expander<'g> {
         })
     }
 
-    /// A sum with all its inlined parts.
+    /// Expands a sum with all its inlined parts.
     fn sum(&mut self, root: Expr<'_>) -> Result<Terms, PolynomialError> {
         let mut parts = vec![];
         let mut pending = vec![(root, 1_i64)];
@@ -167,7 +167,7 @@ impl<'g> Expander<'g> {
         self.sum_parts(&parts)
     }
 
-    /// The sum of products.
+    /// Computes a sum of products.
     pub(super) fn sum_parts(&mut self, parts: &[Part<'_>]) -> Result<Terms, PolynomialError> {
         sum_of_products(self.graph, &mut self.budget, parts)
     }
@@ -181,13 +181,13 @@ impl<'g> Expander<'g> {
         self.sum_parts(&[Part { a, b: Some(b), factor: &Number::integer(1) }])
     }
 
-    /// Terms in any order, with repetitions, as terms in order.
+    /// Sorts and merges terms that are in any order.
     pub(super) fn collected(&mut self, terms: &[Term]) -> Result<Terms, PolynomialError> {
         self.sum_parts(&[Part { a: terms, b: None, factor: &Number::integer(1) }])
     }
 
-    /// √, | |, sgn and tanh of a canonical argument, with signs and, if they allow it, constant
-    /// factors taken out.
+    /// √, | |, sgn or tanh of a canonical argument. Signs and, if the function permits it, constant factors are moved
+    /// out of the argument.
     fn call(&self, function: Function, argument: &Terms) -> Terms {
         let negative = terms::leads_negative(argument);
         let one = Number::integer(1);
@@ -207,7 +207,7 @@ impl<'g> Expander<'g> {
     }
 }
 
-/// The nodes whose terms the terms of a node are made of.
+/// The nodes whose terms are needed to compute the terms of a node.
 fn needs(expr: Expr<'_>) -> Vec<Expr<'_>> {
     match expr.view() {
         View::Div(a, b) => {
@@ -218,14 +218,14 @@ fn needs(expr: Expr<'_>) -> Vec<Expr<'_>> {
     }
 }
 
-/// The factors of a denominator that is a product, with their exponents, so that 1/(x + y)^2 is the
-/// square of 1/(x + y). Products of more than [`MAX_FACTORS`] nodes are factors as they are.
+/// The factors of a denominator with their exponents, so that 1/(x + y)^2 is the square of 1/(x + y). After
+/// [`MAX_FACTORS`] nodes, products are not split any further.
 fn denominator_factors(denominator: Expr<'_>) -> Vec<(Expr<'_>, u32)> {
     let mut exponents: BTreeMap<Id, (Expr<'_>, u32)> = BTreeMap::new();
     exponents.insert(denominator.id(), (denominator, 1));
     let mut factors = vec![];
     let mut visited = 0;
-    // The largest id first, so that the exponent of a node is complete when its turn comes.
+    // Nodes are taken in descending order of their ids, so the exponent of a node is complete when it is taken.
     while let Some((_, (expr, exponent))) = exponents.pop_last() {
         visited += 1;
         let operands = match expr.view() {

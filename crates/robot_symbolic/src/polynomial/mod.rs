@@ -1,15 +1,14 @@
-//! The canonical polynomial of an expression: equality, collection, and the form that people read.
+//! Canonical polynomials of expressions, which decide equality, collect terms and give the form that people read.
 //!
-//! A [`Polynomial`] is a sum of [`Monomial`]s with exact coefficients in *atoms*: symbols, π, sines
-//! and cosines, the other functions, and (with negative exponents only) the sums in
-//! denominators. Arguments of functions and denominators are canonical themselves, so that equal
-//! ones are one atom. Squares reduce: s² = 1 − c² for each angle, (√x)² = x, |m|² = m² for a
-//! monomial m.
+//! A [`Polynomial`] is a sum of [`Monomial`]s with exact coefficients. A monomial is a product of powers of *atoms*:
+//! symbols, π, sines and cosines, other functions, and sums in denominators, which have negative exponents. Arguments
+//! of functions and denominators are canonical themselves, so equal ones are the same atom. Squares are replaced: s² =
+//! 1 − c² for the sine and cosine of each angle, (√x)² = x, and |m|² = m² for a monomial m.
 //!
-//! With [`AngleSums::Expand`] two polynomials in symbols and in sines and cosines of integer
-//! combinations of angles are equal exactly if their terms are. With divisions, roots and fractions
-//! of angles, equal terms still prove equality, but different terms prove nothing. Floating-point
-//! constants ([`Number::Real`]) are rounded at each step and compare by what came out.
+//! Take two polynomials in symbols and in sines and cosines of integer combinations of angles. With
+//! [`AngleSums::Expand`] they are equal exactly if their terms are. With divisions, roots and fractions of angles,
+//! equal terms still prove equality, but different terms prove nothing. Floating-point constants ([`Number::Real`]) are
+//! rounded at each step, and their rounded values are compared.
 
 mod accumulator;
 mod angles;
@@ -37,26 +36,26 @@ pub use monomial::{Factor, Monomial};
 /// The treatment of sines and cosines of sums and multiples of angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AngleSums {
-    /// They are expanded into sines and cosines of single angles: sums always, integer multiples up
-    /// to [`MAX_MULTIPLE`]. This is the form that proves equality.
+    /// Expands them into sines and cosines of single angles: sums always, integer multiples up to [`MAX_MULTIPLE`].
+    /// Only this form can decide equality.
     #[default]
     Expand,
-    /// They stay as atoms, such as sin(q2 + q3).
+    /// Keeps them as atoms, such as sin(q2 + q3).
     Keep,
 }
 
-/// Sines and cosines of larger multiples of an angle are not expanded.
+/// The largest multiple of an angle whose sine and cosine are expanded.
 pub const MAX_MULTIPLE: i64 = 32;
 
-/// The form of a polynomial, and limits on the work.
+/// The form of a polynomial, and limits on the work to compute it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PolynomialOptions {
-    /// Expand angle sums, or keep them.
+    /// Whether angle sums are expanded or kept.
     pub angle_sums: AngleSums,
-    /// The number of terms that may be held at once, intermediate results included.
+    /// The largest number of terms held at once, including intermediate results.
     pub max_terms: usize,
-    /// The number of products of two terms that one operation may form; products of coefficients of
-    /// more than 64 bits count for several.
+    /// The largest number of products of two terms that one operation can form; a product with a coefficient of more
+    /// than 64 bits counts as several.
     pub max_products: u64,
 }
 
@@ -68,7 +67,7 @@ impl PolynomialOptions {
     }
 }
 
-/// Angle sums expanded, 2 million terms, 100 million products.
+/// The default options: angle sums expanded, at most 2 million terms and 100 million products.
 impl Default for PolynomialOptions {
     fn default() -> PolynomialOptions {
         PolynomialOptions {
@@ -79,22 +78,22 @@ impl Default for PolynomialOptions {
     }
 }
 
-/// An expression that has no polynomial of reasonable size.
+/// The error for an expression whose polynomial exceeds a limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PolynomialError {
-    /// More terms at once than the options allow.
+    /// The polynomial needs more terms at once than the options allow.
     #[error("the expanded form has more than {limit} terms")]
     TooManyTerms {
-        /// [`PolynomialOptions::max_terms`].
+        /// The value of [`PolynomialOptions::max_terms`].
         limit: usize,
     },
-    /// More products of terms than the options allow.
+    /// The polynomial needs more products of terms than the options allow.
     #[error("the expansion takes more than {limit} products of terms")]
     TooManyProducts {
-        /// [`PolynomialOptions::max_products`].
+        /// The value of [`PolynomialOptions::max_products`].
         limit: u64,
     },
-    /// A power of a power beyond 2³¹.
+    /// The polynomial needs an exponent of 2³¹ or more.
     #[error("an exponent of the expanded form is beyond 2147483647; use smaller powers")]
     ExponentTooLarge,
 }
@@ -133,8 +132,7 @@ impl<'g> Polynomial<'g> {
         Ok(all.pop().unwrap_or_else(|| Polynomial::zero(expr.graph(), options)))
     }
 
-    /// The canonical polynomials of several expressions of one graph, their common parts expanded
-    /// once.
+    /// The canonical polynomials of several expressions of one graph; their common parts are expanded only once.
     ///
     /// # Errors
     ///
@@ -157,14 +155,14 @@ impl<'g> Polynomial<'g> {
         Polynomial { graph, options: *options, terms: vec![] }
     }
 
-    /// The graph whose nodes are the atoms.
+    /// The graph that contains the atoms.
     #[must_use]
     pub fn graph(&self) -> &'g Graph {
         self.graph
     }
 
-    /// The terms in order of their monomials, each with a coefficient that is not 0. Atoms come in
-    /// order of their first use in the graph, sines and roots after all others.
+    /// The terms in the order of their monomials; no coefficient is 0. In this order, atoms are sorted by their first
+    /// use in the graph, with sines and roots after all others.
     pub fn terms(&self) -> impl ExactSizeIterator<Item = (&Monomial, &Number)> {
         self.terms.iter().map(|(monomial, number)| (monomial, number))
     }
@@ -187,7 +185,7 @@ impl<'g> Polynomial<'g> {
         self.is_empty()
     }
 
-    /// The number, if the polynomial is a number.
+    /// Returns the number if the polynomial is constant.
     #[must_use]
     pub fn as_number(&self) -> Option<Number> {
         terms::as_number(&self.terms)
@@ -203,7 +201,7 @@ impl<'g> Polynomial<'g> {
         ids.into_iter().map(|id| self.graph.expr(id)).collect()
     }
 
-    /// The sum.
+    /// The sum of two polynomials.
     ///
     /// # Errors
     ///
@@ -212,7 +210,7 @@ impl<'g> Polynomial<'g> {
         self.combine(other, 1)
     }
 
-    /// The difference.
+    /// The difference of two polynomials.
     ///
     /// # Errors
     ///
@@ -221,7 +219,7 @@ impl<'g> Polynomial<'g> {
         self.combine(other, -1)
     }
 
-    /// The product.
+    /// The product of two polynomials.
     ///
     /// # Errors
     ///
@@ -234,25 +232,25 @@ impl<'g> Polynomial<'g> {
         }])
     }
 
-    /// The polynomial with its signs changed.
+    /// The negative of the polynomial.
     #[must_use]
     pub fn neg(&self) -> Polynomial<'g> {
         self.scale(&Number::integer(-1))
     }
 
-    /// The product with a number.
+    /// The product of the polynomial and a number.
     #[must_use]
     pub fn scale(&self, factor: &Number) -> Polynomial<'g> {
         self.with_terms(terms::scaled(&self.terms, factor))
     }
 
-    /// The sum as an expression, term by term.
+    /// Converts the polynomial to an expression that adds its terms one after the other.
     #[must_use]
     pub fn to_expr(&self) -> Expr<'g> {
         terms::to_expr(&self.terms, self.graph)
     }
 
-    /// The value with the symbols at the values that `value` gives.
+    /// Returns the value of the polynomial; `value` gives the value of each symbol.
     #[must_use]
     pub fn evaluate(&self, value: impl Fn(crate::SymbolId) -> f64) -> f64 {
         let atoms = self.atoms();
@@ -288,8 +286,8 @@ impl<'g> Polynomial<'g> {
     }
 }
 
-/// Equality of terms, which for polynomials of one graph and one choice of [`AngleSums`] is
-/// equality in the sense of the [module's documentation](self).
+/// Compares terms. For polynomials of one graph and with the same [`AngleSums`], this decides equality as described in
+/// the [module's documentation](self).
 impl PartialEq for Polynomial<'_> {
     fn eq(&self, other: &Self) -> bool {
         std::ptr::eq(self.graph, other.graph) && self.terms == other.terms
@@ -302,7 +300,7 @@ impl fmt::Debug for Polynomial<'_> {
     }
 }
 
-/// Whether an expression is 0 after expansion of products, angle sums and squares of sines.
+/// Whether an expression is 0 after products and angle sums are expanded and squares of sines are replaced.
 ///
 /// # Errors
 ///

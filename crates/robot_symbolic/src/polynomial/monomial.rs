@@ -7,8 +7,8 @@ use smallvec::SmallVec;
 
 use crate::graph::Id;
 
-/// Marks the atoms whose square is something else (sines and roots), so that a product sees at once
-/// whether it must be reduced. A graph of 2³¹ nodes would fill any memory before it met this bit.
+/// The bit that marks atoms whose square is replaced (sines, roots and absolute values), so that a product immediately
+/// shows whether it must be reduced. A graph of 2³¹ nodes, whose ids would need this bit, does not fit into memory.
 const REDUCIBLE: u32 = 1 << 31;
 
 /// A power of an atom.
@@ -23,13 +23,13 @@ impl Factor {
         Factor { key: atom.0 | if reducible { REDUCIBLE } else { 0 }, exponent }
     }
 
-    /// The atom, a node of the polynomial's graph.
+    /// The atom: a node of the polynomial's graph.
     #[must_use]
     pub fn atom(self) -> Id {
         Id(self.key & !REDUCIBLE)
     }
 
-    /// The exponent; never 0, negative under a fraction bar.
+    /// The exponent: never 0, and negative in a denominator.
     #[must_use]
     pub fn exponent(self) -> i32 {
         self.exponent
@@ -48,9 +48,9 @@ impl Factor {
     }
 }
 
-/// A product of powers of distinct atoms, without coefficient; the empty one is 1.
+/// A product of powers of distinct atoms, without a coefficient; the empty product is 1.
 ///
-/// Monomials are ordered as they are listed: by the power of the first atom, higher first, then the
+/// Monomials are ordered as they are listed: by the power of the first atom, higher powers first, then by that of the
 /// next (x² before x y before x before y before 1 before 1/x).
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Monomial(SmallVec<[Factor; 8]>);
@@ -65,18 +65,18 @@ impl Monomial {
         Monomial(SmallVec::from_slice(&[factor]))
     }
 
-    /// The monomial of factors that are in order.
+    /// The monomial of factors that are already sorted.
     pub(super) fn from_sorted(factors: impl Iterator<Item = Factor>) -> Monomial {
         Monomial(factors.collect())
     }
 
-    /// The powers, each atom once, in a fixed order.
+    /// The factors in a fixed order; each atom occurs once.
     #[must_use]
     pub fn factors(&self) -> &[Factor] {
         &self.0
     }
 
-    /// Whether this is 1.
+    /// Whether this is the monomial 1.
     #[must_use]
     pub fn is_one(&self) -> bool {
         self.0.is_empty()
@@ -89,7 +89,7 @@ impl Monomial {
         factor.map_or(0, |factor| factor.exponent)
     }
 
-    /// The product, and whether it holds a square that reduces; `None` if an exponent overflows.
+    /// The product, and whether it contains a square that must be replaced; `None` if an exponent overflows.
     pub(super) fn product(&self, other: &Monomial) -> Option<(Monomial, bool)> {
         let (a, b) = (self.0.as_slice(), other.0.as_slice());
         let mut factors = SmallVec::new();
@@ -121,7 +121,7 @@ impl Monomial {
         Some((Monomial(factors), reducible))
     }
 
-    /// The first factor whose square reduces, and the monomial without that square.
+    /// The first factor whose square must be replaced, and the monomial without that square.
     pub(super) fn split_square(&self) -> Option<(Factor, Monomial)> {
         let place =
             self.0.iter().position(|factor| factor.is_reducible() && factor.exponent >= 2)?;
@@ -135,7 +135,7 @@ impl Monomial {
         Some((factor, Monomial(rest)))
     }
 
-    /// The factors for which `chosen` holds, and the others.
+    /// The factors that `chosen` selects, and the others.
     pub(super) fn partition(&self, chosen: impl Fn(Id) -> bool) -> (Monomial, Monomial) {
         let (mut inside, mut outside) = (Monomial::one(), Monomial::one());
         for factor in &self.0 {
@@ -148,7 +148,7 @@ impl Monomial {
         (inside, outside)
     }
 
-    /// The monomial with one power less of an atom that it has; `None` if it has none.
+    /// The monomial with the exponent of an atom lowered by one; `None` if the atom does not occur.
     pub(super) fn lowered(&self, atom: Id) -> Option<Monomial> {
         let place = self.0.iter().position(|factor| factor.atom() == atom)?;
         let mut factors = self.0.clone();
@@ -170,7 +170,7 @@ impl Monomial {
         Some(Monomial(factors))
     }
 
-    /// The largest monomial that divides both, by the smaller exponent of each atom.
+    /// The largest monomial that divides both: each atom has the smaller of its two exponents.
     pub(super) fn common(&self, other: &Monomial) -> Monomial {
         let mut factors: SmallVec<[Factor; 8]> = SmallVec::new();
         for factor in &self.0 {
@@ -192,7 +192,7 @@ impl Monomial {
 impl Hash for Monomial {
     fn hash<H: Hasher>(&self, state: &mut H) {
         for factor in &self.0 {
-            // Both in the low bits, which reach all bits of the hash.
+            // The key and the exponent are in the low bits, which affect all bits of the hash.
             let exponent = i64::from(factor.exponent).cast_unsigned();
             state.write_u64(u64::from(factor.key) ^ exponent.wrapping_mul(0x9e37_79b9_7f4a_7c15));
         }
@@ -211,10 +211,10 @@ impl PartialOrd for Monomial {
     }
 }
 
-/// The order of listing of two products of powers, each sorted by rank; `power` gives the rank of
-/// an atom and its exponent.
+/// The order in which two products of powers are listed. Both must be sorted by rank; `power` gives the rank of an atom
+/// and its exponent.
 pub(crate) fn compare_powers<T>(a: &[T], b: &[T], power: impl Fn(&T) -> (u32, i32)) -> Ordering {
-    // At the first atom that only one has, a positive power comes before none, a negative after.
+    // At the first atom that only one product has, that product comes first if the power is positive, otherwise second.
     let alone = |exponent: i32| exponent.cmp(&0).reverse();
     for (x, y) in a.iter().map(&power).zip(b.iter().map(&power)) {
         let order = match x.0.cmp(&y.0) {

@@ -1,6 +1,6 @@
-//! Sums of products with each monomial packed into a few machine words: a field of bits for each
-//! atom, so that a product of monomials is a sum of words (Monagan and Pearce, "Sparse polynomial
-//! multiplication and division in Maple 14", 2009).
+//! Sums of products in which each monomial is packed into a few machine words. Each atom has a field of bits for its
+//! exponent, so a product of monomials is a sum of words (Monagan and Pearce, "Sparse polynomial multiplication and
+//! division in Maple 14", 2009).
 
 use std::collections::HashMap;
 use std::hash::{Hash, Hasher};
@@ -13,12 +13,12 @@ use super::monomial::{Factor, Monomial};
 use crate::graph::{Graph, Id};
 use crate::number::Number;
 
-/// Monomials of more words are multiplied unpacked.
+/// The largest number of words of a packed monomial; longer monomials are multiplied unpacked.
 const MAX_WORDS: usize = 4;
-/// Exponents that need more bits are multiplied unpacked.
+/// The largest number of bits of an exponent; monomials with larger exponents are multiplied unpacked.
 const MAX_BITS: u32 = 16;
 
-/// The field of an atom: bits of one word that hold the exponent above the least one.
+/// The field of an atom: the bits of one word that hold the atom's exponent minus its lowest possible value.
 struct Field {
     factor: Factor,
     word: usize,
@@ -27,12 +27,12 @@ struct Field {
     range: Range,
 }
 
-/// The bounds of an atom's exponents in the left and right factors of all products; 0 is in both.
+/// The bounds of an atom's exponents in the left and in the right factors of all products; both ranges include 0.
 #[derive(Clone, Copy, Default)]
 struct Range {
     low: [i32; 2],
     high: [i32; 2],
-    /// The most that reducing the square of the sine may add to the exponent of the cosine.
+    /// The largest increase of a cosine's exponent when the square of its sine is replaced.
     raise: i64,
 }
 
@@ -52,14 +52,14 @@ impl Range {
     }
 }
 
-/// A sine and its cosine, by their fields.
+/// A sine and its cosine, by the indices of their fields.
 struct Sine {
     sine: usize,
     cosine: usize,
 }
 
-/// The position of each atom's exponent in the packed words. The fields are in order of the atoms from
-/// the highest bits down, so that larger words are monomials that are listed earlier.
+/// The position of each atom's exponent in the packed words. The fields are in the order of the atoms, starting with
+/// the highest bits, so larger words stand for monomials that are listed earlier.
 pub(super) struct Layout {
     fields: Vec<Field>,
     places: FxHashMap<Id, usize>,
@@ -68,8 +68,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// The layout for a sum of products; `None` if the monomials are too wide, or squares other
-    /// than those of sines may have to be reduced.
+    /// The layout for a sum of products. Returns `None` if the monomials are too wide, or if squares of atoms other
+    /// than sines could arise.
     pub(super) fn new(graph: &Graph, parts: &[Part<'_>]) -> Option<Layout> {
         let mut ranges = ranges(parts);
         let pairs = sines(graph, &mut ranges)?;
@@ -98,7 +98,7 @@ impl Layout {
         (words <= MAX_WORDS).then_some(Layout { fields, places, sines, words })
     }
 
-    /// The sum of the products.
+    /// Computes the sum of the products.
     pub(super) fn sum(
         &self,
         parts: &[Part<'_>],
@@ -123,7 +123,7 @@ impl Layout {
         key
     }
 
-    /// The monomial 1 on the left (0) or right (1).
+    /// The packed monomial 1 as a left (0) or right (1) factor: every field holds the offset of its exponent.
     fn one<const W: usize>(&self, side: usize) -> Key<W> {
         let mut key = Key([0; W]);
         for field in &self.fields {
@@ -137,7 +137,7 @@ impl Layout {
         let mut key = one;
         for factor in monomial.factors() {
             if let Some(field) = self.places.get(&factor.atom()).map(|place| &self.fields[*place]) {
-                // Modulo 2⁶⁴; the field itself ends up in its range.
+                // The addition is modulo 2⁶⁴; the field itself ends within its range.
                 let exponent = i64::from(factor.exponent()).cast_unsigned();
                 key.0[field.word] = key.0[field.word].wrapping_add(exponent << field.shift);
             }
@@ -148,7 +148,7 @@ impl Layout {
     fn unpack<const W: usize>(&self, key: Key<W>) -> Monomial {
         let factors = self.fields.iter().filter_map(|field| {
             let value = (key.0[field.word] >> field.shift) & ((1 << field.bits) - 1);
-            // At most 16 bits, above a sum of two exponents of 32.
+            // The value has at most 16 bits, and the lowest exponent is a sum of two `i32`, so the sum cannot overflow.
             let exponent = value.cast_signed() + field.range.low();
             (exponent != 0).then(|| field.factor.with_exponent(exponent as i32))
         });
@@ -156,7 +156,7 @@ impl Layout {
     }
 }
 
-/// The bounds of all exponents of all atoms.
+/// The bounds of the exponents of all atoms.
 fn ranges(parts: &[Part<'_>]) -> FxHashMap<Id, (Factor, Range)> {
     let mut ranges: FxHashMap<Id, (Factor, Range)> = FxHashMap::default();
     for part in parts {
@@ -171,8 +171,8 @@ fn ranges(parts: &[Part<'_>]) -> FxHashMap<Id, (Factor, Range)> {
     ranges
 }
 
-/// The sines whose squares may arise, with their cosines, which get ranges of their own; `None`
-/// where a square of something else may arise.
+/// The sines whose squares can arise, with their cosines, whose ranges are added or widened. Returns `None` if the
+/// square of another atom can arise.
 fn sines(graph: &Graph, ranges: &mut FxHashMap<Id, (Factor, Range)>) -> Option<Vec<(Id, Id)>> {
     let mut squares: Vec<(Id, Range)> = ranges
         .values()
@@ -216,8 +216,8 @@ impl<const W: usize> Key<W> {
     }
 }
 
-/// Each word is multiplied into the next and the halves of the product are folded, for the bits that
-/// differ among packed monomials may lie anywhere in a word, and the table looks at few.
+/// Multiplies the words one after the other and folds the two halves of each product, because packed monomials can
+/// differ in any bits of a word and the hash table uses only a few bits of the hash.
 impl<const W: usize> Hash for Key<W> {
     #[inline]
     fn hash<H: Hasher>(&self, state: &mut H) {
@@ -230,8 +230,8 @@ impl<const W: usize> Hash for Key<W> {
     }
 }
 
-/// A sine that may be squared: two of its units, two of the cosine's, and the bit that only the
-/// square sets.
+/// A sine that can be squared: the keys of its square and of the cosine's square. Only the square of the sine sets the
+/// bit of the former.
 struct Square<const W: usize> {
     sines: Key<W>,
     cosines: Key<W>,
@@ -242,7 +242,7 @@ struct Sum<'a, const W: usize> {
     budget: &'a mut Budget,
     terms: HashMap<Key<W>, Number, FxBuildHasher>,
     squares: Vec<Square<W>>,
-    /// The bits that squares of sines set.
+    /// The bits that are set exactly if a sine is squared.
     mask: Key<W>,
 }
 
@@ -257,7 +257,7 @@ impl<'a, const W: usize> Sum<'a, W> {
             .iter()
             .map(|pair| Square { sines: double(pair.sine), cosines: double(pair.cosine) })
             .collect();
-        // Of the exponents 0, 1 and 2 only the last has the second bit: twice a unit.
+        // Of the exponents 0, 1 and 2, only 2 has the second bit set, which is twice the field's unit.
         let mask = squares.iter().fold(Key([0; W]), |mask, square| mask.plus(square.sines));
         Sum { layout, budget, terms: HashMap::default(), squares, mask }
     }
@@ -290,7 +290,7 @@ impl<'a, const W: usize> Sum<'a, W> {
         if !key.meets(self.mask) {
             return self.insert(key, coefficient);
         }
-        // s² = 1 − c² for each squared sine.
+        // Replaces s² by 1 − c² for each squared sine.
         let mut pending = vec![(key, coefficient)];
         for square in &self.squares {
             if key.meets(square.sines) {

@@ -8,8 +8,8 @@ use super::terms;
 use crate::number::Number;
 
 impl Expander<'_> {
-    /// `1 / divisor`: negative powers of the common factors of all terms, times the negative first
-    /// power of the rest, a sum that becomes an atom.
+    /// Returns `1 / divisor`: the inverse of the largest monomial that divides all terms, times the negative first
+    /// power of the remaining sum, which becomes an atom.
     pub(super) fn reciprocal(&mut self, divisor: &Terms) -> Result<Terms, PolynomialError> {
         match divisor.as_slice() {
             // The reciprocal of 0 is NaN, as for numbers.
@@ -33,7 +33,7 @@ impl Expander<'_> {
         }
     }
 
-    /// The terms divided by their common denominators: terms without denominators.
+    /// Multiplies the terms of the divisor by their common denominators, so that they have no denominators.
     fn clear(
         &mut self,
         divisor: &Terms,
@@ -45,7 +45,7 @@ impl Expander<'_> {
         for (monomial, coefficient) in divisor {
             let (product, _) = monomial.product(&inverse).ok_or(overflow)?;
             let (sums, rest) = product.partition(|atom| self.graph.sum_terms(atom).is_some());
-            // Sums return from under their fraction bars when their inverse is inverted.
+            // `sums` are inverted twice, because `inverse_term` expands a sum with a negative exponent into its terms.
             let sums = sums.inverse().ok_or(overflow)?;
             let raised = self.inverse_term(&sums, &Number::integer(1))?;
             let term = vec![(rest, coefficient.clone())];
@@ -54,7 +54,7 @@ impl Expander<'_> {
         self.collected(&sum)
     }
 
-    /// The reciprocal of several terms without denominators.
+    /// The reciprocal of a sum of several terms without denominators.
     fn inverse_polynomial(&mut self, divisor: &Terms) -> Result<Terms, PolynomialError> {
         let one = Number::integer(1);
         let leading = divisor.first().map_or(&one, |(_, coefficient)| coefficient);
@@ -71,7 +71,7 @@ impl Expander<'_> {
         self.product(&content, &atom)
     }
 
-    /// `1 / sum` as the negative power of an atom.
+    /// Returns `1 / sum` as the negative power of an atom.
     fn inverse_sum(&mut self, sum: &[Term]) -> Result<Terms, PolynomialError> {
         let canonical = terms::to_expr(sum, self.graph);
         let (coefficient, atom) = self.graph.sum_atom(sum, canonical);
@@ -84,8 +84,8 @@ impl Expander<'_> {
         Ok(vec![(monomial, coefficient.recip())])
     }
 
-    /// `1 / (coefficient · monomial)`. Sums return from under their fraction bars; roots of
-    /// monomials move above: 1/√x = √x/x.
+    /// Returns `1 / (coefficient · monomial)`. A sum with a negative exponent is expanded into its terms, and the root
+    /// of a monomial moves to the numerator: 1/√x = √x/x.
     fn inverse_term(
         &mut self,
         monomial: &Monomial,
@@ -112,8 +112,8 @@ impl Expander<'_> {
         Ok(result)
     }
 
-    /// The square of a root if that is one term. (Roots have the first power, for higher
-    /// ones reduce.)
+    /// The square of a root if it is a single term. Only the first power is considered, because higher powers of roots
+    /// are replaced.
     fn square_term(&self, factor: Factor) -> Option<(Monomial, Number)> {
         if !factor.is_reducible() || factor.exponent() != 1 {
             return None;

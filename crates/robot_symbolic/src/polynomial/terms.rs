@@ -6,12 +6,12 @@ use crate::expr::Expr;
 use crate::graph::Graph;
 use crate::number::Number;
 
-/// The polynomial that is one number.
+/// The terms of a constant polynomial.
 pub(super) fn constant(number: Number) -> Terms {
     if number.is_zero() { vec![] } else { vec![(Monomial::one(), number)] }
 }
 
-/// `factor · terms`, without reduction of anything.
+/// Returns `factor · terms`; no squares are replaced.
 pub(super) fn scaled(terms: &[Term], factor: &Number) -> Terms {
     terms
         .iter()
@@ -20,7 +20,7 @@ pub(super) fn scaled(terms: &[Term], factor: &Number) -> Terms {
         .collect()
 }
 
-/// The number that the terms are, if they are one.
+/// Returns the number if the polynomial is constant.
 pub(super) fn as_number(terms: &[Term]) -> Option<Number> {
     match terms {
         [] => Some(Number::integer(0)),
@@ -29,19 +29,19 @@ pub(super) fn as_number(terms: &[Term]) -> Option<Number> {
     }
 }
 
-/// Whether the first term has a minus sign: the sign that odd functions give away.
+/// Whether the first coefficient is negative: its sign is moved out of odd functions.
 pub(super) fn leads_negative(terms: &[Term]) -> bool {
     terms.first().is_some_and(|(_, coefficient)| coefficient.is_negative())
 }
 
-/// The expression of the sum, in the order of the terms.
+/// Converts terms to an expression that adds them in their order.
 pub(super) fn to_expr<'g>(terms: &[Term], graph: &'g Graph) -> Expr<'g> {
     terms.iter().fold(graph.zero(), |sum, (monomial, number)| {
         sum + graph.number(number.clone()) * monomial_expr(monomial, graph)
     })
 }
 
-/// The expression of a monomial, a quotient if it has negative powers.
+/// Converts a monomial to an expression: a quotient if it has negative exponents.
 pub(super) fn monomial_expr<'g>(monomial: &Monomial, graph: &'g Graph) -> Expr<'g> {
     let product = |positive: bool| {
         monomial.factors().iter().filter(|factor| (factor.exponent() > 0) == positive).fold(

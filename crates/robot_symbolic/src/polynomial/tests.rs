@@ -111,7 +111,7 @@ fn limits_end_hostile_expansions() {
         error("sin(a+b+c+d+e+f+g+h+i+j+k+l+m+n+o)"),
         PolynomialError::TooManyTerms { limit: 1000 }
     );
-    // A third of a million products, but of coefficients of up to a thousand bits.
+    // These are a third of a million products, but with coefficients of up to a thousand bits.
     let options = PolynomialOptions { max_products: 1_000_000, ..options };
     assert_eq!(
         Polynomial::of(expr("((1 + x)^64)^15"), &options),
@@ -272,7 +272,7 @@ fn collection_separates_accelerations() {
 }
 
 impl Polynomial<'_> {
-    /// The sum of the absolute values of the terms, by which errors of rounding are judged.
+    /// The sum of the absolute values of the terms, which bounds rounding errors.
     fn magnitude(&self, point: &[f64]) -> f64 {
         let single = |term: &Term| self.with_terms(vec![term.clone()]);
         let value = |term| single(term).evaluate(|symbol| point[symbol.index()]);

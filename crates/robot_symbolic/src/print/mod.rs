@@ -1,10 +1,10 @@
-//! Expressions and polynomials as infix text, and what printers of other notations ask of them.
+//! Infix text of expressions and polynomials, and helpers for printers of other notations.
 //!
-//! Text reads back: [`crate::Graph::parse`] of the text of an expression gives the expression
-//! itself, and of a polynomial's text an expression with that polynomial, within the limits of the
-//! parser (nesting, length, and floating-point constants, which read back as the decimal that was
-//! printed). Nothing recurses, and an expression whose parts are shared so often that its text
-//! would fill the memory is refused beforehand.
+//! Text can be parsed again: [`crate::Graph::parse`] gives the same expression for the text of an expression, and an
+//! expression with the same polynomial for the text of a polynomial. This holds within the limits of the parser on
+//! nesting and length, and a floating-point constant becomes the decimal number that was printed. No function recurses
+//! over expressions. An expression whose parts are shared so often that its text would fill the memory is refused
+//! beforehand.
 
 mod number;
 mod polynomial;
@@ -25,19 +25,19 @@ pub use polynomial::{
 };
 pub use text::{to_text, to_text_limited};
 
-/// Expressions with more operations are not printed; a shared operation counts at every use.
+/// The largest number of operations of an expression that is printed; a shared operation counts at every use.
 pub const MAX_OPERATIONS: u64 = 1_000_000;
 
-/// An expression that is too long to be written out.
+/// The error for an expression that is too long to be written out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "written out, the expression has {operations} operations, more than {limit}; introduce names \
      for parts of it"
 )]
 pub struct TooLarge {
-    /// The operations of the expression, or the largest `u64` if there are more.
+    /// The number of operations, or the largest `u64` if there are more.
     pub operations: u64,
-    /// The most that were allowed.
+    /// The largest number that was allowed.
     pub limit: u64,
 }
 
@@ -50,14 +50,14 @@ pub(crate) enum Level {
     Atom,
 }
 
-/// A part of what an expression is printed as.
+/// A piece of the text of an expression.
 pub(crate) enum Piece<'g> {
     Text(Cow<'static, str>),
-    /// An operand, in parentheses if it binds less tightly than the level.
+    /// An operand, which is put in parentheses if it binds less tightly than the level.
     Operand(Expr<'g>, Level),
 }
 
-/// The text of an expression, by a notation that gives each node its level and pieces.
+/// Writes an expression in a notation, which gives the level and the pieces of each node.
 pub(crate) fn write<'g>(
     root: Expr<'g>,
     limit: u64,
@@ -83,17 +83,17 @@ pub(crate) fn write<'g>(
     Ok(text)
 }
 
-/// Returns an error if an expression would be too long to write out.
+/// Checks that an expression is not too long to be written out.
 ///
 /// # Errors
 ///
-/// If it has more than `limit` operations, each shared one counted at every use.
+/// If it has more than `limit` operations, with a shared operation counted at every use.
 pub fn check_length(expr: Expr<'_>, limit: u64) -> Result<(), TooLarge> {
     let operations = written_operations(expr);
     if operations > limit { Err(TooLarge { operations, limit }) } else { Ok(()) }
 }
 
-/// The number of nodes of an expression as a tree.
+/// The number of nodes of an expression as a tree, with a shared node counted at every use.
 fn written_operations(root: Expr<'_>) -> u64 {
     let mut sizes: FxHashMap<_, u64> = FxHashMap::default();
     for expr in walk::reachable(&[root]) {
@@ -107,16 +107,17 @@ fn written_operations(root: Expr<'_>) -> u64 {
     sizes.get(&root.id()).copied().unwrap_or_default()
 }
 
-/// Powers up to the largest that the parser takes are printed as such.
+/// The largest exponent that is printed as a power: the largest that the parser accepts.
 const MAX_POWER: u32 = crate::formula::MAX_EXPONENT as u32;
 
-/// `(x, n)` if the expression is the product that [`Expr::powi`] makes of `x` and `n`.
+/// Returns `(x, n)` if the expression is the product that [`Expr::powi`] makes of `x` and `n`; otherwise the expression
+/// and 1.
 #[must_use]
 pub fn as_power(expr: Expr<'_>) -> (Expr<'_>, u32) {
     power_within(expr, MAX_POWER)
 }
 
-/// [`as_power`] for exponents up to `most`; halving bounds the recursion at six calls.
+/// Like [`as_power`], for exponents up to `most`, which is halved at each of the at most six levels of recursion.
 fn power_within(expr: Expr<'_>, most: u32) -> (Expr<'_>, u32) {
     let View::Mul(a, b) = expr.view() else {
         return (expr, 1);
@@ -126,6 +127,7 @@ fn power_within(expr: Expr<'_>, most: u32) -> (Expr<'_>, u32) {
     }
     let ((x, m), (y, n)) = (power_within(a, most / 2), power_within(b, most / 2));
     let (high, low) = (m.max(n), m.min(n));
-    // The last step of repeated squaring squares a power of two or multiplies by the highest one.
+    // The last step of repeated squaring squares a power of two, or multiplies by the highest power of two in the
+    // exponent.
     if x == y && high.is_power_of_two() && m + n <= most { (x, high + low) } else { (expr, 1) }
 }

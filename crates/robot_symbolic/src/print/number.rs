@@ -4,10 +4,10 @@ use super::Level;
 use crate::number::Number;
 use crate::rational::Rational;
 
-/// Fractions of more decimal places than this are printed as quotients.
+/// The largest number of decimal places; fractions with more are printed as quotients.
 const MAX_PLACES: usize = 40;
 
-/// The exact value: `7`, `-0.35` if the denominator divides a power of ten, else `2/3`.
+/// Writes the exact value: `7`, or `-0.35` if the denominator divides a power of ten, otherwise `2/3`.
 #[must_use]
 pub fn exact_text(value: &Rational) -> String {
     let (numerator, denominator) = value.to_digits();
@@ -22,19 +22,18 @@ pub fn exact_text(value: &Rational) -> String {
 /// The absolute value of a number, in the form that a printer needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Magnitude {
-    /// Digits, perhaps with a point: `7`, `0.35`.
+    /// Digits, possibly with a decimal point: `7`, `0.35`.
     Decimal(String),
     /// A quotient of integers, if the value is not a decimal.
     Quotient([String; 2]),
-    /// Digits, and the power of ten by which they are multiplied: `1.5`, `-7`.
+    /// Digits and the exponent of the power of ten that they are multiplied by: `1.5` and `-7`.
     Scientific([String; 2]),
     /// An infinity or NaN.
     NotANumber,
 }
 
 impl Magnitude {
-    /// The absolute value of a number. Floating-point constants are the shortest decimals that round to
-    /// them.
+    /// The absolute value of a number. A floating-point constant becomes the shortest decimal number that rounds to it.
     #[must_use]
     pub fn new(number: &Number) -> Magnitude {
         let pair = |(a, b): (&str, &str)| [a.to_owned(), b.to_owned()];
@@ -58,8 +57,8 @@ impl Magnitude {
     }
 }
 
-/// The absolute value as text that reads back, and how tightly it binds. What is not a number is
-/// `(0/0)`, which is as little a number.
+/// The absolute value as text that can be parsed again, and how tightly it binds. Infinities and NaN become `(0/0)`,
+/// which is a NaN when it is parsed.
 pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
     match Magnitude::new(number) {
         Magnitude::Decimal(digits) => (digits, Level::Atom),
@@ -69,7 +68,7 @@ pub(crate) fn magnitude_text(number: &Number) -> (String, Level) {
     }
 }
 
-/// `(n, k)` with the value `n / 10^k` and the least such `k`, if there is one.
+/// Returns `(n, k)` such that the value is `n / 10^k` with the smallest `k` ≥ 1, if there is one up to [`MAX_PLACES`].
 fn decimal_places(value: &Rational) -> Option<(Rational, usize)> {
     let ten = Rational::integer(10);
     let mut scaled = value.clone();

@@ -1,4 +1,4 @@
-//! Polynomials as sums of terms, in an order of the caller's.
+//! Polynomials as sums of terms, in an order that the caller chooses.
 
 use std::cmp::Ordering;
 
@@ -18,7 +18,7 @@ pub struct ArrangedTerm<'g> {
     pub negative: bool,
     /// The absolute value of the coefficient.
     pub coefficient: Number,
-    /// Factors with their exponents (not 0), in order.
+    /// The factors with their exponents, which are not 0, in the order of printing.
     pub factors: Vec<(ArrangedFactor<'g>, i32)>,
 }
 
@@ -27,13 +27,13 @@ pub struct ArrangedTerm<'g> {
 pub enum ArrangedFactor<'g> {
     /// A symbol, π, a function, or a sum in a denominator.
     Atom(Expr<'g>),
-    /// A sum in parentheses, of two terms or more, as [`crate::collected`] builds it.
+    /// A sum of at least two terms in parentheses, as [`crate::collected`] builds it.
     Sum(Vec<ArrangedTerm<'g>>),
 }
 
 impl<'g> ArrangedTerm<'g> {
-    /// A sum of terms times further factors, which stand after it: one term, with a sum of several in
-    /// brackets that do not begin with a minus sign.
+    /// The product of a sum and further factors, as one term. A sum of several terms becomes a factor in brackets
+    /// before the others; its signs are chosen so that it does not begin with a minus sign.
     #[must_use]
     pub fn product(sum: &[ArrangedTerm<'g>], factors: Vec<(ArrangedFactor<'g>, i32)>) -> Self {
         if let [single] = sum {
@@ -52,7 +52,7 @@ impl<'g> ArrangedTerm<'g> {
 }
 
 impl<'g> ArrangedFactor<'g> {
-    /// The atom, if the factor is one; those of [`Polynomial::arranged`] all are.
+    /// Returns the atom if the factor is one; all factors of [`Polynomial::arranged`] are atoms.
     #[must_use]
     pub const fn as_atom(&self) -> Option<Expr<'g>> {
         match self {
@@ -62,7 +62,7 @@ impl<'g> ArrangedFactor<'g> {
     }
 }
 
-/// The value of a sum of terms as an expression.
+/// Converts a sum of terms to an expression.
 #[must_use]
 pub fn arranged_value<'g>(terms: &[ArrangedTerm<'g>], graph: &'g Graph) -> Expr<'g> {
     terms.iter().fold(graph.zero(), |sum, term| {
@@ -75,7 +75,7 @@ pub fn arranged_value<'g>(terms: &[ArrangedTerm<'g>], graph: &'g Graph) -> Expr<
     })
 }
 
-/// The atoms of a sum of terms, in order of appearance.
+/// The atoms of a sum of terms, in the order of their appearance.
 #[must_use]
 pub fn atoms<'g>(terms: &[ArrangedTerm<'g>]) -> Vec<Expr<'g>> {
     let factors = terms.iter().flat_map(|term| &term.factors);
@@ -87,7 +87,7 @@ pub fn atoms<'g>(terms: &[ArrangedTerm<'g>]) -> Vec<Expr<'g>> {
         .collect()
 }
 
-/// A sum of arranged terms as infix text.
+/// Writes a sum of arranged terms as infix text.
 ///
 /// # Errors
 ///
@@ -97,8 +97,8 @@ pub fn arranged_text(terms: &[ArrangedTerm<'_>]) -> Result<String, TooLarge> {
     atoms.sum(terms)
 }
 
-/// The order of atoms if the caller has none: symbols and π, then sines and cosines, then other
-/// functions, then sums; among each, in order of first use in the graph.
+/// The default rank of atoms: symbols and π come first, then sines and cosines, other functions, and sums. Atoms of
+/// equal rank are in the order of their first use in the graph.
 #[must_use]
 pub fn default_rank(atom: Expr<'_>) -> u8 {
     match atom.view() {
@@ -110,9 +110,9 @@ pub fn default_rank(atom: Expr<'_>) -> u8 {
 }
 
 impl<'g> Polynomial<'g> {
-    /// The terms with their factors in order of the ranks that `rank` gives to atoms, those of equal
-    /// rank in order of first use in the graph. The terms are in the order of their monomials by
-    /// those factors: higher powers of the first atom first.
+    /// Arranges the terms by the ranks that `rank` gives to atoms. The factors of a term are in ascending order of
+    /// their ranks, and factors of equal rank in the order of their first use in the graph. The terms are ordered by
+    /// their powers of these atoms: higher powers of the first atom first.
     #[must_use]
     pub fn arranged<K: Ord>(&self, rank: impl Fn(Expr<'g>) -> K) -> Vec<ArrangedTerm<'g>> {
         let mut atoms: Vec<(K, Expr<'g>)> =
@@ -144,7 +144,7 @@ impl<'g> Polynomial<'g> {
             .collect()
     }
 
-    /// The polynomial as infix text, in the order of [`default_rank`].
+    /// Writes the polynomial as infix text, in the order of [`default_rank`].
     ///
     /// ```
     /// use robot_symbolic::{Graph, Polynomial, PolynomialOptions};
@@ -164,7 +164,7 @@ impl<'g> Polynomial<'g> {
         self.to_text_by(default_rank)
     }
 
-    /// The polynomial as infix text, arranged by ranks of its atoms (see [`Polynomial::arranged`]).
+    /// Writes the polynomial as infix text, arranged by ranks of its atoms (see [`Polynomial::arranged`]).
     ///
     /// # Errors
     ///
@@ -174,7 +174,7 @@ impl<'g> Polynomial<'g> {
     }
 }
 
-/// The order of listing of two products of powers.
+/// The order in which two products of powers are listed.
 fn listed(a: &[(u32, i32)], b: &[(u32, i32)]) -> Ordering {
     compare_powers(a, b, |power| *power)
 }
@@ -187,7 +187,7 @@ fn atom_text(atom: Expr<'_>) -> Result<String, TooLarge> {
     })
 }
 
-/// The texts of atoms, each made once.
+/// The texts of atoms; each text is made once.
 #[derive(Default)]
 struct AtomTexts {
     known: FxHashMap<Id, String>,
@@ -212,7 +212,7 @@ impl AtomTexts {
         Ok(text)
     }
 
-    /// `c*x*y^2/(z*w)`.
+    /// Writes a term such as `c*x*y^2/(z*w)`.
     fn term(&mut self, term: &ArrangedTerm<'_>) -> Result<String, TooLarge> {
         let mut numerator: Vec<String> = vec![];
         let mut denominator: Vec<String> = vec![];
@@ -249,9 +249,9 @@ impl AtomTexts {
     }
 }
 
-/// `x^n`, in factors whose exponents the parser takes.
+/// Appends `x^n`, split into factors whose exponents the parser accepts.
 fn push_power(factors: &mut Vec<String>, name: &str, exponent: u32) {
-    // Beyond a few thousand the text would serve nobody; the parser says what it thinks of it.
+    // An exponent beyond a few thousand is not split, because nobody could read the text; the parser refuses it.
     let full = exponent / MAX_POWER;
     if exponent <= MAX_POWER || full > 64 {
         factors.push(if exponent == 1 { name.to_owned() } else { format!("{name}^{exponent}") });

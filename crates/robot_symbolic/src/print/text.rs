@@ -4,8 +4,8 @@ use super::{Level, MAX_OPERATIONS, Piece, TooLarge, as_power, number, write};
 use crate::expr::{Expr, View};
 use crate::number::Number;
 
-/// The infix text of an expression as it is built, with the fewest parentheses that keep its
-/// structure.
+/// Writes an expression as infix text with the structure in which it was built, and with the fewest parentheses that
+/// preserve this structure.
 ///
 /// ```
 /// use robot_symbolic::{Graph, print};
@@ -24,7 +24,7 @@ pub fn to_text(expr: Expr<'_>) -> Result<String, TooLarge> {
     to_text_limited(expr, MAX_OPERATIONS)
 }
 
-/// [`to_text`] with a limit of the caller's.
+/// Like [`to_text`], with a given limit.
 ///
 /// # Errors
 ///
@@ -78,7 +78,7 @@ fn product<'g>(expr: Expr<'g>, a: Expr<'g>, b: Expr<'g>) -> (Level, Vec<Piece<'g
     (Level::Product, infix(a, Level::Product, "*", b, Level::Power))
 }
 
-/// `n` of `1/n` if that is printed as a fraction.
+/// Returns `n` for the number `1/n` if it is printed as a fraction.
 fn unit_fraction(number: &Number) -> Option<String> {
     let (text, level) = number::magnitude_text(number);
     text.strip_prefix("1/").filter(|_| level == Level::Product).map(str::to_owned)

@@ -1,13 +1,13 @@
-//! Expressions prepared to be evaluated at many states.
+//! Expressions prepared for evaluation at many states.
 
 use crate::expr::{Expr, View};
 use crate::graph::{Function, SymbolId};
 
-/// Expressions as a list of steps, each over the values of earlier ones.
+/// Expressions as a list of steps; the operands of a step are results of earlier steps.
 #[derive(Clone, Debug)]
 pub struct Evaluator {
     steps: Vec<Step>,
-    /// The steps that give the values of the expressions.
+    /// The steps whose results are the values of the expressions.
     roots: Vec<usize>,
 }
 
@@ -24,11 +24,11 @@ enum Step {
 }
 
 impl Evaluator {
-    /// The steps of `roots`.
+    /// Prepares the steps that compute `roots`.
     #[must_use]
     pub fn new(roots: &[Expr<'_>]) -> Evaluator {
         let nodes = super::reachable(roots);
-        // All operands are among the nodes, which are in the order of their ids.
+        // All operands are among the nodes, which are sorted by their ids.
         let place = |expr: Expr<'_>| {
             nodes.binary_search_by_key(&expr.id(), |node| node.id()).unwrap_or_default()
         };
@@ -49,13 +49,13 @@ impl Evaluator {
         }
     }
 
-    /// The values with the symbols at the values that `value` gives.
+    /// Returns the values of the expressions; `value` gives the value of each symbol.
     #[must_use]
     pub fn values(&self, value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
         self.values_by(value, Function::apply)
     }
 
-    /// [`Evaluator::values`] with the values of functions that `apply` gives.
+    /// Like [`Evaluator::values`], but `apply` evaluates the functions.
     #[must_use]
     pub fn values_by(
         &self,

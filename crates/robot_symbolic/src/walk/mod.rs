@@ -1,7 +1,7 @@
 //! Passes over expressions: evaluation, substitution, import into another graph, derivatives.
 //!
-//! Ids grow from operands to results, so each pass runs over a table in the order of ids; none
-//! recurses, however deep an expression is.
+//! The ids of operands are smaller than those of results, so each pass runs over a table in the order of ids. No pass
+//! is recursive, so expressions can be arbitrarily deep.
 
 mod evaluator;
 
@@ -12,7 +12,7 @@ use crate::graph::{Function, Graph, SymbolId};
 
 pub use evaluator::Evaluator;
 
-/// The expressions of which `roots` consist, operands before results, each once.
+/// Returns all expressions that `roots` consist of, operands before results, each once.
 #[must_use]
 pub fn reachable<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     let mut seen = rustc_hash::FxHashSet::default();
@@ -28,8 +28,8 @@ pub fn reachable<'g>(roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     found
 }
 
-/// Whether `root` consists of more than `limit` expressions, counting itself and each shared one once; the walk stops
-/// at the limit.
+/// Whether `root` consists of more than `limit` expressions, including itself; a shared one counts once. The traversal
+/// stops at the limit.
 #[must_use]
 pub fn is_longer_than(root: Expr<'_>, limit: usize) -> bool {
     let mut seen = rustc_hash::FxHashSet::default();
@@ -45,7 +45,7 @@ pub fn is_longer_than(root: Expr<'_>, limit: usize) -> bool {
     false
 }
 
-/// The symbols that `roots` depend on, in order of their first use in the graph.
+/// Returns the symbols that `roots` depend on, in the order of their first use in the graph.
 #[must_use]
 pub fn symbols(roots: &[Expr<'_>]) -> Vec<SymbolId> {
     let mut symbols: Vec<_> = reachable(roots).iter().filter_map(|expr| expr.as_symbol()).collect();
@@ -53,14 +53,14 @@ pub fn symbols(roots: &[Expr<'_>]) -> Vec<SymbolId> {
     symbols
 }
 
-/// The values of `roots` with the symbols at the values that `value` gives.
+/// Returns the values of `roots`; `value` gives the value of each symbol.
 #[must_use]
 pub fn evaluate(roots: &[Expr<'_>], value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
     Evaluator::new(roots).values(value)
 }
 
-/// `roots` rebuilt in `graph`, each symbol replaced by what `replace` gives for its name; the local
-/// rules apply anew.
+/// Rebuilds `roots` in `graph`, with each symbol replaced by the result of `replace` for its name. The local rules
+/// apply again.
 #[must_use]
 pub fn rebuild<'h>(
     roots: &[Expr<'_>],
@@ -73,8 +73,8 @@ pub fn rebuild<'h>(
     })
 }
 
-/// `roots` rebuilt in `graph`, every expression for which `replace` gives another one replaced by
-/// that; nothing below it is visited. The local rules apply anew.
+/// Rebuilds `roots` in `graph`, with every expression for which `replace` returns a replacement replaced. The operands
+/// of a replaced expression are not visited. The local rules apply again.
 ///
 /// ```
 /// use robot_symbolic::{Graph, print, walk};
@@ -129,7 +129,7 @@ pub fn rebuild_above<'g, 'h>(
     roots.iter().map(|root| built[&root.id()]).collect()
 }
 
-/// The partial derivatives of `roots` by one symbol.
+/// Returns the partial derivatives of `roots` with respect to one symbol.
 ///
 /// |x| has the derivative sgn x, and sgn x the derivative 0, everywhere.
 #[must_use]
@@ -164,26 +164,26 @@ impl<'g> Expr<'g> {
         }
     }
 
-    /// The partial derivative by a symbol.
+    /// The partial derivative with respect to a symbol.
     #[must_use]
     pub fn derivative(self, symbol: Expr<'g>) -> Expr<'g> {
         derivatives(&[self], symbol)[0]
     }
 
-    /// The value with the symbols at the values that `value` gives.
+    /// Returns the value of the expression; `value` gives the value of each symbol.
     #[must_use]
     pub fn evaluate(self, value: impl Fn(SymbolId) -> f64) -> f64 {
         evaluate(&[self], value)[0]
     }
 
-    /// The expression with symbols replaced; those for which `replace` returns `None` stay.
+    /// Returns the expression with symbols replaced; a symbol for which `replace` returns `None` stays.
     #[must_use]
     pub fn substitute(self, replace: impl Fn(&str) -> Option<Expr<'g>>) -> Expr<'g> {
         let graph = self.graph();
         rebuild(&[self], graph, |name| replace(name).unwrap_or_else(|| graph.symbol(name)))[0]
     }
 
-    /// The derivative of `self = function(argument)` by its argument.
+    /// The derivative of `self = function(argument)` with respect to its argument.
     pub(crate) fn function_slope(self, function: Function, argument: Expr<'g>) -> Expr<'g> {
         let graph = self.graph();
         match function {

@@ -16,19 +16,21 @@ use super::parameters::Parameters;
 use crate::error::Error;
 use crate::robots::Model;
 
-/// By how much base parameters of the written file may differ from those meant, beside the largest of them.
+/// The most by which base parameters of the written file may differ from the intended ones, relative to the largest
+/// of them.
 const ROUNDING: f64 = 1e-9;
 
 impl Estimate {
-    /// The robot file with consistent values of this estimate: masses, centers of mass and inertias of all moving links,
-    /// and friction and armatures that the file has. If the new name ends with `.urdf`, it is the URDF file with other
-    /// inertials, else TOML. The estimates with their deviations are comments. Bodies of fixed links are joined with the
-    /// moving link that carries them. The second text has what the doctor says about the file under its new name.
+    /// Writes the robot file with the consistent values of this estimate: masses, centers of mass and inertias of
+    /// all moving links, and the friction and armatures that the file has. If the new name ends with `.urdf`, the
+    /// result is the URDF file with other inertials, otherwise TOML. Comments contain the estimates with their
+    /// deviations. Bodies of fixed links are merged into the moving link that carries them. The second text
+    /// contains the warnings of the doctor about the file under its new name.
     ///
     /// # Errors
     ///
-    /// A file with what cannot be written back: standard Denavit-Hartenberg rows, gyroscopic rotors, drives given by
-    /// rotor inertia; URDF from a file that is not URDF; a result that is not a robot file.
+    /// A file with parts that cannot be written back: standard Denavit-Hartenberg rows, gyroscopic rotors, drives
+    /// given by rotor inertia; URDF from a file that is not URDF; a result that is not a robot file.
     pub fn robot_file(
         &self,
         model: &Model,
@@ -69,7 +71,7 @@ impl Estimate {
         Ok((text, complaints))
     }
 
-    /// The estimates of a link's base parameters in words.
+    /// The text with the estimates of a link's base parameters.
     fn comments(&self, link: usize) -> Vec<String> {
         let ending = format!("_{}", link + 1);
         let own = self.names.iter().enumerate().filter(|(_, name)| name.ends_with(&ending));
@@ -86,7 +88,7 @@ impl Estimate {
     }
 }
 
-/// Identified values of all standard parameters.
+/// The identified values of all standard parameters.
 struct Identified<'a> {
     parameters: &'a Parameters,
     values: &'a [f64],

@@ -1,5 +1,5 @@
-//! Identified values in a robot file in TOML: masses, centers of mass and inertias of all moving links, and friction
-//! and armatures where the file has them.
+//! Writes identified values into a robot file in TOML: masses, centers of mass and inertias of all moving links,
+//! and friction and armatures if the file has them.
 
 use robot_dynamics::base_parameters::Quantity;
 use robot_model::description::{self, Options};
@@ -8,7 +8,7 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, value};
 
 use super::{Body, Identified};
 
-/// The text with the identified values. A URDF file is brought into TOML first.
+/// The text with the identified values. A URDF file is converted to TOML first.
 pub(super) fn with_values(
     name: &str,
     text: &str,
@@ -46,7 +46,7 @@ pub(super) fn with_values(
     Ok(document.to_string())
 }
 
-/// Removes the parameters that the values used before, and that nothing uses any more.
+/// Removes the parameters that the old values used and that nothing uses now.
 fn drop_unused(document: &mut DocumentMut, before: &str) {
     let after = document.to_string();
     let times = |text: &str, name: &str| {
@@ -77,7 +77,7 @@ fn named(table: &Table, name: &str) -> bool {
     table.get("name").and_then(Item::as_str) == Some(name)
 }
 
-/// Whether a table has rows whose frames are not those of the links.
+/// Whether a table has Denavit-Hartenberg rows, whose frames are not those of the links.
 fn standard_rows(table: &Table) -> bool {
     let rows = table.get("dh").and_then(Item::as_table_like);
     rows.is_some_and(|dh| dh.get("convention").and_then(Item::as_str) != Some("modified"))
@@ -151,7 +151,7 @@ impl Written<'_> {
     }
 }
 
-/// A table in a link's table, as inline or as a table of its own.
+/// A table within a link's table, which is inline or a table of its own.
 fn part<'t>(table: &'t mut Table, name: &str) -> Result<&'t mut dyn TableLike, String> {
     let found = table.get_mut(name).and_then(Item::as_table_like_mut);
     found.ok_or_else(|| format!("`{name}` is not a table of the link"))

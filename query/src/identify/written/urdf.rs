@@ -1,17 +1,19 @@
-//! Identified values in a URDF file: the `<inertial>` of every moving link. All else of the file stays as it is.
+//! Writes identified values into a URDF file: the `<inertial>` of every moving link. The rest of the file does not
+//! change.
 
 use robot_model::robot::Link;
 use roxmltree::{Document, Node};
 
 use super::Body;
 
-/// A part of the text and what takes its place.
+/// A part of the text and its replacement.
 struct Edit {
     range: std::ops::Range<usize>,
     text: String,
 }
 
-/// The text with a body for each moving link, and comments above it; bodies that are fixed to a link are joined with it.
+/// The text with a body for each moving link, and comments above it. Bodies that are fixed to a link are merged
+/// into it.
 pub(super) fn with_bodies(
     text: &str,
     links: &[Link],
@@ -48,7 +50,7 @@ fn inertial<'a, 'i>(link: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
     link.children().find(|node| node.has_tag_name("inertial"))
 }
 
-/// The inertial of a link in place of the one it has, or as its first element.
+/// Puts the inertial of a link in place of the existing one, or as the first element of the link.
 fn own(text: &str, link: Node<'_, '_>, element: &str) -> Edit {
     if let Some(old) = inertial(link) {
         return Edit { range: old.range(), text: element.trim_start().to_owned() };
@@ -60,7 +62,7 @@ fn own(text: &str, link: Node<'_, '_>, element: &str) -> Edit {
             Edit { range: start..start, text: format!("\n    {}", element.trim_start()) }
         }
         None => {
-            // `<link name="tip"/>`, or with nothing between its tags.
+            // The link is `<link name="tip"/>`, or has nothing between its tags.
             let tag = &text[range.clone()];
             let end = tag.find("/>").unwrap_or_else(|| tag.find('>').unwrap_or(tag.len()));
             let start = tag[..end].trim_end();
@@ -69,7 +71,7 @@ fn own(text: &str, link: Node<'_, '_>, element: &str) -> Edit {
     }
 }
 
-/// The place of an element with the white space before it.
+/// The range of an element, including the white space before it.
 fn line(text: &str, node: Node<'_, '_>) -> std::ops::Range<usize> {
     let range = node.range();
     text[..range.start].trim_end().len()..range.end

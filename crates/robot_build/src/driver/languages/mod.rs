@@ -1,4 +1,4 @@
-//! Code in other languages than Rust: the text of a module, and whole packages.
+//! Code in Rust and other languages: the source files of a module, and whole packages.
 
 mod package;
 mod printing;
@@ -41,7 +41,7 @@ pub enum Language {
 }
 
 impl Language {
-    /// All languages, in the order of lists.
+    /// All languages, in the order in which lists show them.
     pub const ALL: &'static [Language] = &[
         Language::Rust,
         Language::C,
@@ -72,7 +72,7 @@ impl Language {
         }
     }
 
-    /// Its description in a list of languages.
+    /// The description of the language in a list of languages.
     #[must_use]
     pub fn title(self) -> &'static str {
         match self {
@@ -89,18 +89,18 @@ impl Language {
         }
     }
 
-    /// The language with that name.
+    /// Finds the language with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Language> {
         Language::ALL.iter().copied().find(|language| language.name() == name)
     }
 }
 
-/// The source files of a robot's module in a language, for a project of the user's own.
+/// Generates the source files of a robot's module in a language, for use in a project of the user.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options, and options that the language does not have.
+/// All errors in the file or the options, and options that the language does not have.
 pub fn sources(
     source: &Source,
     options: &Options,
@@ -112,11 +112,11 @@ pub fn sources(
     sources_of(&programs, source, options, language)
 }
 
-/// [`sources`] of existing programs.
+/// Does the same as [`sources`] for existing programs; budgets are not checked.
 ///
 /// # Errors
 ///
-/// Options that the language does not have, and numbers beyond the range of single precision.
+/// Options that the language does not have, and numbers outside the range of single precision.
 pub fn sources_of(
     programs: &Programs,
     source: &Source,
@@ -148,7 +148,7 @@ pub fn sources_of(
     target.files(&module).map_err(|errors| Errors::of_code(&source.name, &errors))
 }
 
-/// Refuses options of Rust alone.
+/// Returns an error for each option that only Rust supports, if the language is another one.
 fn check(options: &Options, language: Language) -> Result<(), Errors> {
     let usual = Options::default();
     let of_rust = [

@@ -10,12 +10,12 @@ use crate::driver::options::Options;
 use crate::driver::programs::Programs;
 use crate::driver::specification;
 
-/// The options of printing Rust, as a module.
+/// The options for printing Rust as a module.
 pub(super) fn rust_options(programs: &Programs, source: &Source, options: &Options) -> RustOptions {
     generate::rust_options(programs, source, options, Wrapping::Module)
 }
 
-/// The options of the other printers.
+/// The options for the other printers.
 pub(super) fn flat_options(programs: &Programs, source: &Source, options: &Options) -> FlatOptions {
     FlatOptions {
         header: vec![generate::header(source)],
@@ -26,7 +26,7 @@ pub(super) fn flat_options(programs: &Programs, source: &Source, options: &Optio
     }
 }
 
-/// The module with documentation that does not speak of Rust.
+/// The module with documentation that does not mention Rust.
 pub(super) fn described(programs: &Programs) -> Module {
     let doc = specification::module_doc(&programs.robot, &[]);
     Module { doc, ..programs.module.clone() }

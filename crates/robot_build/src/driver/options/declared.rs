@@ -1,5 +1,5 @@
-//! The options of generated code, each declared once: the macro, the command line, the builder's tests and the
-//! table of the book take names, values and words from here.
+//! The options of generated code, each declared once. The macro, the command line, the builder's tests and the
+//! table in the book take names, values and texts from here.
 
 use robot_codegen::{Scalar, Trigonometry};
 use robot_model::robot::BaseFrames;
@@ -9,30 +9,30 @@ use super::{DEFAULT_BATCH, Limbs, Options};
 /// An option of generated code.
 #[derive(Clone, Copy, Debug)]
 pub struct OptionSpec {
-    /// The name of the builder's setter and the macro's key; the flag of the command line has `-` for `_`.
+    /// The name of the builder's setter and of the macro's key; the flag of the command line has `-` for `_`.
     pub name: &'static str,
-    /// Its subject, for tables.
+    /// The subject of the option, for tables.
     pub title: &'static str,
-    /// Its effect, as in the command line's help.
+    /// The effect of the option, as in the help of the command line.
     pub help: &'static str,
-    /// Its purpose.
+    /// The purpose of the option.
     pub group: Group,
-    /// Its values.
+    /// The values of the option.
     pub kind: Kind,
-    /// A value, as the macro takes it.
+    /// An example of a value, in the syntax of the macro.
     pub example: &'static str,
-    /// Which commands take it.
+    /// The commands that have the option.
     pub commands: Commands,
-    /// The name of its value in the command line's help; empty for flags, and if the name of the option suffices.
+    /// The name of the value in the help of the command line; empty for flags, and if the name of the option suffices.
     pub value_name: &'static str,
-    /// The option without which it has no effect, if there is one.
+    /// The option without which this one has no effect, if there is one.
     pub requires: Option<&'static str>,
-    /// The key of a robot file that sets it for every entry point.
+    /// The key of a robot file that sets the option for every entry point.
     pub in_file: Option<&'static str>,
     set: fn(&mut Options, Value<'_>) -> Option<()>,
 }
 
-/// The subject of an option.
+/// The purpose of an option.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     /// Reading the robot file.
@@ -41,23 +41,23 @@ pub enum Group {
     Derive,
     /// Optimizing programs.
     Optimize,
-    /// Printing them for a target.
+    /// Printing programs for a target.
     Print,
-    /// Limiting their cost.
+    /// Limiting the cost of programs.
     Limit,
 }
 
-/// Which commands take an option. Only flags, counts and choices of [`Commands::Code`] become arguments from the
-/// table alone; others have an argument of their own in the command, which takes its words from here.
+/// The commands that have an option. Only flags, counts and choices of [`Commands::Code`] become arguments from the
+/// table alone; others have an argument of their own in the command, which takes its texts from here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Commands {
     /// The commands that read a robot.
     Robot,
-    /// The commands that make code.
+    /// The commands that generate code.
     Code,
-    /// The command that makes a module for a crate of the user's own.
+    /// The command that makes a module for a crate of the user.
     Module,
-    /// None: the robot file sets it, or it has no meaning in commands.
+    /// None, because the robot file sets it or it has no meaning in commands.
     None,
 }
 
@@ -66,16 +66,16 @@ pub enum Commands {
 pub enum Kind {
     /// Yes or no.
     Flag,
-    /// A whole number; on the command line the value of the flag alone, if there is one.
+    /// A whole number. `default` is its value if the flag on the command line has none.
     Count {
-        /// See [`Kind::Count`].
+        /// The value of the flag without a number, if that is allowed; see [`Kind::Count`].
         default: Option<usize>,
     },
-    /// An angle, rad.
+    /// An angle in rad.
     Angle,
-    /// One of several words, each with its meaning if the name does not say it. The first is the default.
+    /// One of several words, each with its meaning unless the word is clear. The first is the default.
     Choice(&'static [(&'static str, &'static str)]),
-    /// A path of Rust.
+    /// A Rust path.
     Path,
     /// Names of functions.
     Functions,
@@ -86,13 +86,13 @@ pub enum Kind {
 /// A value of an option.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value<'v> {
-    /// Of [`Kind::Flag`].
+    /// A value of [`Kind::Flag`].
     Flag(bool),
-    /// Of [`Kind::Count`].
+    /// A value of [`Kind::Count`].
     Count(u64),
-    /// Of [`Kind::Angle`].
+    /// A value of [`Kind::Angle`].
     Number(f64),
-    /// Of [`Kind::Choice`] and [`Kind::Path`].
+    /// A value of [`Kind::Choice`] or [`Kind::Path`].
     Word(&'v str),
 }
 
@@ -106,7 +106,7 @@ impl Value<'_> {
     }
 
     fn size(self) -> Option<usize> {
-        // More than fits is too large for any limit of sizes.
+        // A number that does not fit is larger than any limit of sizes.
         self.count().map(|count| usize::try_from(count).unwrap_or(usize::MAX))
     }
 
@@ -120,13 +120,13 @@ impl Value<'_> {
 }
 
 impl OptionSpec {
-    /// The option of that name.
+    /// Finds the option with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static OptionSpec> {
         OPTIONS.iter().find(|option| option.name == name)
     }
 
-    /// A value from its text, as the macro and tables write it; `None` for functions and bundles, and if the text is
+    /// Reads a value in the syntax of the macro and of tables; `None` for functions and bundles, and if the text is
     /// not a value of the option.
     #[must_use]
     pub fn value<'v>(&self, text: &'v str) -> Option<Value<'v>> {
@@ -144,7 +144,7 @@ impl OptionSpec {
         }
     }
 
-    /// The flag of the command line; that of a list is in the singular, because it may be given several times.
+    /// The flag of the command line. The flag of a list is in the singular, because it can be given several times.
     #[must_use]
     pub fn flag(&self) -> String {
         let name = match self.kind {
@@ -407,7 +407,7 @@ mod tests {
 
     #[test]
     fn each_example_changes_one_thing() {
-        // A robot that knows them, a place of files, and the value that is set in any case.
+        // These depend on the robot, concern only files, or have the value that is set anyway.
         const SAME: [&str; 4] = ["functions", "bundles", "allow_outside", "runtime"];
         for option in OPTIONS {
             assert_eq!(OptionSpec::named(option.name).unwrap().title, option.title);

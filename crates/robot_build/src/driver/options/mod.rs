@@ -29,24 +29,25 @@ pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
 /// The default number of states in a block of a batch: two or four vector registers of `f64` on most processors.
 pub const DEFAULT_BATCH: usize = 8;
 
-/// The most states that a block of a batch holds: its arrays lie on the stack.
+/// The most states in a block of a batch, whose arrays are on the stack.
 const MAX_BATCH: usize = 64;
 
-/// How identical limbs of a robot, such as the legs of a walking machine or the fingers of a hand, are computed.
+/// The way in which identical limbs of a robot, such as the legs of a walking machine or the fingers of a hand, are
+/// computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Limbs {
-    /// In the lanes of one call.
+    /// Together, in the lanes of one call.
     #[default]
     SideBySide,
-    /// Each by code of its own.
+    /// Each by its own code.
     Apart,
 }
 
 /// The options of generation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// The functions, each by itself. [`Functions::Usual`] without bundles means what the robot file
-    /// chooses with `[code]`, and if that chooses nothing, [`DEFAULT_FUNCTIONS`].
+    /// The functions, each with a call of its own. [`Functions::Usual`] without bundles means the functions that the
+    /// robot file chooses with `[code]`, or [`DEFAULT_FUNCTIONS`] if it chooses none.
     pub functions: Functions,
     /// Groups of functions in one call that computes common expressions once; if [`Options::functions`] are the usual
     /// ones, only bundles are generated.
@@ -68,9 +69,9 @@ pub struct Options {
     pub fused: bool,
     /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
-    /// Whether limbs of a robot that are alike are computed in the lanes of one call.
+    /// The way in which limbs of the same kind are computed.
     pub limbs: Limbs,
-    /// Constant angles within this many radians of a multiple of π/2 become that multiple; `None` for the value in
+    /// The tolerance in rad within which constant angles become a multiple of π/2; `None` for the value in
     /// the robot file, whose default is 10⁻⁹.
     pub snap: Option<f64>,
     /// The frames of the base parameters; `None` for the choice in the robot file, whose default is the file's frames.
@@ -86,15 +87,15 @@ pub struct Options {
     /// The maximum number of operations of a call of any of the functions; the limits of the robot file's budgets
     /// also apply.
     pub max_operations: Option<u64>,
-    /// The maximum stack of a call of any of the functions, bytes, as [`budget`](crate::driver::budget) estimates it.
+    /// The maximum stack of a call of any of the functions in bytes, as [`budget`](crate::driver::budget) estimates it.
     pub max_stack: Option<u64>,
-    /// Whether to search for the form with the fewest operations if none is given: this takes about a second for an
-    /// arm with seven joints in an optimized build, and tens of seconds in a build script, which is not optimized.
+    /// Whether to search for the form with the fewest operations if none is given. The search takes about a second for
+    /// an arm with seven joints in an optimized build, and tens of seconds in a build script, which is not optimized.
     pub search: bool,
 }
 
-/// The usual functions at one state, `f64`, plain operations, the runtime's sine and cosine,
-/// angles snapped within 10⁻⁹ rad.
+/// The default is the usual functions at one state, in `f64`, without multiply-adds, with the runtime's sine and
+/// cosine, and with angles snapped within 10⁻⁹ rad.
 impl Default for Options {
     fn default() -> Options {
         let rust = RustOptions::default();
@@ -122,7 +123,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// With the functions that a robot file chooses, if these options choose none.
+    /// Returns these options with the functions that a robot file chooses, if they choose none themselves.
     pub(crate) fn or_of_file(&self, code: &Code) -> Options {
         if self.functions != Functions::Usual || !self.bundles.is_empty() {
             return self.clone();
@@ -131,11 +132,11 @@ impl Options {
         Options { functions, bundles, ..self.clone() }
     }
 
-    /// The functions to generate for a robot, and the bundles.
+    /// Returns the functions to generate for a robot, and the bundles.
     ///
     /// # Errors
     ///
-    /// Each chosen function that the robot lacks, with the reason.
+    /// Each chosen function that the robot does not have, with the reason.
     pub(crate) fn functions_of(
         &self,
         robot: &Robot,
@@ -168,7 +169,7 @@ impl Options {
         Errors::check(missing.collect(), (functions, bundles))
     }
 
-    /// Errors in bundles that do not depend on the robot.
+    /// Finds errors in bundles that do not depend on the robot.
     fn wrong_bundles(&self) -> Vec<Error> {
         let mut errors = vec![];
         for (index, bundle) in self.bundles.iter().enumerate() {
@@ -199,7 +200,7 @@ impl Options {
         errors
     }
 
-    /// Errors in the options that do not depend on the robot.
+    /// Finds errors in the options that do not depend on the robot.
     pub(crate) fn check(&self) -> Result<(), Errors> {
         let mut errors = self.wrong_bundles();
         let snap = self.snap.map(snap::check);
@@ -213,7 +214,7 @@ impl Options {
         Errors::check(errors, ())
     }
 
-    /// The options of reading a robot file.
+    /// The options for reading a robot file.
     #[must_use]
     pub fn reading(&self) -> description::Options {
         description::Options {
@@ -223,7 +224,7 @@ impl Options {
         }
     }
 
-    /// The options of making programs of expressions.
+    /// The options for compiling expressions to programs.
     pub(crate) fn codegen(&self) -> robot_codegen::Options {
         let options = robot_codegen::Options::default();
         if self.fused {
@@ -237,13 +238,14 @@ impl Options {
         }
     }
 
-    /// The options of making expressions of the robot.
+    /// The options for deriving expressions of the robot.
     pub(crate) fn mechanism(&self, robot: &Robot) -> MechanismOptions {
         MechanismOptions::ROUNDED.with_snap(self.snap, robot)
     }
 }
 
-/// The functions in their order, each once; that of a frame is left out if all frames' are there.
+/// Returns the functions in their order, each once. The function of a single frame is left out if the function of all
+/// frames is among them.
 fn once<'f>(
     functions: impl IntoIterator<Item = &'f FunctionKind>,
     robot: &Robot,
@@ -259,11 +261,11 @@ fn once<'f>(
     found
 }
 
-/// The functions of a robot of those names; [`ALL_FUNCTIONS`] among them means all.
+/// Finds the functions of a robot with these names; the name [`ALL_FUNCTIONS`] means all of them.
 ///
 /// # Errors
 ///
-/// Each name that is not a function's, and an empty list.
+/// Each name that is not the name of a function, and an empty list.
 pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
@@ -274,11 +276,11 @@ pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Err
     Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
 }
 
-/// The functions of a robot of those names.
+/// Finds the functions of a robot with these names.
 ///
 /// # Errors
 ///
-/// Each name that is not a function's.
+/// Each name that is not the name of a function.
 pub fn kinds_named(names: &[String], robot: &Robot) -> Result<Vec<FunctionKind>, Errors> {
     let (mut kinds, mut errors) = (vec![], vec![]);
     for name in names {

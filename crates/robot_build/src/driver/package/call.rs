@@ -1,4 +1,4 @@
-//! Calls of generated functions as Rust text, for tests and examples.
+//! Calls of generated functions in Rust, for tests and examples.
 
 use robot_codegen::Scalar;
 
@@ -6,7 +6,7 @@ use super::Parts;
 use crate::driver::check::CheckValue;
 use crate::driver::options::Options;
 
-/// The model at the stated parameters.
+/// Prints the model at the stated parameters.
 pub(super) fn model_expression(parts: &Parts<'_>) -> String {
     let parameters = &parts.programs.module.parameters;
     if parameters.is_empty() {
@@ -24,16 +24,16 @@ pub(super) fn model_expression(parts: &Parts<'_>) -> String {
     format!("Model::new(&Parameters {{ {} }})", fields.collect::<Vec<_>>().join(", "))
 }
 
-/// The call of a function at its check state.
+/// Prints the call of a function at its check state.
 pub(super) fn call(parts: &Parts<'_>, model: &str, check: &CheckValue) -> String {
     let inputs: Vec<String> =
         check.inputs.iter().map(|(_, entries)| format!("&{entries:?}")).collect();
     format!("{model}.{}({})", parts.method(&check.function), inputs.join(", "))
 }
 
-/// A test of a function against its check value.
+/// Prints a test that compares a function with its check value.
 pub(super) fn test(parts: &Parts<'_>, check: &CheckValue) -> String {
-    // No method has the reserved word before the underscore.
+    // The underscore after a reserved word is not needed in the name of the test.
     let name = parts.method(&check.function).trim_end_matches('_');
     let model = model_expression(parts);
     let mut text = format!(
@@ -52,7 +52,7 @@ pub(super) fn test(parts: &Parts<'_>, check: &CheckValue) -> String {
     text
 }
 
-/// The tolerance of a result against a check value, as a fraction of the largest entry.
+/// The tolerance of the difference between a result and a check value, as a fraction of the largest entry.
 pub(super) fn tolerance(options: &Options) -> f64 {
     match options.scalar {
         Scalar::F64 => 1e-12,

@@ -1,4 +1,4 @@
-//! A whole crate for a robot: code, runtime, documentation and a test, nothing else needed.
+//! A self-contained crate for a robot: code, runtime, documentation and a test.
 
 mod call;
 mod readme;
@@ -15,27 +15,27 @@ use crate::driver::options::Options;
 use crate::driver::programs::{Programs, programs};
 use crate::error::Errors;
 
-/// The files of a crate that holds a robot's functions, in a fixed order.
+/// Generates the files of a crate with a robot's functions, in a fixed order.
 ///
-/// The crate has no dependencies: the runtime's modules are part of it. With [`Options::parallel`] it has an optional
-/// one, `rayon`, for a feature of that name. Its default feature `std` adds the choice of the processor at run time,
-/// fused multiply-add and the processor's square root; without it the crate is `no_std`, unless
-/// [`Options::trigonometry`] is the standard library's, which needs it. [`Options::runtime`] is without effect.
+/// The crate has no dependencies, because it contains the runtime's modules. With [`Options::parallel`] it has the
+/// optional dependency `rayon`, for a feature of the same name. Its default feature `std` adds the choice of the
+/// processor at run time, fused multiply-add and the processor's square root. Without it the crate is `no_std`, unless
+/// [`Options::trigonometry`] is the standard library, which needs `std`. [`Options::runtime`] has no effect.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options.
+/// All errors in the file or the options.
 pub fn package(source: &Source, options: &Options) -> Result<Vec<File>, Errors> {
     let programs = programs(source, options)?;
     budget::check(&programs, source, options)?;
     package_of(&programs, source, options)
 }
 
-/// [`package`] for existing programs; budgets are not checked.
+/// Does the same as [`package`] for existing programs; budgets are not checked.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the options.
+/// All errors in the options.
 pub fn package_of(
     programs: &Programs,
     source: &Source,
@@ -65,7 +65,7 @@ fn file(path: &str, text: String) -> File {
     File::text(path, text)
 }
 
-/// The ingredients of the files.
+/// The data from which the files are made.
 struct Parts<'a> {
     source: &'a Source,
     options: &'a Options,
@@ -88,7 +88,7 @@ impl Parts<'_> {
         index.and_then(|index| self.names.functions.get(index)).map_or(function, String::as_str)
     }
 
-    /// For each output of a function, how it is reached from the result of a call.
+    /// For each output of a function, the suffix that selects it from the result of a call.
     fn outputs(&self, function: &str) -> Vec<String> {
         match self.programs.module.function(function) {
             Some(function) if function.outputs.len() > 1 => {
@@ -152,14 +152,14 @@ impl Parts<'_> {
 
     fn model(&self) -> Result<String, Errors> {
         let code = rust_text(self.programs, self.source, self.options, Wrapping::Items)?;
-        // An inner attribute comes before all items and after the comment at the top.
+        // The inner attribute must be before all items and after the comment at the top.
         let (comment, items) = code.split_once("\n\n").unwrap_or(("", &code));
         let lints: Vec<String> =
             rust::allowed_lints().iter().map(|lint| format!("    {lint},\n")).collect();
         Ok(format!("{comment}\n\n#![allow(\n{})]\n\n{items}", lints.concat()))
     }
 
-    /// A test of every function against its check value.
+    /// Prints tests that compare every function with its check value.
     fn tests(&self) -> String {
         let (name, tolerance) = (self.name(), call::tolerance(self.options));
         let tests: Vec<String> = self.checks.iter().map(|check| call::test(self, check)).collect();

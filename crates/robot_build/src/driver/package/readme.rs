@@ -1,4 +1,4 @@
-//! The README of a generated crate, which is its documentation too.
+//! The README of a generated crate, which is also its documentation.
 
 use super::Parts;
 use super::call::{call, model_expression};

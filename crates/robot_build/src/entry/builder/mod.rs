@@ -1,4 +1,4 @@
-//! The builder that a `build.rs` calls.
+//! The builder for build scripts.
 
 mod output;
 #[cfg(feature = "languages")]
@@ -26,7 +26,7 @@ use output::Module;
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file.
+/// All errors in the file.
 pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
     Builder::new().compile(&[path])
 }
@@ -43,14 +43,14 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 /// ```
 ///
 /// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. If the
-/// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` has the same module in
-/// `lift.rs` too, unless another robot or robot file is called so. Several robots have an index `robots.rs`
-/// beside them, which includes them all. Paths are relative to the package.
+/// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` also has the same module in
+/// `lift.rs`, unless another robot or robot file has this name. If there are several robots, the file `robots.rs`
+/// includes them all. Paths are relative to the package.
 ///
-/// Cargo runs the build script again if a robot file or the plan pinned beside it changes; with
-/// that, it no longer watches the other files of the package, as it does if a build script prints no such line.
-/// `robot-symbolic search` sets the robot file's time, so that a first plan is seen; after a plan came in
-/// another way, such as a checkout, touch the robot file. [`Builder::compile_folder`] notices plans by itself.
+/// Cargo runs the build script again if a robot file or its pinned plan changes. It then no longer watches the other
+/// files of the package, as it would if the build script did not print such lines. `robot-symbolic search` updates the
+/// modification time of the robot file, so that Cargo notices a first plan; if a plan is added in another way, such as
+/// by a checkout, touch the robot file. [`Builder::compile_folder`] notices new plans by itself.
 #[derive(Clone, Debug, Default)]
 #[must_use]
 pub struct Builder {
@@ -66,23 +66,23 @@ pub struct Builder {
 }
 
 impl Builder {
-    /// A builder that generates the usual functions of a robot, in `f64`, into `OUT_DIR`.
+    /// Makes a builder that generates the usual functions of a robot, in `f64`, into `OUT_DIR`.
     pub fn new() -> Builder {
         Builder::default()
     }
 
-    /// Sets the functions to generate, by name; `"all"` for all functions of the robot, `"jacobian_tool"` for the
-    /// function of one frame or moving link.
+    /// Sets the functions to generate, by name; `"all"` means all functions of the robot, and a name such as
+    /// `"jacobian_tool"` the function of one frame or moving link.
     ///
-    /// The default, without [`Builder::bundle`], is the functions that the robot file chooses with `[code]`; if it
+    /// Without [`Builder::bundle`], the default is the functions that the robot file chooses with `[code]` or, if it
     /// chooses none, those of [`DEFAULT_FUNCTIONS`](crate::DEFAULT_FUNCTIONS) that the robot has.
     pub fn functions(mut self, names: impl IntoIterator<Item = impl Into<String>>) -> Builder {
         self.functions = Some(names.into_iter().map(Into::into).collect());
         self
     }
 
-    /// Adds a bundle: a function of that name that computes several functions, given by name, in one call, with their
-    /// common work done once. Call this again for another bundle.
+    /// Adds a bundle: a function with this name that computes several functions, given by name, in one call and shares
+    /// their common work. Call this again for another bundle.
     ///
     /// If there are bundles and no [`Builder::functions`], only bundles are generated.
     pub fn bundle(
@@ -101,8 +101,8 @@ impl Builder {
         self
     }
 
-    /// Whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
-    /// `f32` and `Lanes` of either. If not called, there is none.
+    /// Sets whether each function has a second form `…_generic` over any `Scalar` of the runtime: `f64`,
+    /// `f32` and `Lanes` of either. The default is `false`.
     pub fn generic(mut self, generic: bool) -> Builder {
         self.options.generic = generic;
         self
@@ -115,15 +115,15 @@ impl Builder {
         self
     }
 
-    /// Whether each batch also has a form `…_batch_parallel`, on the threads of the crate `rayon`, on which the
+    /// Sets whether each batch also has a form `…_batch_parallel`, on the threads of the crate `rayon`, on which the
     /// package must depend. The default is `false`.
     pub fn parallel(mut self, parallel: bool) -> Builder {
         self.options.parallel = parallel;
         self
     }
 
-    /// Whether products and sums become multiply-adds, which round once on a target that has the instruction and are
-    /// a product and a sum elsewhere. The default is `false`: the code then gives the same bits on every target.
+    /// Sets whether products and sums become multiply-adds, which round once on targets that have the instruction and
+    /// are a product and a sum elsewhere. The default is `false`, so that the code gives the same bits on every target.
     pub fn fused(mut self, fused: bool) -> Builder {
         self.options.fused = fused;
         self
@@ -160,13 +160,13 @@ impl Builder {
         self
     }
 
-    /// Limits the operations of a call of each function: multiplications, additions and divisions. More is an error.
+    /// Limits the operations of a call of each function: multiplications, additions and divisions. More are an error.
     pub fn max_operations(mut self, limit: u64) -> Builder {
         self.options.max_operations = Some(limit);
         self
     }
 
-    /// Limits the stack of a call of each function, bytes, as [`budget`](crate::driver::budget) estimates it. More is
+    /// Limits the stack of a call of each function in bytes, as [`budget`](crate::driver::budget) estimates it. More is
     /// an error.
     pub fn max_stack(mut self, limit: u64) -> Builder {
         self.options.max_stack = Some(limit);
@@ -175,7 +175,7 @@ impl Builder {
 
     /// Sets the form of the economical recursion.
     ///
-    /// The default is the plan that `robot-symbolic search` pinned beside the robot file, if there is one; a stale
+    /// The default is the plan that `robot-symbolic search` pinned next to the robot file, if there is one; a stale
     /// plan is an error.
     pub fn plan(mut self, plan: Plan) -> Builder {
         self.options.plan = Some(plan);
@@ -183,9 +183,9 @@ impl Builder {
     }
 
     /// Sets the language of the code; the default is Rust. In another language, each robot becomes a folder
-    /// `<module>` in `OUT_DIR`: the package that `robot-symbolic crate --language` writes for the same plan. A build
-    /// script goes on from there: the header `OUT_DIR/trttr1/trttr1.h` is for the crate `cc`. Options of Rust alone
-    /// are errors in other languages.
+    /// `<module>` in `OUT_DIR`: the package that `robot-symbolic crate --language` writes for the same plan. The build
+    /// script can then process it, for example the header `OUT_DIR/trttr1/trttr1.h` with the crate `cc`. Options that
+    /// only Rust supports are errors in other languages.
     #[cfg(feature = "languages")]
     pub fn language(mut self, language: Language) -> Builder {
         self.language = language;
@@ -200,33 +200,33 @@ impl Builder {
         self
     }
 
-    /// Sets the folder to which paths are relative; the default is that of the package.
+    /// Sets the folder to which paths are relative; the default is the folder of the package.
     pub fn package_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
         self.package_dir = Some(folder.into());
         self
     }
 
-    /// Whether physically impossible values are accepted, with a warning: negative masses, tensors with a negative
-    /// principal moment or one that exceeds the sum of the others.
+    /// Sets whether physically impossible values are accepted, with a warning: negative masses, and inertia tensors
+    /// with a principal moment that is negative or exceeds the sum of the others.
     pub fn allow_unphysical(mut self, allow: bool) -> Builder {
         self.options.allow_unphysical = allow;
         self
     }
 
-    /// Whether moving links without mass are accepted, with a warning.
+    /// Sets whether moving links without mass are accepted, with a warning.
     pub fn allow_massless(mut self, allow: bool) -> Builder {
         self.options.allow_massless = allow;
         self
     }
 
-    /// Whether robot files may lie outside the package.
+    /// Sets whether robot files may be outside the package.
     pub fn allow_outside(mut self, allow: bool) -> Builder {
         self.allow_outside = allow;
         self
     }
 
-    /// Whether Cargo is informed, on standard output, of the files that were read and of warnings; the default is
-    /// `true`.
+    /// Sets whether lines for Cargo about warnings and the files that were read are printed on standard output; the
+    /// default is `true`.
     pub fn emit_directives(mut self, emit: bool) -> Builder {
         self.silent = !emit;
         self
@@ -236,9 +236,9 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with any of the files or with the options. A `main` that returns it
-    /// shows the robot files' own errors. Cargo gets each in a line (`cargo::error=`) and fails the
-    /// build, whatever becomes of the result.
+    /// All errors in any of the files or in the options. If `main` returns them, they are shown as the errors of the
+    /// robot files. Each is also printed as a line for Cargo (`cargo::error=`), which makes the build fail even if the
+    /// result is ignored.
     pub fn compile(&self, paths: &[impl AsRef<Path>]) -> Result<(), Errors> {
         let paths: Vec<&Path> = paths.iter().map(AsRef::as_ref).collect();
         self.telling_cargo(|directives| self.run(&paths, directives))
@@ -250,12 +250,12 @@ impl Builder {
     ///
     /// # Errors
     ///
-    /// The errors of [`Builder::compile`]; a folder that cannot be read or has no robot files.
+    /// The errors of [`Builder::compile`], and a folder that cannot be read or has no robot files.
     pub fn compile_folder(&self, folder: impl AsRef<Path>) -> Result<(), Errors> {
         self.telling_cargo(|directives| self.run_folder(folder.as_ref(), directives))
     }
 
-    /// Does the work and gives Cargo the lines that it needs.
+    /// Does the work and prints the lines for Cargo.
     fn telling_cargo(
         &self,
         work: impl FnOnce(&mut Directives) -> Result<(), Errors>,
@@ -287,7 +287,7 @@ impl Builder {
         }
         let package = self.package()?;
         let out_dir = self.out_dir.clone().map_or_else(cargo::out_dir, |folder| {
-            // A relative folder is the package's, as the robot files are.
+            // A relative folder is relative to the package, as robot files are.
             Ok(package.join(folder))
         })?;
         #[cfg(feature = "languages")]
@@ -309,7 +309,7 @@ impl Builder {
         Errors::check(errors, ())?;
         modules.iter().filter_map(Module::unportable).for_each(|text| directives.warning(&text));
         let inputs = paths.iter().flat_map(|path| robot_inputs(&package.join(path)));
-        // A folder of the user's own choice gets no file that was not asked for.
+        // In a folder that the user chose, only the requested files are written.
         output::write(&modules, inputs, &out_dir, self.out_dir.is_none())
     }
 
@@ -325,7 +325,7 @@ impl Builder {
         Ok(generated)
     }
 
-    /// A robot file, and the options with the plan that is pinned beside it. Cargo is told to watch both.
+    /// Reads a robot file; returns it with the options, which include its pinned plan. Cargo will watch both files.
     fn read(
         &self,
         path: &Path,
@@ -334,8 +334,8 @@ impl Builder {
     ) -> Result<(RobotFile, Options), Errors> {
         let file = RobotFile::in_package(path, package, self.allow_outside)?;
         directives.rerun_if_changed(path)?;
-        // Cargo takes a path that is not there for changed, at every build. That a first plan is seen is up to
-        // `robot-symbolic search`, which sets the robot file's time.
+        // Cargo regards a missing path as changed in every build, so it is not watched. It notices a first plan because
+        // `robot-symbolic search` updates the modification time of the robot file.
         let pin = pin_path(path);
         if package.join(&pin).is_file() {
             directives.rerun_if_changed(&pin)?;
@@ -345,7 +345,7 @@ impl Builder {
         Ok((file, options))
     }
 
-    /// The options, their functions those of the robot.
+    /// Returns the options with the functions of the robot that have the chosen names.
     fn options_for(&self, file: &RobotFile) -> Result<Options, Errors> {
         let mut options = self.options.clone();
         if self.functions.is_none() && self.bundles.is_empty() {

@@ -8,15 +8,15 @@ use crate::driver::generate::{Generated, unnamed_header};
 use crate::entry::files::{Output, Ownership, Writer};
 use crate::error::{Error, Errors};
 
-/// The name of the index of several robots.
+/// The name of the file that includes the modules of several robots.
 pub(super) const INDEX: &str = "robots";
 
-/// Names that Windows keeps for devices: there no file has one of them before its first dot.
+/// Names that Windows reserves for devices; files there must not have one of them before the first dot.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
 
 /// The module of a robot file.
 pub(super) struct Module {
-    /// The path of the robot file, as it was given.
+    /// The path of the robot file as given.
     pub(super) path: String,
     pub(super) generated: Generated,
 }
@@ -26,17 +26,17 @@ impl Module {
         &self.generated.module_name
     }
 
-    /// Its name and the path of the robot file.
+    /// The name of the module and the path of the robot file.
     pub(super) fn names(&self) -> (&str, &str) {
         (self.name(), &self.path)
     }
 
-    /// The name of the robot file without its ending, where a file of Rust can have it.
+    /// The name of the robot file without its ending, if a Rust file can have this name.
     fn stem(&self) -> Option<&str> {
         Path::new(&self.path).file_stem().and_then(OsStr::to_str)
     }
 
-    /// Why the module's file cannot be created on some systems, if so.
+    /// The warning if the file of the module cannot be created on some systems.
     pub(super) fn unportable(&self) -> Option<String> {
         let (path, name) = (&self.path, self.name());
         is_device(name).then(|| {
@@ -48,7 +48,7 @@ impl Module {
     }
 }
 
-/// `con`, `lpt1`, in any case.
+/// Whether Windows reserves a name, such as `con` or `lpt1`, for a device.
 fn is_device(name: &str) -> bool {
     let numbered = |prefix| {
         let rest = name.strip_prefix(prefix).unwrap_or_default();
@@ -57,7 +57,8 @@ fn is_device(name: &str) -> bool {
     DEVICES.contains(&name) || numbered("com") || numbered("lpt")
 }
 
-/// Each two robots, of names and paths, that would have one name; if there is an index, it has one too.
+/// Reports all pairs of robots, given by names and paths, whose files would have the same name. The index also has a
+/// name, if there is one.
 pub(super) fn check_names<'n>(
     names: impl IntoIterator<Item = (&'n str, &'n str)>,
     index: Option<&'n str>,
@@ -78,11 +79,11 @@ pub(super) fn check_names<'n>(
     }
 }
 
-/// Writes a file for each module, and where there are several an index that includes them. `inputs` are the
+/// Writes a file for each module and, if there are several, an index that includes them. `inputs` are the
 /// robot files and their pins.
 ///
-/// With `stems`, a robot file that is not called as its module has a second file of its own name, so that
-/// a build that includes `lift.rs` for `lift.toml` finds it.
+/// With `stems`, a module whose name differs from that of its robot file is also written under the latter name, so
+/// that a build that includes `lift.rs` for `lift.toml` finds it.
 pub(super) fn write(
     modules: &[Module],
     inputs: impl Iterator<Item = PathBuf>,
@@ -112,9 +113,9 @@ fn output<'a>(folder: &Path, name: &str, code: &'a str) -> Output<'a> {
     }
 }
 
-/// The robot file's name, if it is not the module's and no other file's.
+/// The name of the robot file, if it differs from the name of the module and of all other files.
 ///
-/// The text is that of the module's own file: if case makes no difference both are one file.
+/// If the two names differ only by case, they can be the same file, which is harmless because both have the same text.
 fn second_name<'m>(module: &'m Module, modules: &[Module]) -> Option<&'m str> {
     let stem = module.stem().filter(|stem| *stem != module.name())?;
     let is_stem = |name: &str| name.eq_ignore_ascii_case(stem);

@@ -18,13 +18,13 @@ use crate::error::Errors;
 struct Package {
     /// The name of the folder.
     name: String,
-    /// The path of the robot file, as it was given.
+    /// The path of the robot file as given.
     path: String,
     files: Vec<File>,
 }
 
 impl Builder {
-    /// A folder for each robot, named after its module in Rust.
+    /// Writes a folder for each robot, named as its module would be in Rust.
     pub(super) fn packages(
         &self,
         paths: &[&Path],

@@ -19,7 +19,7 @@ center_of_mass = ["l", 0, 0]
 inertia = { xx = 0, yy = 0, zz = 0 }
 "#;
 
-/// A package of its own for each test, without anything in it; gone with the test.
+/// An empty package for each test, which is removed after the test.
 struct Package(PathBuf);
 
 impl std::ops::Deref for Package {
@@ -47,7 +47,7 @@ fn builder(package: &Path) -> Builder {
     Builder::new().package_dir(package).out_dir("out").emit_directives(false)
 }
 
-/// Runs a builder; gives what it tells Cargo.
+/// Runs a builder; also returns its lines for Cargo.
 fn run(builder: &Builder, paths: &[&str]) -> (Result<(), Errors>, String) {
     let mut directives = Directives::default();
     let paths: Vec<&Path> = paths.iter().map(Path::new).collect();
@@ -77,7 +77,7 @@ fn one_robot_is_one_file_written_once() {
     assert_eq!(fs::metadata(&out).unwrap().modified().unwrap(), written);
 }
 
-/// What Cargo is told to watch.
+/// The paths that Cargo will watch.
 fn watched(directives: &str) -> Vec<&str> {
     directives.lines().filter_map(|line| line.strip_prefix("cargo:rerun-if-changed=")).collect()
 }
@@ -94,7 +94,7 @@ fn a_plan_is_watched_where_there_is_one() {
     result.unwrap();
     assert_eq!(watched(&directives), ["robots/a.toml"]);
 
-    // Also one that stops the build, so that a better one is seen.
+    // A plan that stops the build is also watched, so that a corrected one is noticed.
     let pin = package.join("robots/a.plan");
     fs::write(&pin, "garbage").unwrap();
     let (result, directives) = built(&builder(&package));
@@ -122,7 +122,7 @@ fn a_folder_is_watched_with_its_files() {
         let result = builder.run_folder(Path::new("robots"), &mut directives);
         (result.is_ok(), directives.text().to_owned())
     };
-    // Also while it is empty: a file that comes is a change.
+    // An empty folder is also watched, because a new file is a change.
     let (is_built, directives) = folder(&builder(&package));
     assert!(!is_built);
     assert_eq!(watched(&directives), ["robots"]);
@@ -151,7 +151,7 @@ fn cargo_is_told_of_each_error_in_a_line() {
     );
 }
 
-/// The modules of robots with the names of their files, as a builder writes them.
+/// The modules that a builder writes for these robots, with the names of their files.
 fn written(test: &str, robots: &[(&str, &str)]) -> Vec<(String, String)> {
     let folder = package(test);
     let module = |(path, robot): &(&str, &str)| {
@@ -188,7 +188,7 @@ fn a_file_that_is_not_called_as_its_robot_is_found_under_either_name() {
     assert!(files[0].1.contains("pub mod lift_scara {"));
     assert_eq!(names("stem_same", &[("lift.toml", "lift")]), "lift.rs");
     assert_eq!(names("stem_case", &[("Lift.toml", "lift")]), "Lift.rs lift.rs");
-    // What another robot or file is called is left to it.
+    // The name of another robot or robot file is not used.
     assert_eq!(
         names("stem_taken", &[("a.toml", "b"), ("c.toml", "A")]),
         "a.rs b.rs c.rs robots.rs"

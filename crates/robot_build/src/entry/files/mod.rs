@@ -1,7 +1,7 @@
-//! Output files: what may be written where, and how.
+//! Writing of output files.
 //!
-//! Builder and command write through [`Writer`] alone. It never replaces an input, replaces a file of
-//! somebody else only if asked to, and replaces a file as a whole or not at all.
+//! The builder and the command write only through [`Writer`]. It never replaces an input, replaces files that this
+//! program did not write only if forced to, and replaces a file completely or not at all.
 
 mod marker;
 mod pending;
@@ -20,7 +20,7 @@ pub use writer::{Output, Ownership, Writer};
 use crate::driver::file::File;
 use crate::error::Error;
 
-/// The difference between a file on disk and the text that would be generated.
+/// The difference between a file on disk and the content that would be generated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Staleness {
     /// The file does not exist.
@@ -30,7 +30,7 @@ pub enum Staleness {
         /// The line.
         line: usize,
     },
-    /// Bytes that are not text differ.
+    /// The contents are not text and differ.
     Bytes,
 }
 
@@ -38,7 +38,7 @@ pub enum Staleness {
 ///
 /// # Errors
 ///
-/// A file that is there but cannot be read; what is not a regular file, which is never read.
+/// A file that exists but cannot be read, or is not a regular file; such files are never read.
 pub fn staleness(path: &Path, wanted: &[u8]) -> Result<Option<Staleness>, Error> {
     let failed = |reason: String| Error::File { action: "read", path: path.to_owned(), reason };
     match std::fs::metadata(path) {
@@ -65,9 +65,9 @@ pub fn staleness(path: &Path, wanted: &[u8]) -> Result<Option<Staleness>, Error>
     }
 }
 
-/// The files of an earlier run in the folders that `files` go to, where they are not among `files`: they still have this
-/// program's mark, and describe a robot or functions of then. Paths in `folder`, in the order of names; what cannot be
-/// read is somebody else's.
+/// Finds files of an earlier run in the folders of `files` that are not among `files`. They have this program's mark,
+/// but describe an earlier state of the robot or its functions. Returns paths in `folder`, sorted by name; files that
+/// cannot be read are not included.
 #[must_use]
 pub fn remaining(folder: &Path, files: &[File]) -> Vec<PathBuf> {
     let written: BTreeSet<PathBuf> = files.iter().map(|file| file.path_in(folder)).collect();

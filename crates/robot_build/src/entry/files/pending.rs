@@ -1,4 +1,4 @@
-//! A file whose bytes come one after the other.
+//! A file that is written piece by piece.
 
 use std::fs::{self, File, Metadata};
 use std::io::{BufRead, BufReader, Result, Write};
@@ -8,8 +8,8 @@ use super::staging::{Staged, remove_leftovers};
 use super::writer::{Folders, Ownership, Writer, cannot_write};
 use crate::error::Errors;
 
-/// A file being written by [`Writer::begin`]: it lies beside its place until it is [put](Pending::put) there, and is
-/// removed if it never is. Output to a stream is written at once.
+/// A file that is being written, from [`Writer::begin`]. It is next to its final path until it is [put](Pending::put)
+/// there, and is removed if it never is. Output to a stream is written immediately.
 #[must_use]
 pub struct Pending {
     pub(super) writer: Writer,
@@ -20,10 +20,10 @@ pub struct Pending {
     pub(super) length: u64,
 }
 
-/// Where the bytes go.
+/// The destination of the bytes.
 pub(super) enum Place {
     Stream(File),
-    /// A new file, and what it replaces.
+    /// A new file, and the existing file that it replaces.
     Staged(Staged, Option<Box<(PathBuf, Metadata)>>),
 }
 
@@ -32,7 +32,7 @@ impl Pending {
     ///
     /// # Errors
     ///
-    /// What the system says, with the path.
+    /// An error of the system, with the path.
     pub fn write(&mut self, bytes: &[u8]) -> std::result::Result<(), Errors> {
         let written = match &mut self.place {
             Place::Stream(stream) => stream.write_all(bytes),
@@ -42,11 +42,12 @@ impl Pending {
         Ok(written.map_err(|error| cannot_write(&self.path, &error))?)
     }
 
-    /// Puts the whole file in its place; returns its length, or `None` if the existing file already has these bytes.
+    /// Moves the complete file to its final path; returns its length, or `None` if the existing file already has these
+    /// bytes.
     ///
     /// # Errors
     ///
-    /// What is refused now that it differs; what the system says, with the path.
+    /// An existing file that must not be replaced and differs; an error of the system, with the path.
     pub fn put(mut self) -> std::result::Result<Option<u64>, Errors> {
         let path = &self.path;
         if let Place::Staged(staged, present) = self.place {
@@ -67,7 +68,7 @@ impl Pending {
     }
 }
 
-/// Whether two files have the same bytes, as far as can be read.
+/// Whether two files have the same bytes; false if one cannot be read.
 fn is_equal(a: &Path, b: &Path) -> bool {
     let compare = || -> Result<bool> {
         if fs::metadata(a)?.len() != fs::metadata(b)?.len() {

@@ -1,25 +1,25 @@
-//! What exists at the path of an output, symbolic links followed.
+//! The kind of file at the path of an output, after following symbolic links.
 
 use std::fs::{self, Metadata};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
-/// More links in a row are a circle.
+/// The most symbolic links that are followed; more are regarded as a cycle.
 const MAX_LINKS: usize = 40;
 
-/// What exists at a path.
+/// The kind of file at a path.
 pub(super) enum Place {
-    /// Nothing yet; this is the path with symbolic links followed.
+    /// Nothing exists yet; this is the path after following symbolic links.
     Free(PathBuf),
-    /// A regular file, at the path with symbolic links followed.
+    /// A regular file, with its path after following symbolic links.
     Regular(PathBuf, Metadata),
-    /// A device, a pipe or an open stream of the process: it is written to directly.
+    /// A device, a pipe or an open stream of the process, which is written to directly.
     Stream,
-    /// A folder, at the path with symbolic links followed.
+    /// A folder, with its path after following symbolic links.
     Folder(PathBuf),
 }
 
-/// Finds what exists at the path.
+/// Finds the kind of file at a path.
 pub(super) fn place(path: &Path) -> Result<Place> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
@@ -41,8 +41,8 @@ pub(super) fn place(path: &Path) -> Result<Place> {
     Err(Error::other("its symbolic links form a cycle"))
 }
 
-/// Whether the path names an open stream of a process, as `/dev/stdout` does: what is behind it may be a
-/// regular file that others write too, and must not be replaced.
+/// Whether the path names an open stream of a process, such as `/dev/stdout`. The stream can be redirected to a
+/// regular file to which other programs also write, and which must not be replaced.
 fn is_stream(path: &Path) -> bool {
     let streams = ["/dev/stdin", "/dev/stdout", "/dev/stderr"];
     streams.iter().any(|stream| path == Path::new(stream))
@@ -51,13 +51,13 @@ fn is_stream(path: &Path) -> bool {
         })
 }
 
-/// Whether a file is the system's view of itself, which looks like a file but cannot be replaced.
+/// Whether a file is in one of the system's virtual file systems; it looks like a file but cannot be replaced.
 pub(super) fn is_of_system(path: &Path) -> bool {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     cfg!(target_os = "linux") && ["/proc", "/sys"].iter().any(|folder| path.starts_with(folder))
 }
 
-/// The folder in which a path lies.
+/// The folder that contains a path.
 pub(super) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if folder != Path::new("") => folder,
@@ -65,8 +65,8 @@ pub(super) fn folder_of(path: &Path) -> &Path {
     }
 }
 
-/// Whether two paths name one file, be it by symbolic links, by hard links or by the place where a file
-/// would come to lie.
+/// Whether two paths name the same file, by symbolic links, by hard links, or because a new file would be created at
+/// the same place.
 pub(super) fn is_same(a: &Path, b: &Path) -> bool {
     is_same_node(a, b) || matches!((location(a), location(b)), (Some(a), Some(b)) if a == b)
 }
@@ -85,7 +85,7 @@ fn is_same_node(_: &Path, _: &Path) -> bool {
     false
 }
 
-/// The canonical path of a file, existing or not; `None` for streams, two of which may have one name.
+/// The canonical path of a file, existing or not; `None` for streams, because different streams can have the same path.
 fn location(path: &Path) -> Option<PathBuf> {
     match place(path).ok()? {
         Place::Stream => None,

@@ -1,7 +1,8 @@
-//! Files and folders written beside their place and then put there in one step.
+//! Temporary files and folders that are written next to their target and then moved there in one step.
 //!
-//! A file being written is hidden, has the name of its target and is locked, so that what a killed
-//! process left behind is known from what another one is writing: the next write of the target removes it.
+//! A temporary file is hidden, its name contains that of its target, and it is locked while it is written. So leftovers
+//! of a killed process can be distinguished from files that another process is writing, and the next write of the
+//! target removes them.
 
 use std::ffi::OsStr;
 use std::fs::{self, Metadata, OpenOptions, TryLockError};
@@ -11,43 +12,43 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::place::folder_of;
 
-/// The part of a temporary file's name after the name of its target.
+/// The part of a temporary file's name that follows the name of its target.
 const INFIX: &str = ".robot-symbolic-tmp-";
-/// The longest part of a target's name in that of its temporary file: systems allow 255 bytes for all.
+/// The most bytes of a target's name in the name of its temporary file; systems allow 255 bytes for the whole name.
 const MAX_NAME: usize = 180;
-/// Temporary names that are tried.
+/// The most temporary names that are tried.
 const MAX_TRIES: u32 = 1000;
 
-/// The number of the next temporary name: no two of a process are the same.
+/// The number in the next temporary name, which is different for all files of a process.
 static NUMBER: AtomicU32 = AtomicU32::new(0);
 
-/// Something temporary beside its target; removed unless it is put in its place.
+/// A temporary file or folder next to its target; removed unless it is moved to the target.
 pub(super) struct Staged {
     temporary: PathBuf,
     target: PathBuf,
-    /// Open as long as it is temporary: it holds the lock. Not every system locks folders.
+    /// The open file that holds the lock while it is temporary. Not every system can lock folders.
     lock: Option<fs::File>,
     is_placed: bool,
 }
 
 impl Staged {
-    /// A file that shall lie at `target`, with the permissions of the file that is there.
+    /// Writes a temporary file for `target`, with the permissions of the existing file.
     pub(super) fn file(target: &Path, bytes: &[u8], present: Option<&Metadata>) -> Result<Staged> {
-        // From here on an error removes the file.
+        // From here on, an error removes the file.
         let mut staged = Staged::empty(target)?;
         staged.write_all(bytes)?;
         staged.complete(present)?;
         Ok(staged)
     }
 
-    /// An empty file that shall lie at `target`, to be written and then completed.
+    /// Creates an empty temporary file for `target`, to be written and then completed.
     pub(super) fn empty(target: &Path) -> Result<Staged> {
         Staged::beside(target, |path| {
             OpenOptions::new().write(true).create_new(true).open(path).map(Some)
         })
     }
 
-    /// Gives a file that is whole the permissions of the one that is there, and puts it on the disk.
+    /// Sets the permissions of a complete file to those of the existing file, and flushes it to the disk.
     pub(super) fn complete(&self, present: Option<&Metadata>) -> Result<()> {
         if let Some(present) = present {
             self.keep_access(present)?;
@@ -55,12 +56,12 @@ impl Staged {
         self.lock.as_ref().map_or(Ok(()), fs::File::sync_all)
     }
 
-    /// An empty folder that shall lie at `target`, where nothing is.
+    /// Creates an empty temporary folder for `target`, which must not exist.
     pub(super) fn folder(target: &Path) -> Result<Staged> {
         Staged::beside(target, |path| fs::create_dir(path).map(|()| fs::File::open(path).ok()))
     }
 
-    /// Creates something new and locked beside the target.
+    /// Creates a new, locked file or folder next to the target.
     fn beside(target: &Path, create: impl Fn(&Path) -> Result<Option<fs::File>>) -> Result<Staged> {
         remove_leftovers(target);
         let prefix = prefix(target);
@@ -74,7 +75,7 @@ impl Staged {
                 Err(error) => return Err(error),
             };
             let locked = lock.as_ref().map(fs::File::try_lock);
-            // Before it was locked another process may have taken it for a leftover.
+            // Before it was locked, another process could have removed it as a leftover.
             let is_taken = matches!(locked, Some(Err(TryLockError::WouldBlock)));
             if !is_taken && fs::symlink_metadata(&temporary).is_ok() {
                 return Ok(Staged { temporary, target: target.to_owned(), lock, is_placed: false });
@@ -83,7 +84,7 @@ impl Staged {
         Err(std::io::Error::other("no temporary file could be created beside it"))
     }
 
-    /// Gives it the permissions and, if the system lets us, the owner of the file that is there.
+    /// Sets the permissions and, if permitted, the owner to those of the existing file.
     fn keep_access(&self, present: &Metadata) -> Result<()> {
         keep_owner(&self.temporary, present);
         if fs::metadata(&self.temporary)?.permissions() == present.permissions() {
@@ -92,12 +93,12 @@ impl Staged {
         fs::set_permissions(&self.temporary, present.permissions())
     }
 
-    /// Its present path.
+    /// The temporary path.
     pub(super) fn path(&self) -> &Path {
         &self.temporary
     }
 
-    /// Puts it in its place.
+    /// Moves it to the target.
     pub(super) fn put(mut self) -> Result<()> {
         fs::rename(&self.temporary, &self.target)?;
         self.is_placed = true;
@@ -127,13 +128,14 @@ impl Drop for Staged {
     }
 }
 
-/// Files are replaced by new ones, which belong to the user who writes them: gives them back to their owner if permitted.
+/// Sets the owner of a new file to that of the file that it replaces, if permitted; it belongs to the current user
+/// otherwise.
 #[cfg(unix)]
 fn keep_owner(path: &Path, present: &Metadata) {
     use std::os::unix::fs::{MetadataExt, chown};
     if fs::metadata(path).is_ok_and(|new| (new.uid(), new.gid()) != (present.uid(), present.gid()))
     {
-        // Only the superuser may.
+        // Only the superuser is permitted to do this.
         let _ = chown(path, Some(present.uid()), Some(present.gid()));
     }
 }
@@ -141,14 +143,14 @@ fn keep_owner(path: &Path, present: &Metadata) {
 #[cfg(not(unix))]
 fn keep_owner(_: &Path, _: &Metadata) {}
 
-/// The beginning of the temporary names of a target.
+/// The common prefix of the temporary names of a target.
 fn prefix(target: &Path) -> String {
     let name = target.file_name().unwrap_or(OsStr::new("")).to_string_lossy();
     let end = (0..=MAX_NAME.min(name.len())).rev().find(|end| name.is_char_boundary(*end));
     format!(".{}{INFIX}", &name[..end.unwrap_or(0)])
 }
 
-/// Removes what a process left behind that was killed while it wrote the target.
+/// Removes temporary files of processes that were killed while they wrote the target.
 pub(super) fn remove_leftovers(target: &Path) {
     let prefix = prefix(target);
     let Ok(entries) = fs::read_dir(folder_of(target)) else { return };
@@ -160,7 +162,7 @@ pub(super) fn remove_leftovers(target: &Path) {
         if numbers.is_some_and(|(process, number)| is_number(process) && is_number(number)) {
             let path = entry.path();
             let is_ours = entry.file_type().is_ok_and(|kind| kind.is_file() || kind.is_dir());
-            // Locked, it is being written; without locks nobody knows.
+            // If it is locked, another process is writing it; without locks this is unknown, and it stays.
             let lock = is_ours.then(|| fs::File::open(&path).ok()).flatten();
             if let Some(file) = lock
                 && file.try_lock().is_ok()
@@ -171,7 +173,7 @@ pub(super) fn remove_leftovers(target: &Path) {
     }
 }
 
-/// Removes a temporary file or folder; it may stay if the system will not.
+/// Removes a temporary file or folder; failures are ignored.
 fn remove(path: &Path) {
     let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
 }

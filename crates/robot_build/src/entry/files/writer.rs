@@ -1,4 +1,4 @@
-//! The rules of writing: which path may be written with which content.
+//! The rules for writing output files.
 
 use std::fs::{self, Metadata, OpenOptions};
 use std::io::Write;
@@ -11,14 +11,14 @@ use super::staging::{Staged, remove_leftovers};
 use crate::driver::file::File;
 use crate::error::{Error, Errors};
 
-/// The evidence that this program wrote an existing file, so that it may be replaced.
+/// The evidence that this program wrote an existing file, which may then be replaced.
 #[derive(Clone, Copy, Debug)]
 pub enum Ownership {
-    /// By the [`MARKER`](super::MARKER), or that of generated Rust, near its start or on its last line.
+    /// The [`MARKER`](super::MARKER), or the mark of generated Rust, near its start or on its last line.
     Marked,
-    /// By its first line, for formats without comments: whether a line is one that this program writes.
+    /// Its first line, for formats without comments; the function says whether this program writes such a line.
     Headed(fn(&str) -> bool),
-    /// None: the file is meant to be edited.
+    /// No evidence, because the file is meant to be edited.
     Edited,
 }
 
@@ -29,21 +29,21 @@ pub struct Output<'a> {
     pub path: PathBuf,
     /// The content.
     pub bytes: &'a [u8],
-    /// Which files it may replace.
+    /// The existing files that it may replace.
     pub ownership: Ownership,
 }
 
 /// Writes output files.
 ///
-/// - An output that is one of the inputs is refused, always: the same file by another path, a symbolic
-///   link or a hard link is the same file.
-/// - A file that is there, not empty and not this program's is refused, unless [`Writer::force`] says
-///   otherwise.
+/// - An output that is one of the inputs is always an error. Another path, a symbolic link or a hard link to an
+///   input is the same file.
+/// - An existing file that is not empty and that this program did not write is an error, unless [`Writer::force`]
+///   is set.
 /// - Everything is checked before anything is written.
-/// - A regular file is written beside its place, in the same folder, and renamed when it is whole and on
+/// - A regular file is written to a temporary file in the same folder, which is renamed when it is complete and on
 ///   the disk; it keeps the permissions of the file that it replaces. A symbolic link stays, and the file
-///   that it leads to is replaced.
-/// - A file whose bytes do not change is not written: its time of change means something.
+///   to which it points is replaced.
+/// - A file whose bytes do not change is not written, so that its modification time stays meaningful.
 /// - A device, a pipe or an open stream such as `/dev/stdout` is written to and never read.
 #[derive(Clone, Debug)]
 #[must_use]
@@ -60,36 +60,36 @@ impl Default for Writer {
 }
 
 impl Writer {
-    /// A writer that knows no inputs and replaces only this program's files.
+    /// Makes a writer without inputs that replaces only files of this program.
     pub fn new() -> Writer {
         let remedy = "choose another name, or move that file away";
         Writer { inputs: vec![], force: false, remedy }
     }
 
-    /// Files that were read for the outputs, or will be by the next run.
+    /// Adds files that were read for the outputs, or that the next run will read.
     pub fn inputs(mut self, paths: impl IntoIterator<Item = impl Into<PathBuf>>) -> Writer {
         self.inputs.extend(paths.into_iter().map(Into::into));
         self
     }
 
-    /// Whether files that this program did not write are replaced.
+    /// Sets whether files that this program did not write are replaced.
     pub fn force(mut self, force: bool) -> Writer {
         self.force = force;
         self
     }
 
-    /// The advice of a message about a file that is not replaced.
+    /// Sets the remedy in the message about a file that is not replaced.
     pub fn remedy(mut self, remedy: &'static str) -> Writer {
         self.remedy = remedy;
         self
     }
 
-    /// Checks whether outputs will be refused, as far as this is known before they exist; for use before long
+    /// Checks whether outputs could not be written, as far as this is known before their contents; for use before long
     /// computations.
     ///
     /// # Errors
     ///
-    /// The errors of [`Writer::write`]; two outputs of one name.
+    /// The errors of [`Writer::write`], and two outputs with the same path.
     pub fn check(&self, outputs: &[(&Path, Ownership)]) -> Result<(), Errors> {
         let mut errors = vec![];
         for (index, (path, ownership)) in outputs.iter().enumerate() {
@@ -105,19 +105,19 @@ impl Writer {
 
     fn check_one(&self, path: &Path, ownership: Ownership) -> Result<(), Error> {
         match (self.target(path)?, ownership) {
-            // It may be what will be written.
+            // The existing file can have the same content as the output.
             (_, Ownership::Edited) | (Target::Free(_) | Target::Stream, _) => Ok(()),
             (Target::Regular(target, _), _) => self.check_owner(path, &target, ownership),
         }
     }
 
-    /// Writes files, all or, if one is refused or cannot be written, none; gives the number of those
-    /// that changed. Only between the last steps, the renaming of one file after another in the order of
-    /// the list, can some be new and others old.
+    /// Writes all files or, if one must not or cannot be written, none; returns the number of files that changed. Only
+    /// during the last step, in which the files are renamed one after another in the order of the list, can some be new
+    /// and others old.
     ///
     /// # Errors
     ///
-    /// Everything that is refused; what the system says, with the path.
+    /// All files that must not be written; errors of the system, with the path.
     pub fn write(&self, outputs: &[Output<'_>]) -> Result<usize, Errors> {
         let (mut changed, mut errors) = (vec![], vec![]);
         for output in outputs {
@@ -152,8 +152,8 @@ impl Writer {
         Ok(changed.len())
     }
 
-    /// Begins a file whose bytes come one after the other; it is refused as [`Writer::write`] would, but for the one
-    /// that was written to be edited, which may turn out to be the same.
+    /// Starts a file that is written piece by piece. The path is checked as in [`Writer::write`], except for files that
+    /// are meant to be edited, whose content could turn out to be the same.
     ///
     /// # Errors
     ///
@@ -172,7 +172,7 @@ impl Writer {
                 pending::Place::Staged(Staged::empty(target).map_err(failed)?, None)
             }
             Target::Regular(target, metadata) => {
-                // A file that may not be written may not be replaced either.
+                // A file that must not be written must not be replaced either.
                 OpenOptions::new().write(true).open(target).map_err(failed)?;
                 let staged = Staged::empty(target).map_err(failed)?;
                 pending::Place::Staged(staged, Some(Box::new((target.clone(), metadata.clone()))))
@@ -182,13 +182,13 @@ impl Writer {
         Ok(Pending { writer, path, ownership, place, folders, length: 0 })
     }
 
-    /// Writes the files of a folder, as [`Writer::write`] does. A folder that is not there yet appears
-    /// with all of its files or not at all; in one that is there the first of the files comes last.
-    /// Gives the number of files that changed.
+    /// Writes the files of a folder, as [`Writer::write`] does. A folder that does not exist yet is created with all of
+    /// its files or not at all. In an existing folder, the first file is written last. Returns the number of files that
+    /// changed.
     ///
     /// # Errors
     ///
-    /// The errors of [`Writer::write`]; a folder that is a file.
+    /// The errors of [`Writer::write`], and a folder whose path is a file.
     pub fn write_folder(&self, folder: &Path, files: &[File]) -> Result<usize, Errors> {
         let failed = |error| cannot_write(folder, &error);
         let target = match place(folder).map_err(failed)? {
@@ -225,7 +225,7 @@ impl Writer {
         Ok(files.len())
     }
 
-    /// The work to do for an output; `None` if the file is up to date.
+    /// Returns the target that has to be written for an output; `None` if the file is up to date.
     fn change(&self, output: &Output<'_>) -> Result<Option<Target>, Error> {
         let target = self.target(&output.path)?;
         let Target::Regular(path, metadata) = &target else { return Ok(Some(target)) };
@@ -236,13 +236,13 @@ impl Writer {
             return Ok(None);
         }
         self.check_owner(&output.path, path, output.ownership)?;
-        // A file that may not be written may not be replaced either.
+        // A file that must not be written must not be replaced either.
         let writable = OpenOptions::new().write(true).open(path);
         writable.map_err(|error| cannot_write(&output.path, &error))?;
         Ok(Some(target))
     }
 
-    /// Looks at the path of an output; inputs and folders are rejected.
+    /// Finds the target at the path of an output; inputs, folders and system files are errors.
     fn target(&self, path: &Path) -> Result<Target, Error> {
         if let Some(input) = self.inputs.iter().find(|input| is_same(path, input)) {
             return Err(Error::IsInput { path: path.to_owned(), input: input.clone() });
@@ -265,7 +265,8 @@ impl Writer {
         }
     }
 
-    /// `path` is for the message, `target` has its symbolic links followed.
+    /// Checks that an existing file may be replaced. `path` is for the message; `target` is the path after following
+    /// symbolic links.
     pub(super) fn check_owner(
         &self,
         path: &Path,
@@ -292,7 +293,7 @@ impl Writer {
                 (false, "differs from what would be written; it may have been edited")
             }
         };
-        // Nothing is lost with an empty file.
+        // Replacing an empty file loses nothing.
         if is_own || ends.are_empty() {
             return Ok(());
         }
@@ -300,7 +301,7 @@ impl Writer {
     }
 }
 
-/// The target of an output, symbolic links followed.
+/// The target of an output, after following symbolic links.
 enum Target {
     Free(PathBuf),
     Regular(PathBuf, Metadata),
@@ -311,20 +312,20 @@ pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     Error::File { action: "write", path: path.to_owned(), reason: error.to_string() }
 }
 
-/// Whether a path ends as those of folders do.
+/// Whether a path ends with a separator, as paths of folders do.
 fn names_folder(path: &Path) -> bool {
     let text = path.as_os_str().to_string_lossy();
     text.ends_with(std::path::is_separator)
 }
 
-/// Writes a new file, to the disk.
+/// Writes a new file and flushes it to the disk.
 fn create(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
     file.write_all(bytes)?;
     file.sync_all()
 }
 
-/// Writes to what is open already, or no file: after what is there.
+/// Appends to an open stream or to a device.
 fn write_stream(output: &Output<'_>) -> Result<(), Error> {
     let written = OpenOptions::new()
         .append(true)
@@ -333,18 +334,18 @@ fn write_stream(output: &Output<'_>) -> Result<(), Error> {
     written.map_err(|error| cannot_write(&output.path, &error))
 }
 
-/// Folders that are made for outputs; those still empty go again if the outputs fail.
+/// Folders that were created for outputs; empty ones are removed if the outputs fail.
 #[derive(Default)]
 pub(super) struct Folders(Vec<PathBuf>);
 
 impl Folders {
-    /// Makes a folder and those above it.
+    /// Creates a folder and its missing parents.
     fn make(&mut self, folder: &Path) -> std::io::Result<()> {
         let missing = folder.ancestors().take_while(|folder| {
             !folder.as_os_str().is_empty() && fs::symlink_metadata(folder).is_err()
         });
         let missing: Vec<PathBuf> = missing.map(Path::to_owned).collect();
-        // `missing/..` names nothing, as the system has it, also once `missing` was made.
+        // `missing/..` does not exist for the system, even though it would after `missing` was created.
         if missing.iter().any(|folder| folder.file_name().is_none()) {
             return Err(std::io::ErrorKind::NotFound.into());
         }
@@ -353,7 +354,7 @@ impl Folders {
         Ok(())
     }
 
-    /// They have files now.
+    /// Keeps the folders, because they have files now.
     pub(super) fn keep(&mut self) {
         self.0.clear();
     }
@@ -362,7 +363,7 @@ impl Folders {
 impl Drop for Folders {
     fn drop(&mut self) {
         for folder in self.0.iter().rev() {
-            // One with a file in it stays.
+            // A folder with a file in it stays.
             let _ = fs::remove_dir(folder);
         }
     }

@@ -1,4 +1,4 @@
-//! LaTeX to tokens.
+//! Splits LaTeX into tokens.
 
 use std::ops::Range;
 
@@ -7,13 +7,13 @@ use robot_model::signs::{Accent, Font, FunctionName, Letter};
 /// A token, without the spaces around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Token<'t> {
-    /// `\frac`, `q`, `1.5`, `{`, `+`.
+    /// The text of the token, such as `\frac`, `q`, `1.5`, `{` or `+`.
     pub(super) text: &'t str,
-    /// Its bytes.
+    /// The bytes of the token.
     pub(super) span: Range<usize>,
 }
 
-/// Commands that print nothing but space, and marks of alignment.
+/// Commands that only print space, and alignment marks.
 const SPACES: [&str; 17] = [
     "&",
     "~",
@@ -34,31 +34,31 @@ const SPACES: [&str; 17] = [
     r"\noindent",
 ];
 
-/// Fonts of papers, beside those that formulas of this project have.
+/// Fonts that occur in papers but not in the formulas of this project.
 const OTHER_FONTS: [&str; 6] = ["text", "textrm", "rm", "bm", "mathnormal", "textit"];
 
-/// Accents of papers, beside those that formulas of this project have.
+/// Accents that occur in papers but not in the formulas of this project.
 const OTHER_ACCENTS: [&str; 2] = ["dddot", "overrightarrow"];
 
-/// Whether a token sets the font of the next piece; fonts do not distinguish symbols.
+/// Whether a token sets the font of the next part; fonts do not distinguish symbols.
 pub(super) fn is_font(token: &str) -> bool {
     let known = |command| Font::of_latex(command).is_some() || OTHER_FONTS.contains(&command);
     token.strip_prefix('\\').is_some_and(known)
 }
 
-/// Whether a token puts a sign over a letter, which is part of the symbol.
+/// Whether a token puts an accent on a letter; the accent is part of the symbol.
 pub(super) fn is_accent(token: &str) -> bool {
     let known = |command| Accent::of_latex(command).is_some() || OTHER_ACCENTS.contains(&command);
     token.strip_prefix('\\').is_some_and(known)
 }
 
-/// Whether a token is the command of a Greek letter or of another sign that symbols are made of.
+/// Whether a token is the command of a Greek letter or of another character that symbols may contain.
 pub(super) fn is_letter(token: &str) -> bool {
     let letter = token.strip_prefix('\\').and_then(Letter::of_latex);
     letter.is_some_and(Letter::is_in_symbols)
 }
 
-/// The function in infix text that a command means.
+/// The name in infix text of the function that a command denotes.
 pub(super) fn function(token: &str) -> Option<&'static str> {
     match token {
         r"\tan" => Some("tan"),
@@ -76,7 +76,7 @@ impl Token<'_> {
     }
 }
 
-/// All tokens but spaces; a line break stays.
+/// All tokens except spaces; line breaks are kept.
 pub(super) fn tokens(latex: &str) -> Vec<Token<'_>> {
     let mut tokens = vec![];
     let mut place = 0;
@@ -95,10 +95,10 @@ pub(super) fn tokens(latex: &str) -> Vec<Token<'_>> {
     tokens
 }
 
-/// Fractions, whose arguments may be single digits.
+/// The commands of fractions, whose arguments may be single digits.
 pub(super) const FRACTIONS: [&str; 3] = [r"\frac", r"\dfrac", r"\tfrac"];
 
-/// Whether a digit that comes next is an argument of its own, as both are in `\frac12`.
+/// Whether the next digit is an argument by itself, like both digits in `\frac12`.
 fn takes_digit(tokens: &[Token<'_>]) -> bool {
     let fraction = |token: &Token<'_>| FRACTIONS.contains(&token.text);
     match tokens {
@@ -108,7 +108,7 @@ fn takes_digit(tokens: &[Token<'_>]) -> bool {
     }
 }
 
-/// The bytes of the token that begins with `first`.
+/// The number of bytes of the token that begins with `first`.
 fn length(rest: &str, first: char) -> usize {
     let run = |text: &str, member: fn(&u8) -> bool| text.bytes().take_while(member).count();
     match first {
@@ -124,7 +124,7 @@ fn length(rest: &str, first: char) -> usize {
     }
 }
 
-/// The text of tokens without braces and fonts.
+/// The text of the tokens without braces and fonts.
 pub(super) fn key(tokens: &[Token<'_>]) -> String {
     let shown = tokens.iter().filter(|token| {
         !matches!(token.text, "{" | "}" | r"\left" | r"\right") && !is_font(token.text)

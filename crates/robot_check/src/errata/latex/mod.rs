@@ -1,8 +1,8 @@
-//! LaTeX of published formulas, put into the infix text that [`Formula`](robot_symbolic::Formula) reads.
+//! Translates the LaTeX of published formulas to infix text that [`Formula`](robot_symbolic::Formula) reads.
 //!
-//! It reads the LaTeX of papers and of `robot_document`: symbols with indices
-//! and accents, products by juxtaposition, fractions, roots, brackets, and sines and cosines in
-//! three spellings: `\sin q_2`, `s_2` or `c_{23}`, and `sq_2` or `c^2q_5`.
+//! It accepts the LaTeX of papers and of `robot_document`: symbols with indices and accents, products by juxtaposition,
+//! fractions, roots, brackets, and sines and cosines in three spellings: `\sin q_2`, `s_2` or `c_{23}`, and `sq_2` or
+//! `c^2q_5`.
 
 mod lexer;
 mod symbol;
@@ -14,14 +14,14 @@ use std::ops::Range;
 
 use robot_symbolic::ParseError;
 
-/// The lookup of a symbol's name by its LaTeX, given its [`symbol_key`].
+/// Returns the name of a symbol for its [`symbol_key`].
 pub(super) type Names<'a> = dyn Fn(&str) -> Option<String> + 'a;
 
-/// A formula as infix text, and the places of its parts in the LaTeX.
+/// A formula as infix text, with the places of its parts in the LaTeX.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Infix {
     text: String,
-    /// The start of each piece of the text, and the bytes of the LaTeX that it comes from.
+    /// The start of each piece of the text, and the bytes of the LaTeX from which it was translated.
     pieces: Vec<(usize, Range<usize>)>,
     /// The end of the LaTeX.
     end: usize,
@@ -33,7 +33,7 @@ impl Infix {
         &self.text
     }
 
-    /// The bytes of the LaTeX that some bytes of the infix text come from.
+    /// The bytes of the LaTeX from which a range of the infix text was translated.
     pub(super) fn source(&self, span: &Range<usize>) -> Range<usize> {
         let last = self.pieces.partition_point(|(start, _)| *start < span.end.max(span.start + 1));
         let first = self.pieces.partition_point(|(start, _)| *start <= span.start);
@@ -47,21 +47,21 @@ impl Infix {
     }
 }
 
-/// The infix text of a formula in LaTeX.
+/// Translates a formula in LaTeX to infix text.
 ///
-/// `names` gives the name of a symbol by its [`symbol_key`]. A symbol that it does not know has the
-/// letters and digits of its LaTeX for a name. An upper index is part of a symbol if `names` knows
-/// it so, and a power if it is an integer. A repeated sign at a line break, as in `a + \\ + b`,
-/// counts once.
+/// `names` returns the name of a symbol for its [`symbol_key`]. A symbol for which it returns `None` is named by the
+/// letters and digits of its LaTeX. A superscript is part of a symbol if `names` returns a name for both, and otherwise
+/// a power if it is an integer. If a plus or minus sign is repeated at a line break, as in `a + \\ + b`, it counts only
+/// once.
 ///
 /// # Errors
 ///
-/// The first thing that is not read, with its bytes and a remedy.
+/// The first thing that cannot be read, with its bytes and a remedy.
 pub(super) fn to_infix(latex: &str, names: &Names<'_>) -> Result<Infix, ParseError> {
     translate::translate(latex, names)
 }
 
-/// What tells a symbol from others in LaTeX: its text without spaces, braces and fonts; `F_l_x^5` of
+/// The key that identifies a symbol in LaTeX: its text without spaces, braces and fonts, such as `F_l_x^5` for
 /// `F_{l_x}^{5}`.
 pub(super) fn symbol_key(latex: &str) -> String {
     lexer::key(&lexer::tokens(latex))

@@ -12,20 +12,20 @@ use super::translate::{Translator, unknown};
 #[derive(Clone)]
 struct Index {
     key: String,
-    /// Its first token.
+    /// The index of its first token.
     place: usize,
     span: Range<usize>,
 }
 
 impl Translator<'_, '_> {
-    /// Whether a symbol or an angle in brackets comes next.
+    /// Whether a symbol, or an angle in brackets, follows.
     pub(super) fn starts_symbol(&self) -> bool {
         let text = self.peek();
         let accented = is_font(text) || is_accent(text);
         accented || text.starts_with(|letter: char| letter.is_ascii_alphabetic()) || is_letter(text)
     }
 
-    /// A symbol with its indices, or a sine or cosine in a short spelling.
+    /// Translates a symbol with its indices, or a sine or cosine in a short spelling.
     pub(super) fn symbol(&mut self) -> Result<(), ParseError> {
         let first = self.here();
         if !(self.starts_symbol() || self.peek() == "{") {
@@ -71,7 +71,7 @@ impl Translator<'_, '_> {
         }
     }
 
-    /// The lower and the upper index at hand, in either order.
+    /// Reads the subscript and the superscript that follow, in either order.
     fn indices(&mut self) -> Result<[Option<Index>; 2], ParseError> {
         let mut indices = [None, None];
         loop {
@@ -94,7 +94,7 @@ impl Translator<'_, '_> {
         }
     }
 
-    /// `s_2`, `c_{23}`, `s_{\theta}`: a function of the sum of numbered joints, or of an angle.
+    /// Translates `s_2`, `c_{23}` or `s_{\theta}`: a function of the sum of numbered joint positions, or of an angle.
     fn of_index(
         &mut self,
         function: &str,
@@ -121,14 +121,14 @@ impl Translator<'_, '_> {
         }
     }
 
-    /// The name of a symbol, or a plain one made of its LaTeX.
+    /// Emits the name of a symbol, or a plain name made of its LaTeX.
     fn name(&mut self, key: &str, span: Range<usize>) {
         let name = (self.names)(key).unwrap_or_else(|| plain(key));
         self.emit(&name, span);
     }
 }
 
-/// `q2+q3` of `23`, `q2-q3` of `2-3`, `q2+q10` of `2,10`.
+/// The angle of joint numbers: `q2+q3` for `23`, `q2-q3` for `2-3`, `q2+q10` for `2,10`.
 fn joints(index: &str) -> Option<String> {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     let apart = index.contains(',');
@@ -155,7 +155,7 @@ fn joints(index: &str) -> Option<String> {
     angle.strip_prefix('+').map(str::to_owned).or((!angle.is_empty()).then_some(angle))
 }
 
-/// A name of the letters and digits of a key.
+/// A name made of the letters and digits of a key.
 fn plain(key: &str) -> String {
     if key == r"\pi" {
         return "pi".to_owned();

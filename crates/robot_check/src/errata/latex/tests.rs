@@ -150,7 +150,7 @@ fn hostile_text_ends_in_an_error_or_a_formula() {
     }
 }
 
-/// The depth of a formula is that of its brackets and arguments, not their number.
+/// The depth of a formula depends on the nesting of brackets and arguments, not on their number.
 #[test]
 fn a_long_formula_is_not_a_deep_one() {
     for part in [r"\sin q_1", r"\cos(q_1)", "(q_1)", r"\frac{q_1}{q_2}", r"q_1 \left[ q_2 \right]"]

@@ -1,4 +1,4 @@
-//! Tokens to infix text, by descent: groups nest no deeper than [`MAX_DEPTH`].
+//! Translates tokens to infix text by recursive descent; groups may be nested at most [`MAX_DEPTH`] deep.
 
 use std::ops::Range;
 
@@ -8,17 +8,17 @@ use robot_symbolic::formula::{MAX_DEPTH, MAX_TOKENS};
 use super::lexer::{self, FRACTIONS, Token, is_accent, is_font};
 use super::{Infix, Names};
 
-/// Sizes of brackets.
+/// The commands for sizes of brackets.
 const SIZES: [&str; 14] = [
     r"\left", r"\right", r"\big", r"\Big", r"\bigg", r"\Bigg", r"\bigl", r"\Bigl", r"\biggl",
     r"\Biggl", r"\bigr", r"\Bigr", r"\biggr", r"\Biggr",
 ];
 
-/// Brackets that open, and what closes them.
+/// Opening brackets, with the brackets that close them.
 const BRACKETS: [(&str, &str); 4] =
     [("(", ")"), ("[", "]"), (r"\{", r"\}"), (r"\lvert", r"\rvert")];
 
-/// LaTeX in infix text.
+/// Translates LaTeX to infix text.
 pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseError> {
     let tokens = lexer::tokens(latex);
     if tokens.len() > MAX_TOKENS {
@@ -31,7 +31,7 @@ pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseEr
     Ok(translator.infix)
 }
 
-/// The LaTeX being read, and the text written so far.
+/// The LaTeX that is being read, and the text that has been written so far.
 pub(super) struct Translator<'t, 'n> {
     tokens: &'t [Token<'t>],
     pub(super) place: usize,
@@ -45,7 +45,7 @@ impl<'t> Translator<'t, '_> {
         self.tokens.get(self.place).map_or("", |token| token.text)
     }
 
-    /// The bytes of the token at hand; empty at the end.
+    /// The bytes of the current token; empty at the end.
     pub(super) fn here(&self) -> Range<usize> {
         let end = self.infix.end;
         self.tokens.get(self.place).map_or(end..end, |token| token.span.clone())
@@ -77,12 +77,12 @@ impl<'t> Translator<'t, '_> {
         }
     }
 
-    /// A sum up to what closes it, which is taken; up to the end if that is `None`.
+    /// Translates a sum up to the token `close`, which is consumed, or up to the end if `close` is `None`.
     fn sum(&mut self, close: Option<&str>) -> Result<(), ParseError> {
         self.deeper()?;
         let open = self.here();
         let mut after_operand = false;
-        // The sign before a line break, which may be repeated after it.
+        // The plus or minus sign before a line break, which may be repeated after it.
         let mut broken = None;
         loop {
             let (text, here) = (self.peek(), self.here());
@@ -104,7 +104,7 @@ impl<'t> Translator<'t, '_> {
                 "+" | "-" | "*" | "/" | r"\cdot" | r"\times" | r"\ast" => {
                     self.place += 1;
                     let repeated = broken.take().is_some_and(|sign| text.starts_with(sign));
-                    // A plus sign with nothing before it says nothing.
+                    // A leading plus sign has no effect.
                     let needed = text != "+" || after_operand;
                     if needed && !repeated {
                         self.emit(if text.len() > 1 { "*" } else { text }, here);
@@ -129,7 +129,7 @@ impl<'t> Translator<'t, '_> {
         Ok(())
     }
 
-    /// Takes what closes a sum, its size included.
+    /// Consumes the token that closes a sum, including its size command.
     fn closes(&mut self, close: Option<&str>) -> bool {
         let Some(close) = close else {
             return self.peek().is_empty();
@@ -182,7 +182,7 @@ impl<'t> Translator<'t, '_> {
         }
     }
 
-    /// A sum in brackets, the opening one at hand, and its power.
+    /// Translates a sum in brackets, of which the opening one is the current token, and its power.
     fn bracket(&mut self, open: &str, close: &str) -> Result<(), ParseError> {
         let here = self.here();
         self.place += 1;
@@ -192,14 +192,14 @@ impl<'t> Translator<'t, '_> {
         self.power()
     }
 
-    /// `)`, from the token before.
+    /// Emits `)`, with the preceding token as its source.
     fn closed(&mut self) {
         let before = self.tokens.get(self.place.saturating_sub(1));
         let source = before.map_or(0..0, |token| token.span.clone());
         self.emit(")", source);
     }
 
-    /// A group is a bracket that does not print, or the letter of a symbol with an index.
+    /// Translates a group, which acts as an invisible bracket, or as the base of a symbol with an index.
     fn group(&mut self) -> Result<(), ParseError> {
         let end = self.group_end(self.place);
         if self.tokens.get(end).is_some_and(|next| next.text == "_") {
@@ -208,7 +208,7 @@ impl<'t> Translator<'t, '_> {
         self.bracket("(", "}")
     }
 
-    /// The token after a group.
+    /// The index of the token after a group.
     fn group_end(&self, start: usize) -> usize {
         let mut open = 0_usize;
         for (place, token) in self.tokens.iter().enumerate().skip(start) {
@@ -224,7 +224,7 @@ impl<'t> Translator<'t, '_> {
         self.tokens.len()
     }
 
-    /// The argument of a command as a sum in brackets: a group, or one token.
+    /// Translates the argument of a command to a sum in brackets; it is a group or a single token.
     pub(super) fn argument(&mut self) -> Result<(), ParseError> {
         let here = self.here();
         self.deeper()?;
@@ -253,7 +253,7 @@ impl<'t> Translator<'t, '_> {
         self.power()
     }
 
-    /// `^2`, if it follows.
+    /// Translates a power such as `^2`, if one follows.
     fn power(&mut self) -> Result<(), ParseError> {
         let here = self.here();
         if !self.take("^") {
@@ -284,13 +284,13 @@ impl<'t> Translator<'t, '_> {
         Ok(())
     }
 
-    /// The end of the token before.
+    /// The end of the preceding token.
     pub(super) fn before(&self) -> usize {
         let before = self.place.checked_sub(1).and_then(|place| self.tokens.get(place));
         before.map_or(0, |token| token.span.end)
     }
 
-    /// The key of a group, or of one letter, digit or command.
+    /// The key of a group, or of a single letter, digit or command.
     pub(super) fn capture(&mut self) -> Result<String, ParseError> {
         let start = self.place;
         match self.peek() {
@@ -316,7 +316,8 @@ impl<'t> Translator<'t, '_> {
                 self.depth -= 1;
                 Ok(if is_font(text) { inside } else { format!("{text}{inside}") })
             }
-            // Without braces one digit is an argument: more are a mistake that print shows.
+            // Without braces, only one digit is the argument; more digits are a mistake, because LaTeX prints them
+            // differently.
             text => match first_digit(text) {
                 Some(_) if text.len() > 1 => self.fault(
                     format!("`{text}` without braces: LaTeX takes only its first digit"),
@@ -330,14 +331,15 @@ impl<'t> Translator<'t, '_> {
         }
     }
 
-    /// A function, by its command: a power of it, then what it is of.
+    /// Translates a function given by its command: an optional power, then the argument.
     fn function(&mut self, name: &str, start: Range<usize>) -> Result<(), ParseError> {
         let here = self.here();
         let exponent = if self.take("^") { Some((self.capture()?, here)) } else { None };
         self.applied(name, start, exponent)
     }
 
-    /// A function of what follows: a bracket, or a symbol with perhaps a number before it.
+    /// Translates the application of a function to what follows: a bracket, or a symbol with an optional number before
+    /// it.
     pub(super) fn applied(
         &mut self,
         name: &str,

@@ -1,4 +1,4 @@
-//! Diagnostics as JSON; docs/diagnostics describes the document.
+//! Diagnostics as JSON. The document is described in `docs/diagnostics`.
 
 use robot_check::doctor::Examination;
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Label, Severity, Source, Span};
@@ -6,10 +6,11 @@ use serde_json::{Value, json};
 
 use super::Report;
 
-/// Raised when a member changes its meaning or goes; new members may come at any time.
+/// The version of the document. It is incremented if a member changes its meaning or is removed; new members can be
+/// added at any time.
 const VERSION: u64 = 1;
 
-/// One document for all files.
+/// Makes one document for all files.
 pub(super) fn document(reports: &[Report]) -> Value {
     let diagnostics: Vec<Value> = reports.iter().flat_map(of_report).collect();
     let count = |severity| reports.iter().map(|report| report.count(severity)).sum::<usize>();
@@ -66,7 +67,7 @@ fn related(source: &Source, label: &Label) -> Value {
     })
 }
 
-/// Line and column of the first character, and of the character after the last.
+/// The line and column of the first character and of the character after the last.
 fn corners(source: &Source, span: &Span) -> [usize; 4] {
     let (line, column) = source.position(span.start);
     let (end_line, end_column) = source.position(span.end.max(span.start));

@@ -57,10 +57,10 @@ enum Deny {
     Warnings,
 }
 
-/// What is found in one file.
+/// The result for one file.
 enum Report {
     Examined(Examination),
-    /// A file that cannot be read, and why.
+    /// A file that cannot be read, and the reason.
     Unread {
         file: String,
         reason: String,
@@ -103,7 +103,7 @@ impl Arguments {
                 with_pin(examination, &file)
             }
             Err(errors) => match errors.as_slice() {
-                // Bytes that are not text.
+                // The bytes are not text.
                 [Error::Robot(found)] => Examination::refused((**found).clone()),
                 others => {
                     let file = path.to_string_lossy().into_owned();
@@ -116,7 +116,7 @@ impl Arguments {
         Report::Examined(Examination { found: self.wanted(&found), choices: self.wanted(&choices) })
     }
 
-    /// What is not allowed; errors always.
+    /// Removes warnings that the command line allows; errors always stay.
     fn wanted(&self, found: &Diagnostics) -> Diagnostics {
         let wanted = found.iter().filter(|one| {
             one.severity == Severity::Error || self.allow.iter().all(|code| code != one.code)
@@ -125,11 +125,11 @@ impl Arguments {
     }
 }
 
-/// The same, and whether builds refuse the plan that is pinned beside the file.
+/// Adds a warning if builds would reject the pinned plan of the file.
 fn with_pin(examination: Examination, file: &RobotFile) -> Examination {
     let Err(errors) = file.with_pin(&robot_build::Options::default()) else { return examination };
     if !is_of_pin(&errors) {
-        // Errors of the file itself, which are found already.
+        // Errors of the file itself have already been found.
         return examination;
     }
     let Examination { found, choices } = examination;

@@ -1,4 +1,4 @@
-//! `compare`: published equations against derived ones.
+//! `compare`: comparison of published equations with derived ones.
 
 mod show;
 

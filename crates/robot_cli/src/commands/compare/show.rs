@@ -1,4 +1,4 @@
-//! A comparison as text, JSON and Markdown.
+//! Printing of a comparison as text, JSON and Markdown.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::screen::{ADDED, CHANGED, REMOVED, TITLE, styled_lines};
 
-/// A paragraph for each difference, and a summary.
+/// Prints a paragraph for each difference, and a summary.
 pub(super) fn text(comparison: &Comparison) -> String {
     let mut shown = String::new();
     for difference in &comparison.differences {
@@ -37,7 +37,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
     shown + &summary(comparison) + "\n"
 }
 
-/// The text with printed terms as removed ones and derived terms as new ones.
+/// Colors the text: published terms as removed ones, derived terms as added ones.
 pub(super) fn colored(text: &str) -> String {
     styled_lines(text, |line| match line.split_whitespace().next() {
         Some("printed") => Some(REMOVED),
@@ -47,7 +47,7 @@ pub(super) fn colored(text: &str) -> String {
     })
 }
 
-/// `(31) F_l5.x`
+/// The name of an equation: `(31) F_l5.x`.
 fn name(difference: &Difference) -> String {
     match difference.number.as_str() {
         "" => difference.quantity.clone(),
@@ -60,15 +60,14 @@ fn mistakes(difference: &Difference) -> String {
     mistakes.join(", ")
 }
 
-/// `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`
+/// Prints a summary such as `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`.
 fn summary(comparison: &Comparison) -> String {
     let Comparison { equations, names, terms, wrench, differences } = comparison;
     let mut kinds: BTreeMap<MistakeKind, usize> = BTreeMap::new();
     for mistake in differences.iter().flat_map(|difference| &difference.mistakes) {
         *kinds.entry(mistake.kind).or_default() += 1;
     }
-    let kinds: Vec<String> =
-        kinds.iter().map(|(kind, count)| format!("{count} {}", kind.name())).collect();
+    let kinds: Vec<String> = kinds.iter().map(|(kind, count)| kind.counted(*count)).collect();
     let counted =
         |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let mut shown = counted(*equations, "equation");
@@ -86,7 +85,7 @@ fn summary(comparison: &Comparison) -> String {
     }
 }
 
-/// `{"equations": …, "terms": …, "differences": […]}`
+/// Prints the comparison as `{"equations": …, "terms": …, "differences": […]}`.
 pub(super) fn json(comparison: &Comparison) -> String {
     let differences: Vec<Value> = comparison
         .differences
@@ -124,7 +123,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
     format!("{shown:#}\n")
 }
 
-/// A table, and a summary.
+/// Prints a table and a summary.
 pub(super) fn markdown(comparison: &Comparison) -> String {
     let mut shown = String::new();
     if !comparison.differences.is_empty() {

@@ -1,4 +1,4 @@
-//! `diff`: in what two robots differ.
+//! `diff`: the differences between two robots.
 
 pub(crate) mod show;
 
@@ -17,10 +17,10 @@ use crate::progress::watched;
 use crate::reading::ReadingArguments;
 use crate::screen::is_colored;
 
-/// The most states at which torques are compared: of a long robot a minute's work.
+/// The most states at which torques are compared. They take about a minute for a robot with many joints.
 const MOST_STATES: i64 = 100_000;
 
-/// The terms of an equation that are shown if nothing else is asked for.
+/// The number of terms of an equation that are shown by default.
 const TERMS: usize = 20;
 
 #[derive(Args)]
@@ -81,7 +81,7 @@ impl Arguments {
     }
 }
 
-/// A robot, and how code is made of it: by its pinned plan or the cheapest one.
+/// Reads a robot; returns it with the options for its code, which have the pinned plan or the cheapest one.
 fn one(
     path: &Path,
     reading: ReadingArguments,

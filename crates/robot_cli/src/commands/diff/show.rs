@@ -1,4 +1,4 @@
-//! A difference as text and JSON.
+//! Printing of a difference as text and JSON.
 
 use std::fmt::Write as _;
 
@@ -11,7 +11,7 @@ use serde_json::{Map, Value, json};
 
 use crate::screen::{ADDED, CHANGED, REMOVED, TITLE, styled_lines};
 
-/// A part for each kind of difference.
+/// Prints a part for each kind of difference.
 pub(super) fn text(found: &Difference, most: usize) -> String {
     let [a, b] = &found.names;
     let mut shown = format!("{a} -> {b}\n");
@@ -27,7 +27,7 @@ pub(super) fn text(found: &Difference, most: usize) -> String {
     shown
 }
 
-/// The text with what is added, removed and changed in colors.
+/// Colors added, removed and changed lines.
 pub(crate) fn colored(text: &str) -> String {
     styled_lines(text, |line| match line.trim_start().get(..2) {
         _ if !line.is_empty() && !line.starts_with([' ', '+', '-', '~']) => Some(TITLE),
@@ -40,7 +40,7 @@ pub(crate) fn colored(text: &str) -> String {
 
 const TORQUES: &str = "largest differences of the joint torques";
 
-/// The parts but for the torques, each with its title; empty if nothing differs.
+/// The parts except that of the torques, each with its title; empty if nothing differs.
 pub(crate) fn parts(found: &Difference, most: usize) -> [(&'static str, String); 3] {
     let operations = match &found.operations {
         Ok(found) => found
@@ -63,7 +63,7 @@ fn refused(reason: &str) -> String {
     format!("  not compared: {reason}\n")
 }
 
-/// `5 -> 7`, `5 -> none`
+/// Prints `5 -> 7` or `5 -> none`.
 fn arrow<T: ToString>(sides: &[Option<T>; 2]) -> String {
     let [a, b] =
         sides.each_ref().map(|side| side.as_ref().map_or("none".to_owned(), ToString::to_string));
@@ -108,7 +108,7 @@ fn equation(equation: &Equation, most: usize) -> String {
     shown
 }
 
-/// `g*m1`, `2 g*m1`, `(-1) g*m1`: the sign of a coefficient is not the one before the line.
+/// Prints `g*m1`, `2 g*m1` or `(-1) g*m1`. Brackets distinguish the sign of a coefficient from that of the line.
 fn product(coefficient: &str, powers: &str) -> String {
     match (coefficient, powers) {
         ("1", powers) => powers.to_owned(),
@@ -155,7 +155,7 @@ fn torques(found: &Torques) -> String {
     shown
 }
 
-/// All of it; a part that was not compared is `{"not_compared": reason}`.
+/// Prints the whole difference as JSON; a part that was not compared is `{"not_compared": reason}`.
 pub(super) fn json(found: &Difference) -> String {
     let refused = |reason: &String| json!({ "not_compared": reason });
     let equation = |one: &Equation| {

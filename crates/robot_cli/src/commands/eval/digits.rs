@@ -1,4 +1,4 @@
-//! The number of digits of the accelerations of states.
+//! The number of correct digits of the accelerations at states.
 
 use robot_build::{Options, Pivot, Pivots, Programs, Trigonometry};
 use robot_model::variable::JointVariable;
@@ -24,7 +24,7 @@ impl Digits {
         Ok(Digits(Some(pivots.with_trigonometry(trigonometry))))
     }
 
-    /// A line for a state whose accelerations have few digits.
+    /// The warning for a state whose accelerations have few correct digits.
     pub(super) fn warning(&self, state: &State<'_>) -> Option<String> {
         let pivot = self.smallest(state)?;
         Some(format!("warning: {}: {pivot}\n", state.place))
@@ -35,14 +35,14 @@ impl Digits {
         self.0.is_some()
     }
 
-    /// Why a state has no accelerations, if the mass matrix is the reason.
+    /// The reason why the accelerations at a state do not exist, if it is the mass matrix.
     pub(super) fn singular(&self, state: &State<'_>) -> Option<String> {
         let pivot = self.smallest(state).filter(Pivot::is_wrong)?;
         Some(format!("forward dynamics has no solution: {pivot}"))
     }
 
     fn smallest(&self, state: &State<'_>) -> Option<Pivot> {
-        // Whether the state is complete, the function itself has said.
+        // An incomplete state has already been reported for the function.
         self.0.as_ref()?.smallest(state.array(JointVariable::Position.name())?).ok().flatten()
     }
 }

@@ -1,4 +1,4 @@
-//! Outputs at states as these are read, a block of them at a time.
+//! Computes outputs at states while these are read, block by block.
 
 use std::ops::ControlFlow;
 
@@ -17,39 +17,39 @@ use crate::failure::Failure;
 use crate::outgoing::Outgoing;
 use crate::states::{Layout, Sink, State};
 
-/// The states that are in memory.
+/// The number of states in memory.
 const BLOCK: usize = 128;
 
-/// What is computed at every state.
+/// The computation at every state.
 pub(super) struct Task<'e> {
     pub(super) robot: &'e Robot,
     pub(super) settings: &'e [(&'e str, f64)],
     pub(super) trigonometry: Trigonometry,
     pub(super) digits: &'e Digits,
     pub(super) function: &'e Function,
-    /// None if the states are only checked.
+    /// The compiled function; `None` if the states are only checked.
     pub(super) handle: Option<Handle<'e>>,
-    /// Why no state may have a wrench.
+    /// The reason why states must not have a wrench, if there is one.
     pub(super) unloadable: Option<String>,
     pub(super) printer: Printer,
     /// The name of the robot file.
     pub(super) file: &'e str,
-    /// The name of the file of states, if they have one.
+    /// The name of the file of states, if they come from a file.
     pub(super) source: Option<String>,
 }
 
-/// Computes and prints the outputs at the states that it is given, unless anything is wrong with one of them.
+/// Computes and prints the outputs at the states that it receives, unless one of them has an error.
 pub(super) struct Evaluation<'e, 'l, 't> {
     task: Task<'e>,
     inputs: Vec<Input<'e>>,
     block: Vec<State<'l>>,
-    /// The states of the block that wait.
+    /// The number of states in the block that have not been computed.
     waiting: usize,
-    /// A column for each entry of the inputs and outputs, over the block.
+    /// Columns for the entries of the inputs and of the outputs, with a row for each state of the block.
     columns: [Vec<Vec<f64>>; 2],
     wrong: Wrong,
     outgoing: Outgoing<'t>,
-    /// No state has been printed.
+    /// Whether no state has been printed yet.
     is_empty: bool,
     failure: Option<Failure>,
 }
@@ -61,7 +61,7 @@ struct Input<'e> {
     size: usize,
 }
 
-/// What is wrong, in the order in which it is told.
+/// The errors, in the order in which they are reported.
 #[derive(Default)]
 struct Wrong {
     before: Complaints,
@@ -72,7 +72,7 @@ struct Wrong {
 }
 
 impl Wrong {
-    /// Whether the states can be computed.
+    /// Whether there are no errors, so that the states can be computed.
     fn is_none(&self) -> bool {
         let Wrong { before, read, loaded, missing, .. } = self;
         [before, read, loaded, missing].iter().all(|complaints| complaints.is_empty())
@@ -87,7 +87,7 @@ impl Wrong {
 }
 
 impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
-    /// `before` is what is wrong already.
+    /// Starts an evaluation; `before` are errors that have already been found.
     pub(super) fn new(
         task: Task<'e>,
         layout: &'l Layout,
@@ -113,7 +113,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         }
     }
 
-    /// Ends the output, or says what was wrong.
+    /// Ends the output, or returns the errors.
     pub(super) fn end(mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);
@@ -125,7 +125,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         outgoing.end(|_| Ok(()))
     }
 
-    /// Says what a state lacks, or has too much.
+    /// Records inputs that a state does not have, and a wrench that it must not have.
     fn check(&mut self, state: &State<'_>) {
         let Evaluation { task, wrong, .. } = self;
         let place = state.place;
@@ -134,7 +134,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         }
         for Input { name, array, .. } in &self.inputs {
             let is_given = array.is_some_and(|array| state.at(array).is_some());
-            // A wrench that is not given is 0.
+            // A missing wrench is 0.
             if !is_given && !name.starts_with(WRENCH) {
                 let function = &task.function.name;
                 wrong.missing.push(format!("{place}: `{name}` is missing; {function} needs it"));
@@ -142,7 +142,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         }
     }
 
-    /// Computes the states that wait, and prints their outputs.
+    /// Computes the waiting states and prints their outputs.
     fn compute(&mut self) -> Result<(), Failure> {
         let states = &self.block[..std::mem::take(&mut self.waiting)];
         let Task { handle: Some(handle), digits, printer, .. } = &self.task else {
@@ -172,7 +172,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
     }
 }
 
-/// Puts the inputs of states into columns.
+/// Copies the inputs of states into columns.
 fn gather(inputs: &[Input<'_>], states: &[State<'_>], columns: &mut [Vec<f64>]) {
     let entries = inputs.iter().flat_map(|input| (0..input.size).map(|entry| (input.array, entry)));
     for ((array, entry), column) in entries.zip(columns) {
@@ -182,7 +182,7 @@ fn gather(inputs: &[Input<'_>], states: &[State<'_>], columns: &mut [Vec<f64>]) 
     }
 }
 
-/// The errors of a program of a robot file.
+/// Converts errors of a program made from a robot file.
 pub(super) fn failed(file: &str, errors: &Errors) -> Failure {
     Failure::Input(errors.as_slice().iter().map(|error| format!("{file}: {error}")).collect())
 }

@@ -1,4 +1,4 @@
-//! Outputs that are not finite, which JSON cannot hold: which entry, at which state, and why.
+//! Messages about outputs that are not finite, which JSON cannot represent: the entry, the state and the reason.
 
 use robot_build::{Trigonometry, too_large_angle};
 use robot_codegen::OutputValues;
@@ -10,7 +10,7 @@ use robot_numeric::Mechanism;
 use super::digits::Digits;
 use crate::states::State;
 
-/// A message for each output that is not finite, with what the mass matrix has to do with it.
+/// Makes a message for each output that is not finite; it explains the effect of the mass matrix, if there is one.
 pub(super) fn messages(
     robot: &Robot,
     settings: &[(&str, f64)],
@@ -25,8 +25,8 @@ pub(super) fn messages(
     if wrong.is_empty() {
         return vec![];
     }
-    // The eigenvectors of a singular matrix show every coordinate; if it is not quite singular, its
-    // pivots show one.
+    // The eigenvectors of a singular matrix give all affected coordinates; the pivots of a nearly singular
+    // one give a single coordinate.
     let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
     let angle = state
         .array(JointVariable::Position.name())
@@ -42,7 +42,7 @@ pub(super) fn messages(
     wrong.iter().map(message).collect()
 }
 
-/// ` at entry 2 (joint `elbow`)`, of a matrix ` at row 1, column 2`: the first that is not finite.
+/// Prints the first entry that is not finite: ` at entry 2 (joint `elbow`)`, or ` at row 1, column 2` for a matrix.
 fn entries(robot: &Robot, output: &OutputValues) -> String {
     let Some(first) = output.values.iter().position(|value| !value.is_finite()) else {
         return String::new();
@@ -60,7 +60,7 @@ fn entries(robot: &Robot, output: &OutputValues) -> String {
     }
 }
 
-/// The coordinates whose accelerations no forces determine, if the mass matrix is singular at the state.
+/// Names the coordinates whose accelerations are not determined, if the mass matrix is singular at the state.
 fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State<'_>) -> Option<String> {
     let value = |name: &str| {
         let set = settings.iter().find(|(set, _)| *set == name).map(|(_, value)| *value);

@@ -139,7 +139,7 @@ impl Arguments {
         evaluation.end()
     }
 
-    /// The writer of the output, where a file may be written.
+    /// The writer of the output.
     fn writer(&self) -> Result<Writer, Failure> {
         let inputs = self.robot.inputs().into_iter().chain(self.states.clone());
         let path = file_of(self.output.as_deref());
@@ -150,7 +150,7 @@ impl Arguments {
         Ok(writer)
     }
 
-    /// The programs with the parameters that are set.
+    /// Compiles the programs with the parameter values that are set.
     fn executable<'p>(
         &self,
         file: &str,
@@ -160,7 +160,7 @@ impl Arguments {
             .map_err(|errors| failed(file, &errors))
     }
 
-    /// The one function of that name.
+    /// Finds the function with the given name.
     fn kind(&self, robot: &Robot) -> Result<FunctionKind, Failure> {
         let kind = named(robot, &self.function)
             .map_err(|wrong| Failure::Usage(vec![wrong.to_string()]))?;
@@ -190,14 +190,14 @@ impl Arguments {
     }
 }
 
-/// One state, or many.
+/// The states: one from the command line, or many from a file.
 enum States<'l, 't> {
     Given(State<'l>),
     Read(Input<'t>),
 }
 
 impl<'l> States<'l, '_> {
-    /// The name of their file.
+    /// The name of the file of states, if there is one.
     fn source(&self) -> Option<String> {
         match self {
             States::Given(_) => None,
@@ -205,7 +205,7 @@ impl<'l> States<'l, '_> {
         }
     }
 
-    /// Whether one of them has a wrench.
+    /// Whether any state has a wrench.
     fn are_loaded(&mut self, layout: &Layout) -> Result<bool, Failure> {
         match self {
             States::Given(state) => Ok(state.is_loaded()),
@@ -224,7 +224,8 @@ impl<'l> States<'l, '_> {
     }
 }
 
-/// The function that takes the wrenches which the states have; why there is none.
+/// Replaces the function with the one that takes wrenches, if states have any; also returns the reason if the robot
+/// has no such function.
 fn with_wrench(
     kind: FunctionKind,
     robot: &Robot,

@@ -1,10 +1,10 @@
-//! Outputs as JSON and CSV, state by state.
+//! Printing of outputs as JSON and CSV, state by state.
 
 use robot_codegen::module::Output;
 use robot_simulation::csv::push_number;
 use serde_json::Value;
 
-/// The outputs of states as text.
+/// Prints the outputs at states.
 pub(super) enum Printer {
     /// An array with an object for each state.
     Json(Vec<Field>),
@@ -17,14 +17,14 @@ pub(super) enum Printer {
 
 /// An output in JSON.
 pub(super) struct Field {
-    /// What stands before its value: `"tau":`
+    /// The text before its value: `"tau":`.
     key: String,
     shape: Shape,
     /// The number of entries.
     length: usize,
 }
 
-/// A number, an array, or an array of rows of so many entries.
+/// The shape of an output: a number, an array, or an array of rows with a number of entries.
 #[derive(Clone, Copy)]
 enum Shape {
     Scalar,
@@ -74,7 +74,7 @@ impl Printer {
         }
     }
 
-    /// Appends what stands behind the last state, if there is one.
+    /// Appends the text after the last state.
     pub(super) fn end(&self, is_empty: bool, text: &mut String) {
         match self {
             Printer::Json(_) => text.push_str(if is_empty { "[\n\n]\n" } else { "\n]\n" }),
@@ -83,7 +83,7 @@ impl Printer {
     }
 }
 
-/// `{"tau":[1.0,2.0]}`
+/// Appends an object such as `{"tau":[1.0,2.0]}`.
 fn object(fields: &[Field], mut values: impl Iterator<Item = f64>, text: &mut String) {
     text.push('{');
     for (index, Field { key, shape, length }) in fields.iter().enumerate() {
@@ -124,12 +124,12 @@ fn listed(values: impl Iterator<Item = f64>, text: &mut String, push: fn(&mut St
     }
 }
 
-/// A finite number as `serde_json` writes it, with the same library.
+/// Appends a finite number in the format of `serde_json`, with the same library.
 fn push_json(text: &mut String, number: f64) {
     text.push_str(zmij::Buffer::new().format_finite(number));
 }
 
-/// `energy`, `tau1`, `force2_3`
+/// The names of an output's columns, such as `energy`, `tau1` or `force2_3`.
 fn columns(output: &Output) -> Vec<String> {
     let name = &output.name;
     match output.shape.as_slice() {

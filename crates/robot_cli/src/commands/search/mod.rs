@@ -87,7 +87,7 @@ impl Arguments {
             )));
         };
         let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;
-        // First, so that it is done if nobody reads what is shown.
+        // The plan is written first, so that this is done even if nobody reads the output.
         if !self.dry_run {
             let text = pin_text(&robot, &found);
             let (bytes, ownership) = (text.as_bytes(), Ownership::Marked);
@@ -102,8 +102,8 @@ impl Arguments {
         Ok(())
     }
 
-    /// Sets the robot file's time of change to now: builds watch the file, and before its first search there
-    /// was no plan to watch.
+    /// Sets the modification time of the robot file to now. Builds watch this file, because a plan did not exist
+    /// before the first search.
     fn touch(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let path = self.robot.path();
         let file = std::fs::OpenOptions::new().append(true).open(path);
@@ -119,7 +119,7 @@ impl Arguments {
     }
 }
 
-/// Shows what was found: counts, times if plans were timed, and the plan.
+/// Prints the result: counts, times if plans were timed, and the plan.
 fn show(
     robot: &Robot,
     found: &Found,
@@ -191,7 +191,7 @@ fn row(plan: &LinkPlan, name: &str) -> Vec<String> {
     ]
 }
 
-/// Where a frame's origin is on its joint axis.
+/// Describes the position of a frame's origin on its joint axis.
 const fn origin(origin: Origin) -> &'static str {
     match origin {
         Origin::File => "as in the file",
@@ -204,7 +204,7 @@ const fn origin(origin: Origin) -> &'static str {
     }
 }
 
-/// The direction of a frame's x axis.
+/// Describes the direction of a frame's x axis.
 const fn turn(turn: Turn) -> &'static str {
     match turn {
         Turn::File => "as in the file",
@@ -213,7 +213,7 @@ const fn turn(turn: Turn) -> &'static str {
     }
 }
 
-/// The moment of the parent that a part of the link makes vanish.
+/// Describes the moment of the parent that vanishes because a part of the inertia stays with the link.
 const fn moment_of(entry: Entry) -> &'static str {
     match entry {
         Entry::X => "Sx",

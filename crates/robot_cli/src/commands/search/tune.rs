@@ -1,4 +1,4 @@
-//! `search --tune`: of the plans with the fewest operations the one whose machine code is fastest on this machine.
+//! `search --tune`: among the plans with the fewest operations, the one with the fastest code on this machine.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -13,37 +13,37 @@ use robot_symbolic::Random;
 
 use crate::failure::Failure;
 
-/// The rows of a table, the first a title.
+/// The rows of a table; the first is the title.
 type Rows = Vec<Vec<String>>;
 
-/// What the search minimizes.
+/// The function whose operations the search minimizes.
 const FUNCTION: FunctionKind =
     FunctionKind::InverseDynamics(Effects { wrench: false, friction: false });
 /// The most plans that are timed.
 const MOST: usize = 32;
-/// Another plan than that with the fewest operations must be faster by this factor: two measurements of
-/// the same code differ by about half of that.
+/// The factor by which another plan must be faster than the plan with the fewest operations. Two measurements of
+/// the same code differ by about half of this margin.
 const CLEARLY: f64 = 0.99;
-/// The states of a batch, which stay in the cache.
+/// The number of states of a batch, which stay in the cache.
 const STATES: usize = 64;
-/// Batches of each plan, in turn with those of the others.
+/// The number of batches of each plan, which alternate with those of the other plans.
 const ROUNDS: usize = 600;
-/// How often the code of a plan is placed in memory, as some places are slow.
+/// The number of places in memory for the code of a plan, because some places are slow.
 const PLACES: usize = 3;
 
-/// The rows of the table: the fastest plans, and that with the fewest operations.
+/// The most rows of the table: the fastest plans and the plan with the fewest operations.
 const ROWS: usize = 10;
 
-/// A plan, and what its inverse dynamics take.
+/// A plan, and the times of its inverse dynamics.
 struct Timed {
     found: Found,
-    /// Nanoseconds of a call.
+    /// The time of a call, in ns.
     call: f64,
-    /// Nanoseconds of a state among many in columns.
+    /// The time of a state among many in columns, in ns.
     state: f64,
 }
 
-/// A plan's machine code with the states that it is called at.
+/// The machine code of a plan, with the states at which it is called.
 struct Contender<'m> {
     found: Found,
     places: Vec<Compiled<'m>>,
@@ -53,7 +53,7 @@ struct Contender<'m> {
     least: [f64; 2],
 }
 
-/// The plan to pin, and the rows of a table of the times; `None` if the robot has no plans.
+/// Returns the plan to pin, and the rows of a table of the times; `None` if there are no plans for the robot.
 pub(super) fn search(
     robot: &Robot,
     (options, measure): (&MechanismOptions, Measure),
@@ -64,11 +64,11 @@ pub(super) fn search(
     let chosen = fastest(&timed);
     let rows = rows(&timed, chosen);
     let found = timed.into_iter().nth(chosen).map(|timed| timed.found);
-    // The plan that no clock chose is pinned as without one.
+    // If times did not change the choice, the plan is pinned as without tuning.
     Ok(found.map(|found| (Found { tuned: chosen > 0, ..found }, rows)))
 }
 
-/// The rows of a table of times, the fastest call first.
+/// The rows of a table of times, with the fastest call first.
 fn rows(timed: &[Timed], chosen: usize) -> Rows {
     let title = ["", "operations", "with multiply-adds", "ns per call", "ns per state of many"]
         .map(str::to_owned);
@@ -126,7 +126,7 @@ fn timed(robot: &Robot, several: Vec<Found>, options: &Options) -> Result<Vec<Ti
     Ok(timed.collect())
 }
 
-/// The place of the plan to take: the first, unless a call under another is clearly faster.
+/// The index of the plan to pin: the first, unless a call under another plan is clearly faster.
 fn fastest(timed: &[Timed]) -> usize {
     let by_call = |(_, a): &(usize, &Timed), (_, b): &(usize, &Timed)| a.call.total_cmp(&b.call);
     let least = timed.iter().enumerate().min_by(by_call);
@@ -141,7 +141,7 @@ impl<'m> Contender<'m> {
                 "--tune times machine code, and there is none: {error}; search without --tune"
             ))
         };
-        // Which number a parameter has takes no time.
+        // The values of parameters do not affect the time.
         let missing = module.parameters.iter().filter(|parameter| parameter.nominal.is_none());
         let given: Vec<(&str, f64)> = missing.map(|parameter| (&*parameter.name, 1.0)).collect();
         let options = robot_jit::Options { fused, ..robot_jit::Options::default() };
@@ -160,7 +160,7 @@ impl<'m> Contender<'m> {
         Ok(Contender { found: found.clone(), places, rows, columns, outputs, least })
     }
 
-    /// Runs a batch of calls and one of columns in a place, and keeps the least times.
+    /// Runs a batch of calls and one of columns with the code in one place, and keeps the shortest times.
     fn run(&mut self, place: usize) -> Result<(), Failure> {
         let name = FUNCTION.name();
         let failed = |error: robot_jit::Error| Failure::input(error.to_string());

@@ -8,21 +8,21 @@ use robot_build::{Options, RobotFile};
 
 use super::state::Look;
 
-/// The time from one look at the files to the next.
+/// The time between two looks at the files.
 ///
-/// Texts are compared, not the times of files, which are too coarse on some systems for two saves in a
-/// row; and the path is looked up anew each time, for editors save by putting another file in the place of
-/// the old one.
+/// Texts are compared, not modification times, which are too coarse on some systems for two saves in quick
+/// succession. The path is opened again for each look, because editors save by replacing the old file with
+/// another.
 const PAUSE: Duration = Duration::from_millis(20);
-/// The looks that must agree before a text counts as saved: editors write in pieces.
+/// The number of equal looks in a row after which a text counts as saved, because editors write in pieces.
 const SETTLED: usize = 2;
-/// The wait if the file is missing or empty: between two steps of a save it is, on a busy disk for long.
+/// The same number if the file is missing or empty, as it is between two steps of a save, on a busy disk for some time.
 const SETTLED_AWAY: usize = 50;
 
-/// The looks at a file that show something new, the first one at once, until it is over.
+/// An iterator over looks at a file that show a new content, until `is_over` is set.
 pub(super) struct Files<'a> {
     path: &'a Path,
-    /// The options of reading the file, without which a pin of it cannot be read.
+    /// The options for reading the file, which are needed to read its pin.
     options: Options,
     is_over: &'a AtomicBool,
     settling: Settling,
@@ -49,17 +49,17 @@ impl Iterator for Files<'_> {
     }
 }
 
-/// Which of many looks are new and will last.
+/// Selects the looks that are new and stable.
 #[derive(Default)]
 pub(super) struct Settling {
-    /// The last one that was both.
+    /// The last look that was selected.
     last: Option<Look>,
-    /// One that may be, and how often it was seen in a row.
+    /// The present candidate, and how often it was seen in a row.
     seen: Option<(Look, usize)>,
 }
 
 impl Settling {
-    /// The look, if it is new and was seen often enough.
+    /// Returns the look if it is new and was seen often enough.
     pub(super) fn after(&mut self, look: Look) -> Option<Look> {
         let times = match self.seen.take() {
             Some((earlier, times)) if earlier == look => times + 1,
@@ -84,7 +84,7 @@ fn needed(look: &Look) -> usize {
     }
 }
 
-/// The present contents of the files.
+/// Reads the present contents of the files.
 fn look(path: &Path, options: &Options) -> Look {
     let file = RobotFile::read(path);
     let plan = match &file {

@@ -1,4 +1,4 @@
-//! `watch`: what changes in a robot at each save of its file.
+//! `watch`: the changes of a robot at each save of its file.
 
 mod files;
 mod page;
@@ -52,13 +52,13 @@ pub(crate) struct Arguments {
     saves: Option<usize>,
 }
 
-/// Whether Ctrl-C was pressed, or the process was asked to end.
+/// Whether Ctrl-C was pressed or a signal asked the process to end.
 static OVER: AtomicBool = AtomicBool::new(false);
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let clock = clock();
-        // A name that is wrong from the start is not waited for.
+        // A path that is wrong from the start is an error; the command does not wait for the file.
         self.robot.source()?;
         if self.report.is_some() && file_of(self.report.as_deref()).is_none() {
             let message = "--report needs a file, which is rewritten at each save; name one";
@@ -73,7 +73,7 @@ impl Arguments {
         let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         let reading = self.robot.reading;
-        // A file or a pipe holds the same text at any time.
+        // Output to a file or a pipe must not depend on the time.
         let clock = terminal.screen.map(|_| &clock as &(dyn Fn() -> String + Sync));
         let snap = self.robot.snap();
         let settings = Settings { snap, reading, terms: self.terms, style, clock };
@@ -81,8 +81,8 @@ impl Arguments {
     }
 }
 
-/// What shows the time of day: local, if the system says how far that is from UTC. It only does as long as
-/// there are no threads.
+/// Returns a function that prints the time of day: local time, if the system gives the offset from UTC. It does
+/// so only while there is a single thread.
 fn clock() -> impl Fn() -> String {
     let local = UtcOffset::current_local_offset().ok();
     move || {
@@ -92,7 +92,7 @@ fn clock() -> impl Fn() -> String {
     }
 }
 
-/// Shows what changes from look to look, until there are no more.
+/// Prints the changes from look to look, until there are no more looks.
 fn follow(
     looks: impl Iterator<Item = Look>,
     settings: &Settings<'_>,
@@ -119,7 +119,7 @@ fn follow(
                 has_page = made.is_ok();
                 match made {
                     Ok(made) => page.write(made),
-                    // The next save may give one.
+                    // The next save may result in a page.
                     Err(error) => {
                         Failure::from(error).report(terminal);
                         Ok(writeln!(terminal.errors, "{}", page.standing())?)
@@ -129,7 +129,7 @@ fn follow(
             _ => Ok(()),
         }
     });
-    // The last page stays, and nothing reloads it, however the watch has ended.
+    // The last page stays, without the part that reloads it, however the watch has ended.
     page.map_or(Ok(()), Page::finish).and(followed)?;
     if state.is_good() && has_page { Ok(()) } else { Err(Failure::Shown) }
 }

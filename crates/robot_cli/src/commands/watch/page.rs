@@ -1,4 +1,4 @@
-//! The page about a robot that is watched.
+//! The page about a watched robot.
 
 use std::ffi::OsString;
 use std::io::ErrorKind;
@@ -11,23 +11,23 @@ use crate::commands::report::judge;
 use crate::failure::Failure;
 use crate::robot::PRINT_SNAP;
 
-/// A page that reloads itself, and the image beside it that triggers the reload.
+/// A page that reloads itself, and the picture next to it that triggers the reload.
 pub(super) struct Page {
     path: PathBuf,
     writer: Writer,
     last: Option<Last>,
 }
 
-/// The last text written.
+/// The last texts that were written.
 struct Last {
-    /// The page without what reloads it.
+    /// The page without the part that reloads it.
     still: String,
     /// The picture.
     stamp: String,
 }
 
 impl Page {
-    /// A page that has been found to be free to be written.
+    /// Prepares a page, after checking that its files may be written.
     pub(super) fn open(path: PathBuf, writer: Writer) -> Result<Page, Failure> {
         let page = Page { path, writer, last: None };
         let picture = page.picture();
@@ -46,16 +46,16 @@ impl Page {
     ///
     /// # Errors
     ///
-    /// A robot that no page can be made of.
+    /// A robot for which a page cannot be made.
     pub(super) fn made(source: &Source, options: &Options) -> Result<Reloading, Errors> {
         let reason = "the page was made without a compiler, because `watch` wrote it.".to_owned();
         let compiled = Compiled::Unread { reason };
-        // A page that reloads itself would forget its sliders.
+        // A page that reloads itself would lose the positions of its sliders.
         let live = false;
         reloading(&Input { source, options, snap: PRINT_SNAP, compiled: &compiled, judge, live })
     }
 
-    /// The state of the path if no page can be made.
+    /// Describes the file at the path if a page cannot be made.
     pub(super) fn standing(&self) -> String {
         let path = shown(&self.path);
         match self.last {
@@ -64,7 +64,7 @@ impl Page {
         }
     }
 
-    /// Writes a page, then the picture.
+    /// Writes the page, then the picture.
     pub(super) fn write(&mut self, made: Reloading) -> Result<(), Failure> {
         let Reloading { page, stamp, still } = made;
         self.writer.write(&[marked(&self.path, &page), marked(&self.picture(), &stamp)])?;
@@ -72,7 +72,8 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the last page as one that stays, and takes the picture away, whether or not the page can be written.
+    /// Writes the last page without the part that reloads it, and removes the picture, even if the page cannot be
+    /// written.
     pub(super) fn finish(self) -> Result<(), Failure> {
         let Some(last) = &self.last else { return Ok(()) };
         let written = self.writer.write(&[marked(&self.path, &last.still)]);
@@ -82,8 +83,7 @@ impl Page {
     }
 }
 
-/// Removes a file with that text. One with another text is somebody else's by now: another watch's, or what was
-/// put in its place.
+/// Removes a file if it has this text. A file with another text was written by another watch or replaced by the user.
 fn remove(path: &Path, text: &str) -> Result<(), Failure> {
     let is_regular = std::fs::metadata(path).is_ok_and(|found| found.is_file());
     if !is_regular || !std::fs::read(path).is_ok_and(|present| present == text.as_bytes()) {

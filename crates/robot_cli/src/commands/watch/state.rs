@@ -1,4 +1,4 @@
-//! The state of a watched robot, and its changes with each look at the file. Pure.
+//! The state of a watched robot, and its change with each look at the file. This code does not access the system.
 
 use std::fmt::Write as _;
 
@@ -13,33 +13,33 @@ use crate::failure::in_command_words;
 use crate::options::in_flags;
 use crate::reading::ReadingArguments;
 
-/// The contents of the files at a moment.
+/// The contents of the files at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Look {
-    /// The robot file, or why it cannot be read.
+    /// The robot file, or the reason why it cannot be read.
     pub(super) source: Result<Source, Errors>,
-    /// The plan pinned beside it, or why it does not hold.
+    /// Its pinned plan, or the reason why this is not valid.
     pub(super) plan: Result<Option<Plan>, Errors>,
 }
 
-/// The options of showing changes.
+/// The options for printing changes.
 pub(super) struct Settings<'a> {
-    /// The tolerance for angles, rad, if one is given.
+    /// The tolerance of angles in rad, if one is given.
     pub(super) snap: Option<f64>,
-    /// The reading options that turn errors into warnings.
+    /// The options for reading that turn errors into warnings.
     pub(super) reading: ReadingArguments,
     /// The most terms of each equation that are shown.
     pub(super) terms: usize,
     /// The style of errors and warnings.
     pub(super) style: Style,
-    /// The time of day, where it is shown.
+    /// A function that prints the time of day, if it is shown.
     pub(super) clock: Option<&'a (dyn Fn() -> String + Sync)>,
 }
 
 /// The state after a look.
 #[derive(Default)]
 pub(super) struct State {
-    /// The number of looks before.
+    /// The number of earlier looks.
     number: usize,
     /// The last look with a valid robot.
     valid: Option<ValidRobot>,
@@ -47,7 +47,7 @@ pub(super) struct State {
     wrong: Option<Vec<Problem>>,
 }
 
-/// A look that gave a robot.
+/// The robot of a look whose file was valid.
 #[derive(Clone)]
 struct ValidRobot {
     number: usize,
@@ -60,15 +60,15 @@ struct ValidRobot {
 /// An error, or a warning.
 #[derive(Clone)]
 struct Problem {
-    /// In a line, without a place: by this it is known again when lines move.
+    /// The message on one line, without a place. It identifies the problem, even if lines move.
     line: String,
-    /// In full.
+    /// The complete text.
     text: String,
 }
 
 /// The output of a look.
 pub(super) struct Shown {
-    /// Which look it is.
+    /// The title, which gives the number of the save.
     pub(super) title: String,
     /// Errors and warnings.
     pub(super) problems: String,
@@ -77,18 +77,18 @@ pub(super) struct Shown {
 }
 
 impl State {
-    /// Whether the file gives a robot now.
+    /// Whether the file describes a valid robot now.
     pub(super) fn is_good(&self) -> bool {
         self.valid.is_some() && self.wrong.is_none()
     }
 
-    /// The options of making code of the last robot.
+    /// The options for code of the last valid robot.
     pub(super) fn options(&self, settings: &Settings<'_>) -> Options {
         let plan = self.valid.as_ref().and_then(|valid| valid.plan.clone());
         Options { snap: settings.snap, plan, ..settings.reading.options() }
     }
 
-    /// The state after a look, and the output.
+    /// Returns the state after a look, and the output.
     pub(super) fn after(&self, look: &Look, settings: &Settings<'_>) -> (State, Shown) {
         let number = self.number;
         let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
@@ -146,7 +146,7 @@ impl State {
     }
 }
 
-/// The robot of a file, or all that is wrong with it.
+/// Returns the robot of a file, or all its errors.
 fn valid(
     number: usize,
     source: &Source,
@@ -195,7 +195,7 @@ fn of_errors(errors: &Errors, style: Style) -> Vec<Problem> {
     found
 }
 
-/// `error[R0303]: …`
+/// Prints a problem on one line: `error[R0303]: …`.
 fn line(severity: Severity, code: &str, message: &str) -> String {
     let severity = match severity {
         Severity::Error => "error",
@@ -205,7 +205,7 @@ fn line(severity: Severity, code: &str, message: &str) -> String {
     format!("{severity}[{code}]: {message}")
 }
 
-/// The problems that are not among others.
+/// Returns the problems that are not in `among`.
 fn absent<'p>(problems: &'p [Problem], among: &[&Problem]) -> Vec<&'p Problem> {
     let is_new = |one: &&Problem| among.iter().all(|other| other.line != one.line);
     problems.iter().filter(is_new).collect()
@@ -215,15 +215,15 @@ fn texts(problems: Vec<&Problem>) -> String {
     problems.into_iter().map(|one| format!("{}\n\n", one.text.trim_end())).collect()
 }
 
-/// A line for each problem that is gone.
+/// Prints a line for each problem that no longer exists.
 fn gone(before: Vec<&Problem>, now: &[Problem]) -> String {
     let is_gone = |one: &&Problem| now.iter().all(|other| other.line != one.line);
-    // A parser's message about a pin has several lines.
+    // The message of a parser about a pin has several lines.
     let first = |one: &Problem| one.line.lines().next().unwrap_or_default().to_owned();
     before.into_iter().filter(is_gone).map(|one| format!("gone: {}\n", first(one))).collect()
 }
 
-/// `save 3`
+/// The name of a look: `save 3`.
 fn name(number: usize) -> String {
     match number {
         0 => "the start".to_owned(),
@@ -231,7 +231,7 @@ fn name(number: usize) -> String {
     }
 }
 
-/// Nothing for the start; a blank line and `save 3, 14:02:31, from save 2:` after it.
+/// The title of a look: empty for the start, otherwise a blank line and `save 3, 14:02:31, from save 2:`.
 fn title(number: usize, from: Option<usize>, settings: &Settings<'_>) -> String {
     if number == 0 {
         return String::new();
@@ -241,8 +241,8 @@ fn title(number: usize, from: Option<usize>, settings: &Settings<'_>) -> String 
     format!("\n{}{time}{from}:\n", name(number))
 }
 
-/// Under which plans two robots are compared: their own, if both have one; a pin goes stale with each
-/// change of its file, and the default plan beside it would show the plan, not the robot.
+/// Chooses the plans under which two robots are compared: their own, if both have one. A pin becomes stale with each
+/// change of its file; a comparison with the default plan would then show a difference of plans, not of robots.
 fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings<'_>) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
     let code = [before, now].map(|one| Options {
@@ -253,7 +253,7 @@ fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings<'_>) -> D
     DifferenceOptions { code, seed: 0, states: 0 }
 }
 
-/// The parts in which something differs, each under its title.
+/// Prints the parts with differences, each under its title.
 fn differences(found: &Difference, terms: usize) -> String {
     let mut shown = String::new();
     for (title, lines) in show::parts(found, terms) {

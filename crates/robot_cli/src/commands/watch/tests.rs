@@ -37,12 +37,12 @@ const SETTINGS: Settings<'_> = Settings {
     clock: None,
 };
 
-/// How the watch ends, and what it shows on either stream.
+/// Follows looks; returns whether the watch ended well, and its outputs on both streams.
 fn followed(looks: impl IntoIterator<Item = Look>) -> (bool, String, String) {
     followed_with(looks, None)
 }
 
-/// The same, with a page.
+/// Does the same, with a page.
 fn followed_with(
     looks: impl IntoIterator<Item = Look>,
     page: Option<Page>,
@@ -81,7 +81,7 @@ fn values_terms_and_operations_are_told() {
         assert!(gravity.contains(part), "{part} is not in\n{gravity}");
     }
     assert!(!gravity.contains("differences of the joint torques"), "{gravity}");
-    // The parameter g is used no longer.
+    // The parameter g is no longer used.
     assert!(errors.contains("R0601") && !errors.contains("error"), "{errors}");
 }
 
@@ -96,7 +96,7 @@ fn a_broken_file_keeps_the_last_robot() {
             .count(),
         2
     );
-    // As long as the file is broken all errors are shown; an error on a line that moved is the same error.
+    // While the file is invalid, all errors are shown; an error on a line that moved is the same error.
     assert_eq!(errors.matches("error[R0303]").count(), 2, "{errors}");
     assert!(errors.contains("arm.toml:") && !output.contains("gone"), "{output}");
 
@@ -158,7 +158,7 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     assert!(output.contains("\ngone: warning: "), "{output}");
 }
 
-/// A file that is watched; what does not happen within a minute ends as a failure.
+/// A watched file; the test fails if an expected change does not occur within a minute.
 struct Watched {
     folder: TempDir,
     path: PathBuf,
@@ -172,7 +172,7 @@ impl Watched {
         Watched { folder, path }
     }
 
-    /// Another file in the place of the file, as editors save.
+    /// Replaces the file with another one, as editors do.
     fn replace(&self, text: &str) {
         let other = self.folder.path().join("arm.toml~");
         std::fs::write(&other, text).unwrap();
@@ -198,7 +198,7 @@ fn saves_are_seen_however_editors_save() {
         });
         let mut files = Files::new(&watched.path, Options::default(), over);
         assert_eq!(text(files.next()).as_deref(), Some(ARM));
-        // In place, with as many bytes, then by another file, as often as may be.
+        // The file is written in place with the same number of bytes, then replaced with another file, several times.
         for _ in 0..3 {
             std::fs::write(&watched.path, heavier()).unwrap();
             assert_eq!(text(files.next()), Some(heavier()));
@@ -210,7 +210,7 @@ fn saves_are_seen_however_editors_save() {
         std::fs::remove_file(&watched.path).unwrap();
         let away = files.next().unwrap().source.unwrap_err().to_string();
         assert!(away.contains("there is no such file"), "{away}");
-        // Bytes that are not text do not end it either.
+        // Bytes that are not text do not end the watch either.
         std::fs::write(&watched.path, b"\xff\xfe").unwrap();
         assert!(files.next().unwrap().source.is_err());
         std::fs::write(&watched.path, ARM).unwrap();
@@ -228,21 +228,21 @@ fn a_save_in_pieces_is_seen_whole() {
     let mut settling = files::Settling::default();
     let mut shown = |look: Look| text(Some(settling.after(look)?)).or(Some("away".to_owned()));
     assert_eq!((shown(look(ARM)), shown(look(ARM)).as_deref()), (None, Some(ARM)));
-    // As it was, emptied, away, in part, whole.
+    // The file is unchanged, then empty, missing, incomplete and complete.
     let half = ARM.get(..ARM.len() / 2).unwrap();
     for piece in [look(ARM), look(""), look(""), away(), away(), look(half), look(&heavier())] {
         assert_eq!(shown(piece), None);
     }
     assert_eq!(shown(look(&heavier())), Some(heavier()));
-    // What stays away is told of, once.
+    // A file that stays missing is reported once.
     let told: Vec<String> = (0..100).filter_map(|_| shown(away())).collect();
     assert_eq!(told, ["away"]);
-    // A look back at what was shown last is nothing new.
+    // A return to the content that was shown last is not new.
     assert_eq!((shown(look(ARM)), shown(away()), shown(look(ARM))), (None, None, None));
     assert_eq!(shown(look(ARM)).as_deref(), Some(ARM));
 }
 
-/// A folder, a page in it, and the picture beside the page.
+/// A folder, the path of a page in it, and that of its picture.
 fn page_in_folder() -> (TempDir, PathBuf, PathBuf) {
     let folder = TempDir::new().unwrap();
     let [page, picture] = ["arm.html", "arm.html.svg"].map(|name| folder.path().join(name));
@@ -261,13 +261,13 @@ fn the_end_removes_the_own_picture_alone() {
         followed_with(looks, Some(page))
     };
     assert!(end(&|| assert!(picture.exists())).0 && !picture.exists());
-    // Removed by somebody else, as by another watch of the same page, it is not an error.
+    // It is not an error if the picture was removed, for example by another watch of the same page.
     let (is_good, _, errors) = end(&|| std::fs::remove_file(&picture).unwrap());
     assert!(is_good && errors.is_empty(), "{errors}");
-    // What somebody has put in its place stays.
+    // A file that has replaced the picture stays.
     assert!(end(&|| std::fs::write(&picture, "a drawing").unwrap()).0);
     assert_eq!(std::fs::read_to_string(&picture).unwrap(), "a drawing");
-    // It goes also where the page cannot be written.
+    // The picture is removed even if the page cannot be written.
     let (is_good, ..) = end(&|| {
         std::fs::remove_file(&path).unwrap();
         std::fs::create_dir(&path).unwrap();

@@ -5,15 +5,15 @@ use super::function::{circular, model_argument, model_parameter, used_by};
 use super::{BATCH, Header, SC};
 use crate::backend::flat::{Array, Function, Statement};
 
-/// Whether a function has a form over columns: it has inputs, and its body is not cut into parts, of which compilers
-/// would make no vectors.
+/// Whether a function has a form over columns: it must have inputs, and its bodies must not be cut into parts, which
+/// compilers would not vectorize.
 #[must_use]
 pub fn has_batch(function: &Function<'_>) -> bool {
     let is_cut = !(function.angles.parts.is_empty() && function.core.parts.is_empty());
     !is_cut && !function.inputs.is_empty()
 }
 
-/// The parameters of a function over columns: the number of states, the distance of columns, and the arrays.
+/// The parameters of a function over columns: the number of states, the distance between columns, and the arrays.
 pub(super) fn column_parameters(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let (real, restrict) = (header.real(), header.names.private_upper("restrict"));
     let counts = ["size_t n", "size_t stride"].map(str::to_owned).into_iter();
@@ -24,7 +24,7 @@ pub(super) fn column_parameters(header: &Header<'_>, function: &Function<'_>) ->
     counts.chain(inputs).chain(outputs).collect()
 }
 
-/// A loop over states whose entries lie in columns, which compilers turn into vectors.
+/// Prints the function with a loop over states whose entries are in columns, which compilers vectorize.
 pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     if !has_batch(function) {
         return vec![];
@@ -48,7 +48,7 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
     for array in function.inputs.iter().filter(|array| !array.is_used) {
         lines.push(format!("    (void){};", array.name));
     }
-    // Of a single coordinate each column is the only one of its array.
+    // If every array has a single column, the distance between columns is not used.
     let is_wide = |array: &Array| array.length > 1;
     let used = function.inputs.iter().filter(|array| array.is_used);
     if !used.chain(&function.outputs).any(is_wide) {
@@ -73,12 +73,12 @@ pub(super) fn place(entry: usize) -> String {
     }
 }
 
-/// One state.
+/// Prints the computation of one state.
 pub(super) fn iteration(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let real = header.real();
     let has_angles = !function.sines.is_empty();
     let in_core = used_by(function, &function.core);
-    // Without angles the arithmetic takes every input.
+    // Without angles, the arithmetic takes every input.
     let handed = |index: usize| !has_angles || in_core[index];
     let mut lines = vec![];
     let inputs = function.inputs.iter().enumerate();
@@ -116,7 +116,7 @@ pub(super) fn iteration(header: &Header<'_>, function: &Function<'_>) -> Vec<Str
     lines
 }
 
-/// The sines and cosines of one state.
+/// Prints the computation of the sines and cosines of one state.
 fn angles(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let (real, expressions) = (header.real(), header.expressions(header.options.scalar));
     let length = function.sines.len();

@@ -1,18 +1,18 @@
-//! Comments of C.
+//! Comments in C.
 
 use crate::backend::common::{comment_line, comment_lines};
 
-/// Text inside of a comment: no sequence that ends it, begins another, or is a trigraph.
+/// Escapes text within a comment, so that it neither ends the comment nor starts another or contains a trigraph.
 fn inside(text: &str) -> String {
     text.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?")
 }
 
-/// A comment of one line.
+/// Prints a comment of one line.
 pub(super) fn of_line(text: &str) -> String {
     format!("/* {} */", inside(&comment_line(text)))
 }
 
-/// The comment of an item: paragraphs, or lines of a list.
+/// Prints the comment of an item, made of paragraphs or lines of a list.
 pub(super) fn of_paragraphs(paragraphs: &[String]) -> Vec<String> {
     let lines: Vec<String> = comment_lines(paragraphs).iter().map(|line| inside(line)).collect();
     let mut comment = vec!["/**".to_owned()];

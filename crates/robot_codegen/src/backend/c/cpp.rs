@@ -1,4 +1,4 @@
-//! C++17 over the header of C: a namespace, arrays by value, and results that are returned.
+//! A C++17 header over the C header: a namespace with functions that take arrays and return their results.
 
 use super::comment;
 use super::function::real;
@@ -9,7 +9,7 @@ use crate::backend::{Language, SourceFile, Target};
 use crate::error::Errors;
 use crate::module::{Module, Output};
 
-/// C++.
+/// C++, as a language of printed code.
 pub(super) const LANGUAGE: Language = Language { name: "C++", extension: "hpp", ..super::LANGUAGE };
 
 /// The printer of C++.
@@ -24,7 +24,7 @@ impl Target for Cpp {
         &LANGUAGE
     }
 
-    /// The header of C and one of C++ that includes it.
+    /// Prints the C header and a C++ header that includes it.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         check_range(module, self.options.scalar)?;
         let mut files = C { options: self.options.clone() }.files(module)?;
@@ -95,7 +95,7 @@ fn model(header: &Header<'_>) -> Vec<String> {
     lines
 }
 
-/// `double`, or an array.
+/// The type of an output: `double` (or `float`), or an array.
 fn type_of(scalar: Scalar, output: &Output, array: &Array) -> String {
     match output.shape.as_slice() {
         [] => real(scalar).to_owned(),
@@ -103,7 +103,7 @@ fn type_of(scalar: Scalar, output: &Output, array: &Array) -> String {
     }
 }
 
-/// The address of the first entry.
+/// The expression for the address of an output's first entry.
 fn address(output: &Output, name: &str) -> String {
     if output.shape.is_empty() { format!("&{name}") } else { format!("{name}.data()") }
 }
@@ -117,7 +117,7 @@ fn wrapper(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let ty = match outputs.as_slice() {
         [(output, array)] => type_of(scalar, output, array),
         _ => {
-            // A type beside the function, which a name of a function can never be.
+            // The trailing underscore ensures that no function has the name of this type.
             let result = format!("{name}_result_");
             lines.push(format!("struct {result} {{"));
             for (output, array) in &outputs {

@@ -1,4 +1,4 @@
-//! CUDA C++: the functions of C for host and device, and a kernel for each over columns of states.
+//! CUDA C++: the functions of C for host and device, and for each a kernel over columns of states.
 
 use super::batch::{column_parameters, has_batch, iteration, one, place};
 use super::comment;
@@ -10,10 +10,10 @@ use crate::backend::{Language, SourceFile, Target};
 use crate::error::Errors;
 use crate::module::Module;
 
-/// CUDA C++.
+/// CUDA C++, as a language of printed code.
 pub(super) const LANGUAGE: Language = Language { name: "CUDA C++", extension: "cuh", ..C };
 
-/// Names of CUDA besides those of C++.
+/// Names of CUDA in addition to those of C++.
 const WORDS: &[&str] =
     &["blockDim", "blockIdx", "dim3", "gridDim", "threadIdx", "warpSize", "step"];
 
@@ -29,7 +29,7 @@ impl Target for Cuda {
         &LANGUAGE
     }
 
-    /// One header.
+    /// Prints one header.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         check_range(module, self.options.scalar)?;
         let tree = cuda_tree(module, &self.options);
@@ -45,7 +45,7 @@ pub fn cuda_tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     Tree::new(module, &LANGUAGE, &taken, &["sc", "kernel"], &options.setters)
 }
 
-/// The headers; a compiler at run time has none, and knows their functions.
+/// The includes. NVRTC, the compiler at run time, has no headers, but has their functions built in.
 pub(super) const INCLUDES: &str = "#if defined(__CUDACC_RTC__)
 #if !defined(UINT64_C)
 typedef unsigned int uint32_t;
@@ -60,7 +60,7 @@ typedef unsigned long long uint64_t;
 #include <string.h>
 #endif";
 
-/// The macros of functions, parts of functions, pointers, and kernels.
+/// Prints the macros for functions, parts of functions, pointers, and kernels.
 pub(super) fn macros([inline, part, restrict]: [&str; 3], kernel: &str) -> String {
     format!(
         "#define {inline} [[maybe_unused]] static __host__ __device__ __forceinline__
@@ -78,7 +78,7 @@ pub(super) fn macros([inline, part, restrict]: [&str; 3], kernel: &str) -> Strin
     )
 }
 
-/// The kernel of a function, if it has inputs.
+/// Prints the kernel of a function, if the function has inputs.
 pub(super) fn kernel(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     if function.inputs.is_empty() {
         return vec![];
@@ -117,7 +117,7 @@ pub(super) fn kernel(header: &Header<'_>, function: &Function<'_>) -> Vec<String
     lines
 }
 
-/// One state by a call of the function, whose body is cut into parts.
+/// Prints the computation of one state as a call of the function, for functions that are cut into parts.
 fn call(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let real = header.real();
     let in_core = used_by(function, &function.core);

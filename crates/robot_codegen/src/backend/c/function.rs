@@ -1,4 +1,4 @@
-//! The functions of a module: from the state, and from sines and cosines.
+//! The functions of a module: one that takes the state, and one that takes sines and cosines.
 
 use std::collections::BTreeSet;
 
@@ -11,7 +11,7 @@ use crate::backend::common::{self, Scalar};
 use crate::backend::flat::{Array, Body, Expression, Function, Part, Statement};
 use crate::trigonometry::Trigonometry;
 
-/// All functions of one function of the module.
+/// Prints all functions of C for one function of the module.
 pub(super) fn function(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let scalar = header.options.scalar;
     let mut lines = parts(header, &function.angles, scalar);
@@ -53,7 +53,7 @@ fn doc(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     comment::of_paragraphs(&lines)
 }
 
-/// The angles as people read them, if they are plain expressions.
+/// The angles in the documentation, if they are plain expressions.
 fn angles(header: &Header<'_>, function: &Function<'_>) -> String {
     let is_plain = |statement: &Statement| matches!(statement, Statement::Entry { .. });
     if !function.angles.statements.iter().all(is_plain) {
@@ -64,7 +64,7 @@ fn angles(header: &Header<'_>, function: &Function<'_>) -> String {
     texts.collect::<Vec<_>>().join(", ")
 }
 
-/// `const ur5_model *model, `, if the module has parameters.
+/// The parameter `const ur5_model *model`, if the module has parameters.
 pub(super) fn model_parameter(header: &Header<'_>) -> Vec<String> {
     let has = header.tree.has_parameters();
     has.then(|| format!("const {} *model", header.names.item("model"))).into_iter().collect()
@@ -80,7 +80,8 @@ fn outputs(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     outputs.map(|array| format!("{} *{restrict} {}", header.real(), array.name)).collect()
 }
 
-/// From sines, cosines and the inputs used besides, to the outputs; without angles, from the inputs.
+/// Prints the function that computes the outputs from sines, cosines and the other inputs that it reads; without
+/// angles, from all inputs.
 fn arithmetic(header: &Header<'_>, function: &Function<'_>, name: &str) -> Vec<String> {
     let mut parameters = model_parameter(header);
     let has_angles = !function.sines.is_empty();
@@ -141,13 +142,13 @@ pub(super) fn used_by(function: &Function<'_>, body: &Body) -> Vec<bool> {
     (0..function.inputs.len()).map(reads).collect()
 }
 
-/// `(void)model;` where no body reads it.
+/// Prints `(void)model;` if no body reads the model.
 fn ignored(header: &Header<'_>, bodies: &[&Body]) -> Vec<String> {
     let unused = header.tree.has_parameters() && !bodies.iter().any(|body| body.reads_fields());
     unused.then(|| "    (void)model;".to_owned()).into_iter().collect()
 }
 
-/// From the inputs: the angles, their sines and cosines, and the arithmetic.
+/// Prints the function that takes the inputs and computes the angles, their sines and cosines, and the arithmetic.
 fn whole(header: &Header<'_>, function: &Function<'_>, sc: &str) -> Vec<String> {
     let real = header.real();
     let mut parameters = model_parameter(header);
@@ -180,12 +181,12 @@ fn whole(header: &Header<'_>, function: &Function<'_>, sc: &str) -> Vec<String> 
     lines
 }
 
-/// `model`, if the module has parameters.
+/// The argument `model`, if the module has parameters.
 pub(super) fn model_argument(header: &Header<'_>) -> Vec<String> {
     header.tree.has_parameters().then(|| "model".to_owned()).into_iter().collect()
 }
 
-/// The statements that give sines and cosines of so many `angles` to `s` and `c`.
+/// Prints the statements that store the sines and cosines of `length` angles in `s` and `c`.
 fn circular_of_array(header: &Header<'_>, length: usize) -> Vec<String> {
     let is_polynomial = header.options.trigonometry == Trigonometry::Polynomial;
     if is_polynomial && header.dialect == Dialect::C && length > 1 {
@@ -198,7 +199,7 @@ fn circular_of_array(header: &Header<'_>, length: usize) -> Vec<String> {
     lines
 }
 
-/// The statements that give sine and cosine of an angle to two places.
+/// Prints the statements that store the sine and cosine of an angle in two places.
 pub(super) fn circular(
     header: &Header<'_>,
     angle: &str,
@@ -219,7 +220,7 @@ pub(super) fn circular(
     lines.into_iter()
 }
 
-/// The results, stored as entries of the outputs.
+/// Prints the statements that store the results as entries of the outputs.
 fn stores(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let expressions = header.expressions(header.options.scalar);
     let mut results = function.core.results.iter();
@@ -232,8 +233,9 @@ fn stores(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     lines
 }
 
-/// The statements of a body, each load before the first that reads it: compilers that keep the order then hold fewer
-/// numbers at a time. All loads stand before the stores. `loads` are those of sines and cosines.
+/// Prints the statements of a body, with each load directly before the first statement that reads it: compilers that
+/// keep the order then hold fewer numbers at a time. All loads come before the stores. `loads` are the loads of sines
+/// and cosines.
 fn statements_of(
     header: &Header<'_>,
     function: &Function<'_>,
@@ -256,7 +258,7 @@ fn statements_of(
         lines.extend(loads.extract_if(.., |(name, _)| read.contains(name)).map(|(_, line)| line));
         lines.extend(printed(one));
     }
-    // What the results alone read.
+    // The loads that only the results read.
     lines.extend(loads.into_iter().map(|(_, line)| line));
     lines
 }
@@ -277,7 +279,7 @@ fn variables(statement: &Statement, body: &Body) -> BTreeSet<String> {
     read
 }
 
-/// The statements of the constructor.
+/// Prints the statements of the constructor.
 pub(super) fn statements(header: &Header<'_>, body: &Body, scalar: Scalar) -> Vec<String> {
     body.statements.iter().flat_map(|one| statement(header, &[], body, one, scalar)).collect()
 }
@@ -313,7 +315,7 @@ pub(super) fn real(scalar: Scalar) -> &'static str {
     }
 }
 
-/// The call of a part: values in an array in, values in an array out.
+/// Prints the call of a part, which takes and returns its values in arrays.
 fn call(header: &Header<'_>, part: &Part, index: usize, scalar: Scalar) -> Vec<String> {
     let real = real(scalar);
     let (entering, leaving) = (format!("entering{}_", index + 1), format!("leaving{}_", index + 1));
@@ -336,7 +338,7 @@ fn call(header: &Header<'_>, part: &Part, index: usize, scalar: Scalar) -> Vec<S
     lines
 }
 
-/// The functions of the parts of a body that is very long.
+/// Prints the functions of the parts of a very long body.
 pub(super) fn parts(header: &Header<'_>, body: &Body, scalar: Scalar) -> Vec<String> {
     let real = real(scalar);
     let mut lines = vec![];

@@ -1,5 +1,5 @@
-//! The functions that printed C calls: those of the runtime, with the same bits where it does not fuse products and
-//! sums.
+//! The helper functions that printed C calls. They are those of the runtime and have the same bits if products and
+//! sums are not fused.
 
 use super::spelling::{literal, number};
 use super::{Dialect, Header, macros, vectors};
@@ -8,7 +8,7 @@ use crate::backend::flat::Helpers;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
 use crate::trigonometry::Trigonometry;
 
-/// The macros, and the helpers that the module needs.
+/// Prints the macros, and the helpers that the module needs.
 pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
     let mut lines = macros::macros(header);
     let scalar = header.options.scalar;
@@ -47,13 +47,13 @@ pub(super) fn helpers(header: &Header<'_>) -> Vec<String> {
     lines
 }
 
-/// Writes the helpers of a number type.
+/// Writes the helpers for a number type.
 pub(super) struct Writer<'h> {
     pub(super) header: &'h Header<'h>,
     pub(super) scalar: Scalar,
 }
 
-/// Sums of products, or the library's function that rounds once.
+/// Spells multiply-adds as a product and a sum, or as the library's function that rounds once.
 struct MulAdd<'w> {
     writer: &'w Writer<'w>,
     once: bool,
@@ -78,7 +78,7 @@ impl Arithmetic for MulAdd<'_> {
     }
 }
 
-/// `name = value;`, indented.
+/// Prints assignments as indented lines `name = value;`.
 fn assignments(steps: Vec<Assignment>) -> impl Iterator<Item = String> {
     steps.into_iter().map(|(name, value)| format!("    {name} = {value};"))
 }
@@ -108,7 +108,7 @@ impl Writer<'_> {
         number(value, self.scalar)
     }
 
-    /// A mask or pattern of bits.
+    /// Prints a pattern of bits, such as a mask.
     fn pattern(&self, bits: u64) -> String {
         match self.scalar {
             Scalar::F64 => format!("UINT64_C(0x{bits:016x})"),
@@ -116,7 +116,7 @@ impl Writer<'_> {
         }
     }
 
-    /// The bits of a number of the type.
+    /// Returns the bits of a number of the type.
     fn bits_of(&self, value: f64) -> u64 {
         match self.scalar {
             Scalar::F64 => value.to_bits(),
@@ -128,7 +128,7 @@ impl Writer<'_> {
         1 << (self.width() - 1)
     }
 
-    /// The condition under which fused multiply-adds are fast; clang does not define the macro of C.
+    /// The condition under which fused multiply-adds are fast. clang does not define the C macro for this.
     pub(super) fn fast(&self) -> String {
         let macro_of_c = if self.scalar == Scalar::F64 { "FP_FAST_FMA" } else { "FP_FAST_FMAF" };
         let of_cuda = match self.header.dialect {
@@ -189,7 +189,8 @@ impl Writer<'_> {
         lines
     }
 
-    /// The body of a function that computes `sine` and `cosine` from `angle`, each a number or a vector of `lanes` numbers.
+    /// Prints the body of a function that computes `sine` and `cosine` from `angle`, each a number or a vector of
+    /// `lanes` numbers.
     pub(super) fn sine_and_cosine(&self, fused: bool, lanes: usize) -> Vec<String> {
         let numbers = Circular::new(self.scalar);
         let mut lines = vec![];
@@ -206,12 +207,12 @@ impl Writer<'_> {
         lines
     }
 
-    /// The number of bytes of numbers side by side.
+    /// The size of a vector of `lanes` numbers, in bytes.
     pub(super) fn size(&self, lanes: usize) -> usize {
         self.scalar.size() * lanes
     }
 
-    /// `s` and `c`, sine and cosine of the angle less `k` right angles.
+    /// Prints the assignments of `s` and `c`, the sine and cosine of the angle minus `k` right angles.
     fn polynomials(&self, numbers: &Circular, once: bool, lanes: usize) -> Vec<String> {
         let language = MulAdd { writer: self, once, lanes };
         let size = self.size(lanes);
@@ -230,7 +231,8 @@ impl Writer<'_> {
         lines
     }
 
-    /// Sine and cosine of the angle from `s` and `c`: swapped and signed by the low bits of k.
+    /// Prints the sine and cosine of the angle in terms of `s` and `c`, which are swapped and change sign depending on
+    /// the low bits of `k`.
     fn turned(&self, lanes: usize) -> Vec<String> {
         let (size, to_sign) = (self.size(lanes), self.width() - 2);
         Writer::lines(&format!(

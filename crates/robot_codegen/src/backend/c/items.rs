@@ -7,7 +7,7 @@ use super::spelling::number;
 use crate::backend::common::{self, ConstantValue, Scalar, Setter, SetterArgument};
 use crate::counts::Counts;
 
-/// The caller's constants, as macros: an array is its initializer.
+/// Prints the caller's constants as macros; the macro of an array is its initializer.
 pub(super) fn constants(header: &Header<'_>) -> Vec<String> {
     let mut lines = vec![];
     for item in &header.options.constants {
@@ -31,12 +31,12 @@ pub(super) fn constants(header: &Header<'_>) -> Vec<String> {
     lines
 }
 
-/// An initializer.
+/// Prints an initializer.
 fn array(values: impl Iterator<Item = String>) -> String {
     format!("{{{}}}", values.collect::<Vec<_>>().join(", "))
 }
 
-/// A string literal of any text: what is not plain is written as octal digits of its bytes.
+/// Prints a string literal for any text; bytes that are not plain characters are octal escapes.
 fn string(text: &str) -> String {
     let mut literal = String::from("\"");
     for byte in text.bytes() {
@@ -51,7 +51,7 @@ fn string(text: &str) -> String {
     literal
 }
 
-/// The structure of the parameters, and the nominal values.
+/// Prints the structure of the parameters, and the nominal values.
 pub(super) fn parameters(header: &Header<'_>) -> Vec<String> {
     let (tree, names) = (header.tree, &header.names);
     let title = common::markdown_line(&tree.module.name);
@@ -77,7 +77,7 @@ pub(super) fn parameters(header: &Header<'_>) -> Vec<String> {
     lines
 }
 
-/// The functions that set several parameters.
+/// Prints the functions that set several parameters.
 pub(super) fn setters(header: &Header<'_>) -> Vec<String> {
     let setters = header.options.setters.iter().zip(&header.tree.setters);
     setters.flat_map(|(setter, name)| set(header, setter, name)).collect()
@@ -121,7 +121,7 @@ fn set(header: &Header<'_>, setter: &Setter, name: &str) -> Vec<String> {
     lines
 }
 
-/// The structure of what depends on the parameters alone, and its constructor.
+/// Prints the structure of the model, whose values depend only on the parameters, and its constructor.
 pub(super) fn model(header: &Header<'_>) -> Vec<String> {
     let (tree, names) = (header.tree, &header.names);
     let title = common::markdown_line(&tree.module.name);

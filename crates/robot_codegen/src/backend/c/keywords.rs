@@ -1,7 +1,7 @@
-//! Words that names of printed C and C++ keep clear of.
+//! Words that names in printed C and C++ must not be.
 
-/// The words of C and C++, one list so that both have the same names; then the macros and functions of the standard
-/// library that occur in printed code or that a name must not hide.
+/// The reserved words of C and C++, in one list, so that printed code has the same names in both; then the macros and
+/// functions of the standard library that occur in printed code or that a name must not hide.
 pub(super) const RESERVED: &[&str] = &[
     "DOMAIN",
     "EOF",

@@ -1,9 +1,9 @@
-//! What the preprocessor defines: macros for `inline`, `restrict` and blocks, and what it refuses.
+//! Preprocessor lines: macros for `inline`, `restrict` and blocks, and errors for unsuitable compiler options.
 
 use super::helpers::Writer;
 use super::{Dialect, Header, cuda};
 
-/// The macros of a dialect: C's work in C++ too, which has no `restrict`.
+/// Prints the macros of a dialect. Those of C also work in C++, which has no `restrict`.
 pub(super) fn macros(header: &Header<'_>) -> Vec<String> {
     let name = |name: &str| header.names.private_upper(name);
     let [inline, part, restrict] = ["inline", "part", "restrict"].map(name);
@@ -28,8 +28,8 @@ pub(super) fn macros(header: &Header<'_>) -> Vec<String> {
     Writer::lines(&text)
 }
 
-/// A compiler that reorders sums would remove the rounding to the nearest integer: sines would be wrong in every digit,
-/// without a message.
+/// Prints an error for compilers that reorder sums. They would remove the rounding to the nearest integer, and sines
+/// would silently be wrong in every digit.
 pub(super) fn refusal() -> Vec<String> {
     Writer::lines(
         "#if defined(__FAST_MATH__) || defined(_M_FP_FAST)

@@ -1,8 +1,9 @@
-//! C (C99, and what C++ compilers take of it).
+//! The printer of C (C99, in the subset that C++ compilers accept).
 //!
-//! One header: a structure of parameters, a structure of what depends on them alone, and a function for each function of the
-//! module, with a form that takes sines and cosines and one over columns of states. It allocates nothing and calls
-//! nothing but `<math.h>`; sines and cosines are the runtime's polynomials unless the standard library's are asked for.
+//! It prints one header with a structure of parameters, a structure of the model, whose values depend only on them, and
+//! functions for each function of the module: one that takes the state, one that takes sines and cosines, and one over
+//! columns of states. The code allocates nothing and calls only functions of `<math.h>`. Sines and cosines are the
+//! runtime's polynomials, unless the options choose the standard library.
 
 mod batch;
 mod casadi;
@@ -31,9 +32,10 @@ use crate::error::Errors;
 use crate::module::Module;
 use crate::program::Limits;
 
-/// C.
+/// C, as a language of printed code.
 ///
-/// Compilers take blocks of any size; their time grows faster than the size of a function, which the limits bound.
+/// Compilers accept blocks of any size. The time that they take grows faster than the size of a function, which the
+/// limits bound.
 pub const LANGUAGE: Language = Language {
     name: "C",
     extension: "h",
@@ -53,7 +55,7 @@ impl Target for C {
         &LANGUAGE
     }
 
-    /// One header.
+    /// Prints one header.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         check_range(module, self.options.scalar)?;
         let tree = tree(module, &self.options);
@@ -62,9 +64,9 @@ impl Target for C {
     }
 }
 
-/// The place of the form from sines and cosines.
+/// The index of the form that takes sines and cosines among a function's additional forms.
 pub(crate) const SC: usize = 0;
-/// The place of the form over columns of states.
+/// The index of the form over columns of states among a function's additional forms.
 pub const BATCH: usize = 1;
 
 /// The tree of a module as C prints it.
@@ -82,7 +84,7 @@ enum Dialect {
     Cuda,
 }
 
-/// What the parts of the header are made from.
+/// The data from which the parts of the header are printed.
 struct Header<'a> {
     tree: &'a Tree<'a>,
     names: Names,
@@ -121,7 +123,7 @@ impl Header<'_> {
         function::real(self.options.scalar)
     }
 
-    /// The documentation of the module and the beginning of the header.
+    /// Prints the documentation of the module and the beginning of the header.
     fn guard(&self) -> Vec<String> {
         let mut lines = vec![String::new()];
         let mut doc = super::common::paragraphs(&self.tree.module.doc, &self.tree.module.name);
@@ -158,7 +160,7 @@ impl Header<'_> {
         }
     }
 
-    /// The macro of functions that are inlined.
+    /// The macro for functions that are inlined.
     fn inline(&self) -> String {
         self.names.private_upper("inline")
     }

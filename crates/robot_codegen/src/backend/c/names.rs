@@ -16,39 +16,39 @@ pub(super) const TAKEN: &[&str] = &[
     "nominal",
 ];
 
-/// The names of a module's items: each begins with the module's. Those that only printed code calls end with an
-/// underscore, which no name of a robot file does.
+/// The names of a module's items, which begin with the name of the module. Names of items for internal use end with an
+/// underscore, with which no name in a robot file ends.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {
     prefix: String,
 }
 
 impl Names {
-    /// The names of a module.
+    /// Makes the names of a module.
     #[must_use]
     pub fn new(module: &str) -> Names {
         Names { prefix: module.to_owned() }
     }
 
-    /// `ur5_gravity`
+    /// The name of an item: `ur5_gravity`.
     #[must_use]
     pub fn item(&self, name: &str) -> String {
         format!("{}_{name}", self.prefix)
     }
 
-    /// `ur5_sin_cos_`
+    /// The name of an item for internal use: `ur5_sin_cos_`.
     #[must_use]
     pub fn private(&self, name: &str) -> String {
         format!("{}_{name}_", self.prefix)
     }
 
-    /// `UR5_DOF`
+    /// The name of a macro: `UR5_DOF`.
     #[must_use]
     pub fn upper(&self, name: &str) -> String {
         format!("{}_{name}", self.prefix).to_ascii_uppercase()
     }
 
-    /// `UR5_INLINE_`
+    /// The name of a macro for internal use: `UR5_INLINE_`.
     pub(super) fn private_upper(&self, name: &str) -> String {
         self.private(name).to_ascii_uppercase()
     }

@@ -1,4 +1,4 @@
-//! Expressions of C.
+//! Expressions in C.
 
 use robot_symbolic::Function as Call;
 
@@ -7,7 +7,7 @@ use crate::backend::common::Scalar;
 use crate::backend::flat::{Expression, Spelling, infix};
 use crate::trigonometry::Trigonometry;
 
-/// How C spells expressions of one number type.
+/// The spelling of expressions of one number type in C.
 pub(super) struct Expressions<'a> {
     pub(super) names: &'a Names,
     pub(super) fields: &'a [String],
@@ -16,23 +16,23 @@ pub(super) struct Expressions<'a> {
 }
 
 impl Expressions<'_> {
-    /// An expression as text.
+    /// Prints an expression.
     pub(super) fn text(&self, expression: &Expression) -> String {
         infix(expression, self)
     }
 
-    /// A helper of this number type.
+    /// The name of a helper for this number type.
     fn helper(&self, name: &str) -> String {
         self.names.private(&helper(name, self.scalar))
     }
 
-    /// A function of `<math.h>`.
+    /// The name of a function of `<math.h>` for this number type.
     fn library(&self, name: &str) -> String {
         library(name, self.scalar)
     }
 }
 
-/// The name of a helper for a number type, without the module's.
+/// The name of a helper for a number type, without that of the module.
 pub(super) fn helper(name: &str, scalar: Scalar) -> String {
     match scalar {
         Scalar::F64 => format!("{name}_f64"),
@@ -48,13 +48,13 @@ pub(super) fn library(name: &str, scalar: Scalar) -> String {
     }
 }
 
-/// A number that is not negative.
+/// Prints a number that is not negative.
 pub(super) fn literal(size: f64, scalar: Scalar) -> String {
     let suffix = if scalar == Scalar::F32 { "F" } else { "" };
     format!("{}{suffix}", scalar.digits(size))
 }
 
-/// A number.
+/// Prints a number.
 pub(super) fn number(value: f64, scalar: Scalar) -> String {
     let sign = if value.is_sign_negative() { "-" } else { "" };
     format!("{sign}{}", literal(value.abs(), scalar))

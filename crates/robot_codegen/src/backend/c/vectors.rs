@@ -1,5 +1,5 @@
-//! Sines and cosines of several angles at once: in vectors of gcc and clang of 256 bits, where compilers make good code of
-//! them, one after the other elsewhere. The bits are those of one angle.
+//! Sines and cosines of several angles at once: in 256-bit vectors of gcc and clang, if these compile them to good
+//! code, otherwise one after the other. The bits are the same as for a single angle.
 
 use std::collections::BTreeSet;
 
@@ -9,28 +9,28 @@ use crate::backend::common::Scalar;
 use crate::backend::flat::polynomials::Circular;
 use crate::trigonometry::Trigonometry;
 
-/// The numbers of a register of 256 bits.
+/// The number of values in a register of 256 bits.
 fn lanes(scalar: Scalar) -> usize {
     32 / scalar.size()
 }
 
-/// The name of the function of so many angles, without the module's.
+/// The name of the function for a number of angles, without that of the module.
 pub(super) fn name(angles: usize) -> String {
     format!("sin_cos_{angles}")
 }
 
-/// A number in every lane.
+/// Prints a vector with the same number in every lane.
 pub(super) fn splat(number: &str, scalar: Scalar) -> String {
     let instruction = if scalar == Scalar::F64 { "_mm256_set1_pd" } else { "_mm256_set1_ps" };
     format!("{instruction}({number})")
 }
 
-/// The multiply-add of vectors that rounds once.
+/// The instruction for multiply-adds of vectors that round once.
 pub(super) fn mul_add(scalar: Scalar) -> &'static str {
     if scalar == Scalar::F64 { "_mm256_fmadd_pd" } else { "_mm256_fmadd_ps" }
 }
 
-/// The numbers of angles, above one, of which functions of the module need sines and cosines together.
+/// The numbers of angles, above one, that functions of the module have.
 fn counts(header: &Header<'_>) -> BTreeSet<usize> {
     if header.dialect == Dialect::Cuda || header.options.trigonometry == Trigonometry::Standard {
         return BTreeSet::new();
@@ -39,7 +39,7 @@ fn counts(header: &Header<'_>) -> BTreeSet<usize> {
     counts.filter(|count| *count > 1).collect()
 }
 
-/// The header of the instructions, where multiply-adds are among them.
+/// Prints the include for vector instructions, if multiply-adds are needed.
 pub(super) fn includes(header: &Header<'_>) -> String {
     if counts(header).is_empty() || !header.tree.helpers().mul_add {
         return String::new();
@@ -47,7 +47,7 @@ pub(super) fn includes(header: &Header<'_>) -> String {
     format!("{CONDITION}\n#include <immintrin.h>\n#endif\n")
 }
 
-/// The functions of several angles that the functions of the module call.
+/// Prints the functions for several angles that the functions of the module call.
 pub(super) fn several(writer: &Writer<'_>, fused: bool) -> Vec<String> {
     let counts = counts(writer.header);
     if counts.is_empty() {
@@ -60,16 +60,16 @@ pub(super) fn several(writer: &Writer<'_>, fused: bool) -> Vec<String> {
 
 /// The condition under which vectors are used.
 ///
-/// Without AVX2, clang makes good pairs of registers of 128 bits of them, and gcc 12 does not.
+/// Without AVX2, clang compiles them well to pairs of 128-bit registers, but gcc 12 does not.
 const CONDITION: &str =
     "#if (defined(__GNUC__) && defined(__AVX2__)) || (defined(__clang__) && defined(__SSE2__))";
 
-/// The same once the macro is defined.
+/// The same condition in terms of the macro that is defined under it.
 fn condition(writer: &Writer<'_>) -> String {
     format!("#if defined({})", writer.header.names.private_upper("vectors"))
 }
 
-/// The types of vectors, and sine and cosine of one.
+/// Prints the types of vectors, and the function for the sine and cosine of a vector.
 fn vector(writer: &Writer<'_>, fused: bool) -> Vec<String> {
     let (inline, real, bits) = (writer.header.inline(), writer.real(), writer.bits());
     let macro_name = writer.header.names.private_upper("vectors");
@@ -96,7 +96,7 @@ typedef {bits} {vector_bits} __attribute__((vector_size(32)));
     lines
 }
 
-/// The function of so many angles.
+/// Prints the function for `count` angles.
 fn of(writer: &Writer<'_>, count: usize) -> Vec<String> {
     let (inline, real) = (writer.header.inline(), writer.real());
     let [one, vector, of_vector] =
@@ -117,7 +117,7 @@ fn of(writer: &Writer<'_>, count: usize) -> Vec<String> {
             place if place < count => format!("angles[{place}]"),
             _ => writer.number(0.0),
         };
-        // From the angles one by one: a vector that is loaded from an array waits for the stores before it.
+        // Made from single angles, because a vector that is loaded from an array waits for the stores before it.
         let entries: Vec<String> = (0..lanes).map(entry).collect();
         lines.push(format!("    const {vector} angles{index} = {{{}}};", entries.join(", ")));
     }

@@ -3,7 +3,7 @@
 use crate::module::Function;
 use crate::program::{Operation, Program, Source};
 
-/// The place that the source `Input(index)` of a function reads: the number of the input and of its entry.
+/// Returns the place that the source `Input(index)` of a function reads: the index of the input and that of its entry.
 #[must_use]
 pub fn input_entry(function: &Function, index: u32) -> (usize, usize) {
     let mut rest = index as usize;
@@ -16,7 +16,7 @@ pub fn input_entry(function: &Function, index: u32) -> (usize, usize) {
     (function.inputs.len(), rest)
 }
 
-/// For each input of a function, whether a program of it reads an entry of the input.
+/// For each input of a function, whether `program`, one of its programs, reads an entry of the input.
 #[must_use]
 pub fn used_inputs(function: &Function, program: &Program) -> Vec<bool> {
     let mut used = vec![false; function.inputs.len()];
@@ -30,14 +30,14 @@ pub fn used_inputs(function: &Function, program: &Program) -> Vec<bool> {
     used
 }
 
-/// The symbols of all inputs: those of the sources `Input(0)`, `Input(1)` and so on.
+/// The symbols of the entries of all inputs, in the order of the sources `Input(0)`, `Input(1)` and so on.
 #[must_use]
 pub fn symbols(function: &Function) -> Vec<&str> {
     let inputs = function.inputs.iter();
     inputs.flat_map(|input| &input.symbols).map(String::as_str).collect()
 }
 
-/// For each angle, the symbol of the entry that it is, or its number, from 1, if it is more than an entry.
+/// For each angle, the symbol if the angle is an entry of an input, otherwise the number of the angle, from 1.
 #[must_use]
 pub fn angle_names(function: &Function) -> Vec<String> {
     let symbols = symbols(function);

@@ -1,13 +1,13 @@
 //! Items that a caller adds to a module: constants, and setters of several parameters.
 
-/// A function that gives a copy of the parameters with several of them set.
+/// A function that returns a copy of the parameters with several of them set.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setter {
     /// The name.
     pub name: String,
-    /// Its meaning in Markdown, a paragraph or line each.
+    /// The documentation in Markdown; each entry is a paragraph or a line.
     pub doc: Vec<String>,
-    /// Its value.
+    /// The arguments, in order.
     pub arguments: Vec<SetterArgument>,
 }
 
@@ -42,11 +42,11 @@ pub enum ConstantValue {
     Size(usize),
     /// A number in double precision.
     Number(f64),
-    /// A text.
+    /// A string.
     Text(String),
-    /// An array of texts.
+    /// An array of strings.
     Texts(Vec<String>),
-    /// An array of rows and columns.
+    /// An array of pairs of a row and a column.
     Places(Vec<[usize; 2]>),
     /// An array of numbers in double precision.
     Numbers(Vec<f64>),

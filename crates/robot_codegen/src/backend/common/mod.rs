@@ -1,4 +1,4 @@
-//! What a printer of any language needs: names, inputs, constants, documentation, and the items that a
+//! The parts that printers of all languages share: names, inputs, constants, documentation, and the items that a
 //! caller adds to a module.
 
 mod inputs;

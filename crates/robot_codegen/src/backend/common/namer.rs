@@ -1,10 +1,10 @@
-//! Names of printed code from any text.
+//! Names in printed code, made from any text.
 
 use rustc_hash::FxHashSet;
 
 use crate::module::Module;
 
-/// Gives names in one scope: each is an identifier that the language does not reserve, and none is given twice.
+/// Makes the names of one scope: each is an identifier that is not reserved in the language, and no two are equal.
 #[derive(Clone, Debug)]
 pub struct Namer {
     reserved: &'static [&'static str],
@@ -12,13 +12,13 @@ pub struct Namer {
 }
 
 impl Namer {
-    /// A namer of a language with these reserved words, whose scope already has some names.
+    /// Makes a namer for a language with these reserved words, whose scope already has the names in `taken`.
     #[must_use]
     pub fn new(reserved: &'static [&'static str], taken: &[&str]) -> Namer {
         Namer { reserved, taken: taken.iter().map(|name| (*name).to_owned()).collect() }
     }
 
-    /// An identifier as near to `text` as can be.
+    /// Makes an identifier that is as close to `text` as possible.
     pub fn name(&mut self, text: &str) -> String {
         let base = identifier(text, self.reserved);
         let mut name = base.clone();
@@ -30,8 +30,8 @@ impl Namer {
         name
     }
 
-    /// An identifier for each of several texts. A text that is a valid identifier keeps its name, whatever the others
-    /// are: beside `match_` the reserved word `match` becomes `match__2`, in any order.
+    /// Makes an identifier for each of several texts. A text that is a valid identifier is its own name, whatever the
+    /// other texts are: if `match_` is among them, the reserved word `match` becomes `match__2`, in any order.
     pub fn names<'t>(&mut self, texts: impl IntoIterator<Item = &'t str>) -> Vec<String> {
         let texts = texts.into_iter().map(|text| {
             let fits = identifier(text, self.reserved) == text;
@@ -45,14 +45,14 @@ impl Namer {
     }
 }
 
-/// ASCII letters, digits and underscores of the text; a reserved word gets an underscore.
+/// Makes an identifier of the ASCII letters, digits and underscores of a text; a reserved word gets an underscore.
 #[must_use]
 pub fn identifier(text: &str, reserved: &[&str]) -> String {
     let mut name = String::new();
     for character in text.chars().take(64) {
         match character {
             'a'..='z' | 'A'..='Z' | '0'..='9' => name.push(character),
-            // Other letters by their code point: few enough that nobody needs a table.
+            // Other letters are replaced with their code points; they are too rare to need a table.
             _ if character.is_alphabetic() => {
                 name.push_str(&format!("u{:x}", u32::from(character)));
             }
@@ -69,7 +69,7 @@ pub fn identifier(text: &str, reserved: &[&str]) -> String {
     unreserved(name, reserved)
 }
 
-/// The name of a type: `link_wrenches` becomes `LinkWrenches`.
+/// Makes the name of a type: `link_wrenches` becomes `LinkWrenches`.
 #[must_use]
 pub fn type_name(text: &str, reserved: &[&str]) -> String {
     let words = identifier(text, reserved);
@@ -89,14 +89,14 @@ fn unreserved(mut name: String, reserved: &[&str]) -> String {
     name
 }
 
-/// Names for the fields of a model: a field that copies a parameter has its name; the others are numbered `k1`,
-/// `k2` and so on.
+/// Makes names for the fields of a model: a field that copies a parameter has the parameter's name; the others are
+/// `k1`, `k2` and so on.
 pub fn field_names(module: &Module, namer: &mut Namer) -> Vec<String> {
     let fields = 0..module.constructor.results().len();
     let copies: Vec<Option<&str>> = fields
         .map(|field| module.field_parameter(field).map(|parameter| parameter.name.as_str()))
         .collect();
-    // Copies first, so that none of them has to yield to a number.
+    // Copies are named first, so that a numbered field never takes the name of one.
     let mut names = namer.names(copies.iter().copied().flatten()).into_iter();
     let mut count = 0;
     let name = |copy: Option<&str>| {

@@ -1,12 +1,12 @@
-//! Lines of comments, wrapped.
+//! Wrapping of comments into lines.
 
 use super::text::comment_line;
 
-/// The width of lines of comments, in characters.
+/// The largest width of a line of a comment, in characters.
 const WIDTH: usize = 100;
 
-/// A paragraph in lines of at most 100 characters, but for longer words. What follows the mark of a list is
-/// indented by two spaces.
+/// Wraps a paragraph into lines of at most 100 characters, except for longer words. The later lines of an item of a
+/// list are indented by two spaces.
 #[must_use]
 pub fn wrapped(paragraph: &str) -> Vec<String> {
     let text = comment_line(paragraph);
@@ -27,8 +27,8 @@ pub fn wrapped(paragraph: &str) -> Vec<String> {
     lines
 }
 
-/// The lines of a comment of several paragraphs, as they are written: an empty line between two at most, none at either
-/// end.
+/// Wraps the paragraphs of a comment into lines, with at most one empty line between two paragraphs and none at the
+/// start or the end.
 #[must_use]
 pub fn comment_lines(paragraphs: &[String]) -> Vec<String> {
     let mut lines: Vec<String> = vec![];

@@ -10,13 +10,13 @@ pub enum Scalar {
     /// Double precision.
     #[default]
     F64,
-    /// Single precision. Parameters stay in double precision and so does what the constructor computes, until
-    /// it is stored.
+    /// Single precision. Parameters and the arithmetic of the constructor are in double precision; its results are
+    /// rounded when they are stored.
     F32,
 }
 
 impl Scalar {
-    /// The bytes of a number.
+    /// The size of a number, in bytes.
     #[must_use]
     pub fn size(self) -> usize {
         match self {
@@ -25,8 +25,8 @@ impl Scalar {
         }
     }
 
-    /// The fewest digits from which the size of `value`, rounded to this type, reads back to the same bits; with a
-    /// decimal point or an exponent: `9.81`, `2.0`, `1e300`. The sign is left out.
+    /// Returns the shortest decimal that reads back as the absolute value of `value`, rounded to this type. It has a
+    /// decimal point or an exponent: `9.81`, `2.0`, `1e300`.
     #[must_use]
     pub fn digits(self, value: f64) -> String {
         match self {
@@ -40,8 +40,8 @@ impl Scalar {
 ///
 /// # Errors
 ///
-/// Each constant beyond the range of the type, with the function: one that would be infinite, or too small to keep its digits, and
-/// then be 0 or anything near it.
+/// Each constant outside the range of the type, with its function: it would be infinite, or it is so small that it
+/// would lose digits or become 0.
 pub fn check_range(module: &Module, scalar: Scalar) -> Result<(), Errors> {
     let mut errors = vec![];
     let mut check = |program: &Program, place: &str| {

@@ -1,19 +1,19 @@
-//! Documentation of printed code. Text from outside is made harmless in this one place; what the caller wrote
-//! is Markdown and stays it.
+//! Documentation of printed code. Text from outside is escaped only here; Markdown from the caller is printed
+//! unchanged.
 
 use crate::counts::Counts;
 use crate::module::Function;
 use crate::spec::ParameterSpec;
 
-/// Lines of text that nobody controls, as Markdown that means nothing but the text: no line breaks
-/// other than those between lines, no code fences or indented blocks (which would be compiled as
-/// examples), no links, no HTML, no characters that change the direction of text.
+/// Escapes lines of untrusted text, so that as Markdown they are plain text: without line breaks
+/// other than those between lines, code fences, indented blocks (which would be compiled as examples),
+/// links, HTML, and characters that change the direction of text.
 #[must_use]
 pub fn markdown(text: &str) -> Vec<String> {
     text.lines().map(markdown_line).collect()
 }
 
-/// One line of such text.
+/// Escapes untrusted text as one line.
 #[must_use]
 pub fn markdown_line(text: &str) -> String {
     let mut line = String::new();
@@ -24,7 +24,7 @@ pub fn markdown_line(text: &str) -> String {
                 line.push(character);
             }
             _ if character.is_whitespace() || character.is_control() => {
-                // One space for any run, none at the start: four would make a code block.
+                // Any run of spaces becomes one, and none remains at the start, where four would make a code block.
                 if !line.is_empty() && !line.ends_with(' ') {
                     line.push(' ');
                 }
@@ -36,7 +36,7 @@ pub fn markdown_line(text: &str) -> String {
     line.trim_end().to_owned()
 }
 
-/// Lines of the caller's Markdown; the name of the documented item if there are none.
+/// Returns the lines of the caller's Markdown, or the name of the documented item if there are none.
 #[must_use]
 pub fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
     let lines: Vec<String> = texts.iter().flat_map(|text| text.lines()).map(comment_line).collect();
@@ -47,7 +47,7 @@ pub fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
     }
 }
 
-/// `meaning, in unit; 3 rows of 4.` The meaning is Markdown; the name is used if there is none.
+/// Prints `meaning, in unit; 3 rows of 4.` The meaning is Markdown; if it is empty, the name is used.
 #[must_use]
 pub fn quantity(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> String {
     let mut line = if meaning.is_empty() { markdown_line(name) } else { comment_line(meaning) };
@@ -72,8 +72,8 @@ pub fn parameter(spec: &ParameterSpec) -> String {
     line
 }
 
-/// The documentation of a function: its own paragraphs, then each input by the name that it has in the code, the
-/// output if there is one only, and the cost of a call.
+/// The documentation of a function: its own paragraphs, then each input by its name in the code, the
+/// output if there is only one, and the operations of a call.
 #[must_use]
 pub fn function<'n>(
     function: &Function,
@@ -114,7 +114,7 @@ pub fn operations(counts: &Counts) -> String {
     if texts.is_empty() { "No operations".to_owned() } else { texts.join(", ") }
 }
 
-/// Text for a comment of one line.
+/// Turns text into a comment of one line.
 #[must_use]
 pub fn comment_line(text: &str) -> String {
     let visible = text.chars().filter(|character| !is_invisible(*character));
@@ -122,7 +122,7 @@ pub fn comment_line(text: &str) -> String {
     one_line.collect::<String>().trim_end().to_owned()
 }
 
-/// Marks of direction, joiners and the like, with which text can look like other text.
+/// Whether a character is a mark of direction, a joiner or similar, which can make text look like other text.
 fn is_invisible(character: char) -> bool {
     matches!(
         character,

@@ -1,4 +1,4 @@
-//! From a module to its tree.
+//! Builds the tree of a module.
 
 use super::names::{Names, Variables};
 use super::{Array, Body, Expression, Function, Operator, Part, Statement, Tree};
@@ -8,8 +8,8 @@ use crate::module::{self, Module};
 use crate::program::{self, Block, Operation, Program, Source, Statements, Value};
 
 impl<'m> Tree<'m> {
-    /// The tree of a module in a language. `taken` are the names that the printer uses for itself: no item or
-    /// variable has one. `forms` are the endings of the further forms that each function has.
+    /// Builds the tree of a module in a language. No item or variable has a name in `taken`, which the printer uses
+    /// itself. `forms` are the name endings of the additional forms of each function.
     #[must_use]
     pub fn new(
         module: &'m Module,
@@ -35,7 +35,7 @@ impl<'m> Tree<'m> {
 
 struct Builder<'b> {
     language: &'b Language,
-    /// The namer with which the variables of a function begin.
+    /// The namer that is copied for the variables of each function.
     variables: Namer,
     items: &'b mut Namer,
 }
@@ -99,7 +99,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds the statements of a program to a body, and makes its results those of the body.
+    /// Adds the statements of a program to a body, whose results become those of the program.
     fn program(
         &mut self,
         program: &Program,
@@ -124,7 +124,7 @@ impl Builder<'_> {
     }
 }
 
-/// `q1 = q[0]` for every entry that a program of the function loads.
+/// Makes the statements `q1 = q[0]` for all entries that a program of the function loads.
 fn entries(
     function: &module::Function,
     program: &Program,
@@ -189,7 +189,7 @@ impl<'p> Printer<'p> {
         Part { name, entering, leaving: named(&part.leaving), statements, reads_fields }
     }
 
-    /// A value as an operand: its variable if it has one.
+    /// Makes the operand for a value: its variable if it has one, otherwise its expression.
     fn operand(&self, value: Value) -> Expression {
         match &self.names[value.index()] {
             Some(name) => Expression::Variable(name.clone()),
@@ -197,7 +197,7 @@ impl<'p> Printer<'p> {
         }
     }
 
-    /// The operation of a value. `Limits::expression` bounds how deep this goes.
+    /// Makes the expression of a value's operation. `Limits::expression` bounds the depth of the recursion.
     fn expression(&self, value: Value) -> Expression {
         let binary = |operator: Operator, a: Value, b: Value| {
             Expression::Binary(operator, Box::new([self.operand(a), self.operand(b)]))

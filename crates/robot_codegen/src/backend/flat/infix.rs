@@ -1,18 +1,18 @@
-//! Expressions as text with operators and brackets.
+//! Printing of expressions with infix operators and brackets.
 
 use robot_symbolic::Function as Call;
 
 use super::{Expression, Operator};
 
-/// How a language spells the parts of expressions.
+/// The spelling of the parts of expressions in a language.
 pub trait Spelling {
-    /// The size of a number that is not negative.
+    /// A constant, given by its absolute value.
     fn constant(&self, size: f64) -> String;
 
     /// A field of the model.
     fn field(&self, index: usize) -> String;
 
-    /// The sign of an operation, without spaces.
+    /// The symbol of an operator, without spaces.
     fn operator(&self, operator: Operator) -> &'static str {
         match operator {
             Operator::Add => "+",
@@ -29,7 +29,7 @@ pub trait Spelling {
     fn call(&self, function: Call, argument: String) -> String;
 }
 
-/// The strength with which the outermost operation of a text binds.
+/// The precedence of the outermost operation of a text.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Strength {
     Sum,
@@ -38,7 +38,7 @@ enum Strength {
     Operand,
 }
 
-/// An expression as text. No bracket is missing or needless for operators that group from the left.
+/// Prints an expression with exactly the brackets that left-associative operators need.
 #[must_use]
 pub fn infix(expression: &Expression, spelling: &impl Spelling) -> String {
     text(expression, spelling).0
@@ -58,8 +58,8 @@ fn text(expression: &Expression, spelling: &impl Spelling) -> (String, Strength)
                 Operator::Mul | Operator::Div => Strength::Product,
             };
             let [left, right] = operands.each_ref();
-            // What stands on the right must bind more, for a - (b - c) is not (a - b) - c, nor is
-            // a + (b + c) the same sum after rounding.
+            // The right operand must have a higher precedence: a - (b - c) is not (a - b) - c, and
+            // a + (b + c) rounds differently from (a + b) + c.
             let left = bracketed(left, spelling, |found| found >= strength);
             let right = bracketed(right, spelling, |found| found > strength);
             (format!("{left} {} {right}", spelling.operator(*operator)), strength)

@@ -1,9 +1,9 @@
-//! A module as flat functions: what the printers of most languages have in common.
+//! A module as flat functions, from which most languages are printed.
 //!
-//! A [`Tree`] is made once from a module for a language's names and limits. Each of its functions has two bodies:
+//! A [`Tree`] is built from a module for the names and limits of a language. Each of its functions has two bodies:
 //! one computes the angles whose sines and cosines are needed, the other the outputs. A body is a list of statements,
-//! each of which gives variables their one value, with the expressions of its results behind them.
-//! [`Function::whole`] joins the two. A printer says how all that is spelled; [`infix`] prints expressions for
+//! each of which assigns variables their only value, followed by the expressions of its results.
+//! [`Function::whole`] joins the two. A printer defines the syntax of all this; [`infix`] prints expressions for
 //! languages that write them with operators.
 
 mod build;
@@ -21,13 +21,13 @@ use crate::module;
 /// A module as flat functions.
 #[derive(Clone, Debug)]
 pub struct Tree<'m> {
-    /// The module that it was made from.
+    /// The module from which the tree was made.
     pub module: &'m module::Module,
     /// The name of the module.
     pub name: String,
     /// The names of the parameters.
     pub parameters: Vec<String>,
-    /// The names of the model's fields: what the constructor computes from the parameters.
+    /// The names of the model's fields, which the constructor computes from the parameters.
     pub fields: Vec<String>,
     /// The constructor: its results are the fields.
     pub constructor: Body,
@@ -40,15 +40,15 @@ pub struct Tree<'m> {
 /// A function of a [`Tree`].
 #[derive(Clone, Debug)]
 pub struct Function<'m> {
-    /// The function that it was made from.
+    /// The function from which it was made.
     pub source: &'m module::Function,
     /// The name.
     pub name: String,
-    /// The names of its further forms, in the order in which the printer asked for them.
+    /// The names of its additional forms, in the order in which the printer listed them.
     pub forms: Vec<String>,
-    /// The arrays that it takes.
+    /// The arrays that it takes as inputs.
     pub inputs: Vec<Array>,
-    /// The arrays or numbers that it gives; the results of `core` are their entries, one after the other.
+    /// The arrays or numbers that it returns; the results of `core` are their entries, one after the other.
     pub outputs: Vec<Array>,
     /// Computes the angles.
     pub angles: Body,
@@ -61,13 +61,13 @@ pub struct Function<'m> {
 }
 
 impl Function<'_> {
-    /// The name of the form at that place, or that of the function if there is none.
+    /// The name of the form with this index, or the name of the function if there is no such form.
     #[must_use]
     pub fn form(&self, index: usize) -> &str {
         self.forms.get(index).unwrap_or(&self.name)
     }
 
-    /// The function as one body, with the sines and cosines as statements.
+    /// Joins the two bodies into one that also has statements for the sines and cosines.
     #[must_use]
     pub fn whole(&self) -> Body {
         let mut statements = self.angles.statements.clone();
@@ -87,7 +87,7 @@ impl Function<'_> {
                 _ => statements.push(statement.clone()),
             }
         }
-        // Entries first: the other statements are the same in any order of them.
+        // The sort is stable: entries come first, and the other statements keep their order.
         statements.sort_by_key(|statement| !matches!(statement, Statement::Entry { .. }));
         let parts = self.angles.parts.iter().chain(&self.core.parts).cloned().collect();
         Body { statements, results: self.core.results.clone(), parts }
@@ -101,7 +101,7 @@ pub struct Array {
     pub name: String,
     /// The number of entries.
     pub length: usize,
-    /// Whether the function reads an entry of it; an output is always used.
+    /// Whether the function reads an entry of it; always true for outputs.
     pub is_used: bool,
 }
 
@@ -151,7 +151,7 @@ pub enum Statement {
         /// The value.
         value: Expression,
     },
-    /// Variables are what a part of the body gives.
+    /// Variables are the values that a part of the body returns; the index of the part.
     Part(usize),
 }
 
@@ -160,13 +160,13 @@ pub enum Statement {
 pub struct Part {
     /// The name of the function.
     pub name: String,
-    /// The variables that it takes.
+    /// The variables that it takes as arguments.
     pub entering: Vec<String>,
-    /// The variables that it gives.
+    /// The variables that it returns.
     pub leaving: Vec<String>,
     /// Its statements.
     pub statements: Vec<Statement>,
-    /// Whether it reads fields of the model.
+    /// Whether the body or part reads fields of the model.
     pub reads_fields: bool,
 }
 
@@ -183,7 +183,7 @@ pub enum Expression {
     Binary(Operator, Box<[Expression; 2]>),
     /// −a
     Negative(Box<Expression>),
-    /// a b + c, rounded once where the target has the instruction.
+    /// a b + c, rounded once if the target has the instruction.
     MulAdd(Box<[Expression; 3]>),
     /// A function of one argument.
     Call(Call, Box<Expression>),
@@ -203,7 +203,7 @@ pub enum Operator {
 }
 
 impl Expression {
-    /// The expression and those that it is made of.
+    /// Visits the expression and all its subexpressions.
     pub fn each(&self, visit: &mut impl FnMut(&Expression)) {
         visit(self);
         match self {
@@ -216,7 +216,7 @@ impl Expression {
 }
 
 impl Statement {
-    /// The expression of the statement, if it has one.
+    /// Returns the expression of the statement, if it has one.
     #[must_use]
     pub fn expression(&self) -> Option<&Expression> {
         match self {
@@ -227,7 +227,7 @@ impl Statement {
 }
 
 impl Body {
-    /// Every expression of the statements, of parts too, and of the results.
+    /// Visits all expressions of the statements, including those of parts, and of the results.
     pub fn each_expression(&self, visit: &mut impl FnMut(&Expression)) {
         let parts = self.parts.iter().flat_map(|part| &part.statements);
         let statements = self.statements.iter().chain(parts);
@@ -235,7 +235,7 @@ impl Body {
         values.chain(&self.results).for_each(|value| value.each(visit));
     }
 
-    /// Whether it reads fields of the model.
+    /// Whether the body or part reads fields of the model.
     #[must_use]
     pub fn reads_fields(&self) -> bool {
         let mut found = false;
@@ -247,15 +247,15 @@ impl Body {
 /// The helper functions that printed code calls.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Helpers {
-    /// Sine with cosine.
+    /// Sine and cosine together.
     pub circular: bool,
     /// Multiply-add.
     pub mul_add: bool,
-    /// The sign with sgn 0 = 0.
+    /// The sign function, with sgn 0 = 0.
     pub sign: bool,
     /// Hyperbolic tangent.
     pub tanh: bool,
-    /// The reciprocal of what is positive.
+    /// The reciprocal of a positive number.
     pub recip_positive: bool,
     /// Square root.
     pub sqrt: bool,
@@ -264,7 +264,7 @@ pub struct Helpers {
 }
 
 impl Helpers {
-    /// The helpers that a body calls.
+    /// Finds the helpers that a body calls.
     #[must_use]
     pub fn of(body: &Body) -> Helpers {
         let mut found = Helpers::default();
@@ -286,7 +286,7 @@ impl Helpers {
         found
     }
 
-    /// The helpers of both.
+    /// The union of two sets of helpers.
     #[must_use]
     pub fn and(self, other: Helpers) -> Helpers {
         Helpers {

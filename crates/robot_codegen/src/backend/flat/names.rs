@@ -1,4 +1,4 @@
-//! The names of a tree, of the functions and of their variables.
+//! The names in a tree, of its functions and of their variables.
 
 use crate::backend::Language;
 use crate::backend::common::{Namer, Setter, angle_names, field_names, symbols};
@@ -12,14 +12,14 @@ pub(super) struct Names {
     pub(super) fields: Vec<String>,
     pub(super) setters: Vec<String>,
     pub(super) functions: Vec<String>,
-    /// For each function, the names of its further forms.
+    /// For each function, the names of its additional forms.
     pub(super) forms: Vec<Vec<String>>,
-    /// The namer of whatever stands beside the functions.
+    /// The namer of the other items next to the functions.
     pub(super) items: Namer,
 }
 
 impl Names {
-    /// Names beside which a printer uses those of `taken` for itself.
+    /// Makes the names of a module; none of its items has a name in `taken`, which the printer uses itself.
     pub(super) fn new(
         module: &Module,
         language: &Language,
@@ -49,7 +49,7 @@ impl Names {
     }
 }
 
-/// The variables that the loads of a function read, and its arrays.
+/// The variables that the loads of a function read, and the arrays of its inputs and outputs.
 pub(super) struct Variables {
     pub(super) inputs: Vec<String>,
     pub(super) outputs: Vec<String>,
@@ -74,7 +74,7 @@ impl Variables {
         Variables { inputs, outputs, entries, sines, cosines }
     }
 
-    /// The variable of a load of the function.
+    /// Returns the variable that a load of the function reads.
     pub(super) fn name(&self, source: Source) -> Option<&str> {
         let (names, index) = match source {
             Source::Input(index) => (&self.entries, index),

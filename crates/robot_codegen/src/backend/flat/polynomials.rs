@@ -1,21 +1,21 @@
-//! Sine, cosine and hyperbolic tangent of the runtime as assignments, for languages that have no runtime.
+//! The runtime's sine, cosine and hyperbolic tangent as assignments, for languages without a runtime.
 
 use robot_runtime::tanh::{TANH_F32, TANH_F64, Tanh};
 use robot_runtime::trig::{double, single};
 
 use crate::backend::common::Scalar;
 
-/// How a language spells the assignments.
+/// The spelling of the assignments in a language.
 pub trait Arithmetic {
     /// A number of either sign.
     fn number(&self, value: f64) -> String;
 
-    /// The sign of products.
+    /// The operator of products.
     fn times(&self) -> &'static str {
         "*"
     }
 
-    /// a b + c: a sum of a product, if nothing else is said.
+    /// a b + c; by default, a product and a sum.
     fn mul_add(&self, a: &str, b: &str, c: &str) -> String {
         format!("{a} {} {b} + {c}", self.times())
     }
@@ -24,12 +24,12 @@ pub trait Arithmetic {
 /// An assignment: a variable and its new value.
 pub type Assignment = (&'static str, String);
 
-/// The numbers of sine and cosine in a type.
+/// The constants of sine and cosine in a number type.
 pub struct Circular {
     scalar: Scalar,
-    /// Angles are below so many radians.
+    /// The limit below which angles must be, in rad.
     pub limit: f64,
-    /// Added to a smaller number it leaves the nearest integer in the low bits of the sum.
+    /// A number that rounds smaller numbers when it is added: the low bits of the sum are the nearest integer.
     pub shift: f64,
     /// 2/π.
     pub two_over_pi: f64,
@@ -42,7 +42,7 @@ pub struct Circular {
 }
 
 impl Circular {
-    /// The numbers of a type.
+    /// Returns the constants for a number type.
     #[must_use]
     pub fn new(scalar: Scalar) -> Circular {
         let wide = |values: &[f32]| values.iter().map(|value| f64::from(*value)).collect();
@@ -70,15 +70,15 @@ impl Circular {
         }
     }
 
-    /// From `angle`: `shifted`, whose lowest bits are those of the number `k` of right angles, and `k`.
+    /// Computes from `angle` the number `k` of right angles, and `shifted`, whose lowest bits are those of `k`.
     pub fn turns(&self, language: &impl Arithmetic) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let shifted = language.mul_add("angle", &number(self.two_over_pi), &number(self.shift));
         vec![("shifted", shifted), ("k", format!("shifted - {}", number(self.shift)))]
     }
 
-    /// From `x`, the angle or NaN, and `k`: `s` and `c`, the sine and cosine of the angle less `k` right angles, by way of
-    /// `r` and `z`. `once` says that the multiply-adds of the language round once.
+    /// Computes from `x`, which is the angle or NaN, and `k` the sine `s` and cosine `c` of the angle minus `k` right
+    /// angles, with intermediate variables `r` and `z`. `once` says that the multiply-adds of the language round once.
     pub fn rest(&self, language: &impl Arithmetic, once: bool) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let times = language.times();
@@ -105,7 +105,8 @@ impl Circular {
         steps
     }
 
-    /// The parts of π/2 that are taken from the angle one after the other, and the one that is added to the sine alone.
+    /// Returns the parts of π/2 that are subtracted from the angle one after the other, and the part that corrects only
+    /// the sine.
     #[must_use]
     pub fn parts_of_half_pi(&self, once: bool) -> (&[f64], Option<f64>) {
         match (once, self.scalar) {
@@ -116,7 +117,7 @@ impl Circular {
         }
     }
 
-    /// A polynomial in `z`: in Estrin's order in double precision, in Horner's in single.
+    /// Prints a polynomial in `z`, in Estrin's order in double precision and in Horner's order in single precision.
     fn polynomial(&self, c: &[f64], language: &impl Arithmetic) -> String {
         let number = |value: f64| language.number(value);
         let add = |a: &str, b: &str, c: &str| language.mul_add(a, b, c);
@@ -138,12 +139,12 @@ impl Circular {
     }
 }
 
-/// The numbers of the hyperbolic tangent in a type.
+/// The constants of the hyperbolic tangent in a number type.
 pub struct HyperbolicTangent {
     scalar: Scalar,
-    /// 2|x| from which on the result rounds to 1.
+    /// The value of 2|x| from which on the result rounds to 1.
     pub saturated: f64,
-    /// Added to a smaller number it leaves the nearest integer in the low bits of the sum.
+    /// A number that rounds smaller numbers when it is added: the low bits of the sum are the nearest integer.
     pub shift: f64,
     /// ln 2 in two parts.
     pub ln_2: [f64; 2],
@@ -152,7 +153,7 @@ pub struct HyperbolicTangent {
 }
 
 impl HyperbolicTangent {
-    /// The numbers of a type.
+    /// Returns the constants for a number type.
     #[must_use]
     pub fn new(scalar: Scalar) -> HyperbolicTangent {
         match scalar {
@@ -183,8 +184,8 @@ impl HyperbolicTangent {
         }
     }
 
-    /// From `y`, the smaller of 2|x| and [`saturated`](Self::saturated): `shifted`, whose lowest bits are those of the
-    /// power `n` of two, `n`, and `e`, eʳ − 1 of the rest `r`.
+    /// Computes from `y`, the smaller of 2|x| and [`saturated`](Self::saturated), the exponent `n` of a power of two,
+    /// `shifted`, whose lowest bits are those of `n`, and `e`, which is eʳ − 1 for the remainder `r`.
     pub fn rest(&self, language: &impl Arithmetic) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let log2_e = self.log2_e();

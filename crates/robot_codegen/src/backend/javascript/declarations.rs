@@ -1,10 +1,10 @@
-//! The declarations of a module for TypeScript.
+//! The TypeScript declarations of a module.
 
 use super::{Printer, documentation};
 use crate::backend::common::{ConstantValue, comment_line};
 use crate::backend::flat::Function;
 
-/// The text of the declarations.
+/// Prints the declarations.
 pub(super) fn text(printer: &Printer<'_>) -> String {
     let mut lines = printer.header();
     lines.extend(constants(printer));
@@ -18,7 +18,7 @@ pub(super) fn text(printer: &Printer<'_>) -> String {
     lines.join("\n")
 }
 
-/// The type of inputs, and the constants.
+/// Prints the type of inputs, and the constants.
 pub(in crate::backend) fn constants(printer: &Printer<'_>) -> Vec<String> {
     let mut lines = vec![];
     lines.extend([
@@ -54,7 +54,7 @@ fn model(printer: &Printer<'_>) -> Vec<String> {
     lines
 }
 
-/// The parameters, and functions that set several together.
+/// Prints the parameters, and the functions that set several of them together.
 pub(in crate::backend) fn parameters(printer: &Printer<'_>) -> Vec<String> {
     let tree = printer.tree;
     let mut lines = interface("Parameters", &tree.parameters);

@@ -1,4 +1,4 @@
-//! The functions that printed JavaScript calls.
+//! The helper functions that printed JavaScript calls.
 
 use crate::backend::common::Scalar;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
@@ -18,7 +18,7 @@ fn assignments(steps: Vec<Assignment>) -> String {
     lines.collect::<String>().trim_end().to_owned()
 }
 
-/// The helpers that a module needs.
+/// Prints the helpers that a module needs.
 pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
     let mut text = String::new();
     if needed.circular {

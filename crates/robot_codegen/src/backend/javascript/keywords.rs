@@ -1,6 +1,6 @@
-//! Words that names of printed JavaScript keep clear of.
+//! Words that names in printed JavaScript must not be.
 
-/// The reserved words of every edition, then global names that printed code or its users need.
+/// The reserved words of all editions, then global names that printed code or its users need.
 pub(super) const RESERVED: &[&str] = &[
     "Array",
     "Float64Array",

@@ -1,4 +1,4 @@
-//! JavaScript: an ES module with its declarations for TypeScript.
+//! The printer of JavaScript: an ES module with TypeScript declarations.
 
 pub(in crate::backend) mod declarations;
 mod helpers;
@@ -18,7 +18,7 @@ use crate::error::{Error, Errors};
 use crate::module::Module;
 use crate::program::Limits;
 
-/// JavaScript. Engines optimize functions up to some tens of kilobytes of their own code.
+/// JavaScript, as a language of printed code. Engines optimize functions up to a few tens of kilobytes of bytecode.
 pub const LANGUAGE: Language = Language {
     name: "JavaScript",
     extension: "mjs",
@@ -26,13 +26,13 @@ pub const LANGUAGE: Language = Language {
     limits: Limits { expression: 6, block: usize::MAX, function: 3000, part: 800 },
 };
 
-/// Names that functions use besides those of the module.
+/// Names that printed functions use in addition to those of the module.
 const TAKEN: &[&str] = &["model", "parameters", "nominal", "create_model", "live"];
 
 /// The printer of JavaScript.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct JavaScript {
-    /// The options; the type must be double precision, which is JavaScript's.
+    /// The options; the number type must be double precision, the only one of JavaScript.
     pub options: FlatOptions,
 }
 
@@ -41,7 +41,7 @@ impl Target for JavaScript {
         &LANGUAGE
     }
 
-    /// The module and its declarations.
+    /// Prints the module and its declarations.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         if self.options.scalar != Scalar::F64 {
             return Err(Errors::from(Error::Scalar { language: LANGUAGE.name }));
@@ -91,10 +91,10 @@ impl Spelling for Printer<'_> {
     }
 }
 
-/// A comment of documentation.
+/// Prints a documentation comment.
 pub(in crate::backend) fn documentation(paragraphs: &[String], indent: &str) -> Vec<String> {
     let lines = comment_lines(paragraphs).into_iter();
-    // No text ends the comment, or names a tag.
+    // Text must not end the comment or start a tag.
     let lines: Vec<String> =
         lines.map(|line| line.replace("*/", "* /").replace('@', "(at)")).collect();
     let mut comment = vec![format!("{indent}/**")];
@@ -229,7 +229,7 @@ impl Printer<'_> {
         statements.map(|line| format!("    {line}")).collect()
     }
 
-    /// The functions of the parts of a body that is very long.
+    /// Prints the functions of the parts of a very long body.
     fn parts(&self, body: &super::flat::Body) -> Vec<String> {
         let mut lines = vec![];
         for part in &body.parts {
@@ -288,7 +288,7 @@ impl Printer<'_> {
     }
 }
 
-/// A constant of the module.
+/// Prints a constant of the module.
 pub(in crate::backend) fn constant(item: &ConstantItem) -> Vec<String> {
     let value = match &item.value {
         ConstantValue::Size(size) => size.to_string(),
@@ -312,7 +312,7 @@ fn array(values: impl Iterator<Item = String>) -> String {
     format!("[{}]", values.collect::<Vec<_>>().join(", "))
 }
 
-/// A string literal of any text, harmless in HTML too.
+/// Prints a string literal for any text, escaped so that it is also safe in HTML.
 fn string(text: &str) -> String {
     let units = text.encode_utf16().map(|unit| match u8::try_from(unit) {
         Ok(byte) if byte.is_ascii_alphanumeric() || b" _-.,".contains(&byte) => {

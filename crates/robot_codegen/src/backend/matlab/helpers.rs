@@ -1,4 +1,4 @@
-//! The functions that printed MATLAB calls, at the end of each file.
+//! The helper functions that printed MATLAB calls, at the end of each file.
 
 use crate::backend::common::Scalar;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};
@@ -22,7 +22,7 @@ fn assignments(steps: Vec<Assignment>) -> String {
     lines.collect::<String>().trim_end().to_owned()
 }
 
-/// The helpers that a function needs.
+/// Prints the helpers that a function needs.
 pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
     let mut text = String::new();
     if needed.circular {

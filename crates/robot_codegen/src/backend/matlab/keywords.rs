@@ -1,4 +1,4 @@
-//! Words that names of printed MATLAB keep clear of.
+//! Words that names in printed MATLAB must not be.
 
 /// The keywords of MATLAB and Octave, then the functions and constants that printed code needs.
 pub(super) const RESERVED: &[&str] = &[

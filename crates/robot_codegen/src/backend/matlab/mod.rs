@@ -1,7 +1,7 @@
-//! MATLAB and Octave: a package folder with a file for each function.
+//! The printer of MATLAB and Octave: a package folder with a file for each function.
 //!
-//! Each file stands alone, helpers included, so that it can be pasted into a block of Simulink. States are columns: all
-//! operations are by element.
+//! Each file contains its helpers, so that it can be pasted into a Simulink block. States are columns, and all
+//! operations are element-wise.
 
 mod helpers;
 mod keywords;
@@ -18,7 +18,7 @@ use crate::error::{Error, Errors};
 use crate::module::Module;
 use crate::program::Limits;
 
-/// MATLAB.
+/// MATLAB, as a language of printed code.
 pub const LANGUAGE: Language = Language {
     name: "MATLAB",
     extension: "m",
@@ -26,14 +26,14 @@ pub const LANGUAGE: Language = Language {
     limits: Limits { expression: 6, block: usize::MAX, function: usize::MAX, part: usize::MAX },
 };
 
-/// Names that functions use besides those of the module.
+/// Names that printed functions use in addition to those of the module.
 const TAKEN: &[&str] =
     &["model", "parameters", "nominal", "create_model", "n", "mass", "center_of_mass", "inertia"];
 
 /// The printer of MATLAB.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Matlab {
-    /// The options; the type must be double precision.
+    /// The options; the number type must be double precision.
     pub options: FlatOptions,
 }
 
@@ -42,7 +42,7 @@ impl Target for Matlab {
         &LANGUAGE
     }
 
-    /// A file for each function, to be put into a folder of the module's name behind a `+`.
+    /// Prints a file for each function, for a folder named `+` followed by the name of the module.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         if self.options.scalar != Scalar::F64 {
             return Err(Errors::from(Error::Scalar { language: LANGUAGE.name }));
@@ -111,7 +111,7 @@ impl Spelling for Printer<'_> {
     }
 }
 
-/// Lines of a comment of documentation, the first with the name of the function.
+/// Prints a documentation comment, whose first line starts with the name of the function.
 fn documentation(name: &str, paragraphs: &[String]) -> Vec<String> {
     let lines = comment_lines(paragraphs);
     let mut comment = vec![];
@@ -216,7 +216,7 @@ impl Printer<'_> {
                 Some(format!("[{sine}, {cosine}] = sin_cos_({});", infix(angle, self)))
             }
             Statement::Let { name, value } => Some(format!("{name} = {};", infix(value, self))),
-            // The limits cut no body into parts.
+            // The limits are such that no body is cut into parts.
             Statement::Part(_) => None,
         });
         statements.collect()
@@ -256,7 +256,8 @@ impl Printer<'_> {
         lines
     }
 
-    /// The results, as rows of the outputs; a matrix by its columns, as MATLAB has them.
+    /// Prints the statements that store the results as rows of the outputs. Matrices are stored column by column, as in
+    /// MATLAB.
     fn stores(&self, function: &Function<'_>, body: &Body) -> Vec<String> {
         let mut lines = vec![];
         let mut results = body.results.iter();

@@ -1,6 +1,6 @@
-//! Words that names of printed Python keep clear of.
+//! Words that names in printed Python must not be.
 
-/// The keywords, soft ones among them, then the built-in names that printed code or its users call.
+/// The keywords, including soft ones, then the built-in names that printed code or its users call.
 pub(super) const RESERVED: &[&str] = &[
     "False",
     "None",

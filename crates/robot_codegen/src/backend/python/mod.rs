@@ -1,7 +1,7 @@
-//! Python: functions of numbers, or of NumPy arrays, from one text.
+//! The printer of Python: the same functions work on numbers and on NumPy arrays.
 //!
-//! An entry of an input is a number or an array with one element for each state; the text is the same. Sines and cosines
-//! are the runtime's polynomials, bit by bit, unless the standard library's are asked for.
+//! An entry of an input is a number, or an array with one element for each state. Sines and cosines
+//! are the runtime's polynomials, with the same bits, unless the options choose the standard library.
 
 mod helpers;
 mod keywords;
@@ -18,7 +18,7 @@ use crate::error::{Error, Errors};
 use crate::module::Module;
 use crate::program::Limits;
 
-/// Python.
+/// Python, as a language of printed code.
 pub const LANGUAGE: Language = Language {
     name: "Python",
     extension: "py",
@@ -26,13 +26,13 @@ pub const LANGUAGE: Language = Language {
     limits: Limits { expression: 6, block: usize::MAX, function: usize::MAX, part: usize::MAX },
 };
 
-/// Names that functions use besides those of the module.
+/// Names that printed functions use in addition to those of the module.
 const TAKEN: &[&str] = &["model", "parameters", "nominal", "Parameters", "Model"];
 
 /// The printer of Python.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Python {
-    /// The options; the type must be double precision, which is Python's.
+    /// The options; the number type must be double precision, the only one of Python.
     pub options: FlatOptions,
 }
 
@@ -41,7 +41,7 @@ impl Target for Python {
         &LANGUAGE
     }
 
-    /// One module.
+    /// Prints one module.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         if self.options.scalar != Scalar::F64 {
             return Err(Errors::from(Error::Scalar { language: LANGUAGE.name }));
@@ -90,15 +90,15 @@ impl Spelling for Printer<'_> {
     }
 }
 
-/// Text inside of a documentation string: nothing that ends it.
+/// Escapes text within a docstring, so that it cannot end the docstring.
 fn inside(text: &str) -> String {
     comment_line(text).replace('\\', "\\\\").replace("\"\"\"", "\\\"\\\"\\\"")
 }
 
-/// A documentation string.
+/// Prints a docstring.
 fn docstring(paragraphs: &[String], indent: &str) -> Vec<String> {
     let lines: Vec<String> = comment_lines(paragraphs).iter().map(|line| inside(line)).collect();
-    // A quote at the end of the text would join those that end the string.
+    // A quote at the end of the text would merge with the quotes that end the docstring.
     let text = lines.join(&format!("\n{indent}"));
     let closing = if lines.len() > 1 { format!("\n{indent}\"\"\"") } else { " \"\"\"".to_owned() };
     let closing =
@@ -230,7 +230,7 @@ impl Printer<'_> {
                 Some(format!("{sine}, {cosine} = _sin_cos({})", infix(angle, self)))
             }
             Statement::Let { name, value } => Some(format!("{name} = {}", infix(value, self))),
-            // The limits cut no body into parts.
+            // The limits are such that no body is cut into parts.
             Statement::Part(_) => None,
         }
     }
@@ -283,7 +283,7 @@ impl Printer<'_> {
     }
 }
 
-/// A constant of the module.
+/// Prints a constant of the module.
 fn constant(item: &ConstantItem) -> Vec<String> {
     let value = match &item.value {
         ConstantValue::Size(size) => size.to_string(),
@@ -308,7 +308,7 @@ fn tuple(values: impl Iterator<Item = String>) -> String {
     format!("({})", values.map(|value| format!("{value},")).collect::<Vec<_>>().join(" "))
 }
 
-/// A string literal of any text.
+/// Prints a string literal for any text.
 fn string(text: &str) -> String {
     let characters = text.chars().map(|character| match character {
         ' '..='~' if character != '"' && character != '\\' => character.to_string(),

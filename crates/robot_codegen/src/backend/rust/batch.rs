@@ -1,7 +1,7 @@
-//! Functions over many states: slices of states, columns, and blocks of a few states side by side.
+//! Functions over many states: over slices of states, over columns, and over blocks of a few states.
 //!
 //! All of them compute block by block ([`lanes`](super::lanes)); the loops over blocks and over the states of a block
-//! are the only ones of generated code. The last states are filled up to a block with zeros, so that all take the
+//! are the only loops of generated code. The last block is filled up with zeros, so that all states take the
 //! same path; nothing is indexed, so that nothing can panic.
 
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -16,19 +16,19 @@ use super::syntax;
 use super::variables::Variables;
 use crate::backend::common::used_inputs;
 
-/// As many blocks one thread computes at least: some microseconds of work.
+/// The fewest blocks that one thread computes: a few microseconds of work.
 const GRAIN: usize = 32;
 
-/// What the methods over many states take and give.
+/// The arguments and results of the methods over many states.
 pub(super) struct Slices {
     pub(super) variables: Variables,
-    /// Names, numbers of one state and whether the function needs it.
+    /// For each input, its name, the number of its entries, and whether the function needs it.
     pub(super) inputs: Vec<(Ident, usize, bool)>,
-    /// Names and shapes of one state.
+    /// For each output, its name and its shape for one state.
     pub(super) outputs: Vec<(Ident, Vec<usize>)>,
     /// The number of states in a block.
     pub(super) count: usize,
-    /// The same as a literal.
+    /// The number of states in a block, as a literal.
     pub(super) lanes: Literal,
 }
 
@@ -46,7 +46,7 @@ impl Slices {
         self.inputs.iter().map(|(name, ..)| name).chain(self.outputs.iter().map(|(name, _)| name))
     }
 
-    /// The parameters `q: &[[f64; 6]]` and `tau: &mut [[f64; 6]]`.
+    /// Makes parameters such as `q: &[[f64; 6]]` and `tau: &mut [[f64; 6]]`.
     fn slices(&self, scalar: &Type) -> Vec<TokenStream> {
         let inputs = self.inputs.iter().map(|(name, length, _)| {
             let state = syntax::array_type(scalar, *length);
@@ -59,7 +59,7 @@ impl Slices {
         inputs.chain(outputs).collect()
     }
 
-    /// The parameters `q: [&[f64]; 6]` and `mut tau: [&mut [f64]; 6]`.
+    /// Makes parameters such as `q: [&[f64]; 6]` and `mut tau: [&mut [f64]; 6]`.
     fn columns(&self, scalar: &Type) -> Vec<TokenStream> {
         let (read, written): (Type, Type) =
             (parse_quote!(&[#scalar]), parse_quote!(&mut [#scalar]));
@@ -75,30 +75,30 @@ impl Slices {
     }
 }
 
-/// How the states of a block lie in memory.
+/// The layout of the states of a block in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
     /// State by state: `[[f64; 6]; 8]`.
     States,
-    /// Coordinate by coordinate: `[[f64; 8]; 6]`, wherever the lanes of each coordinate are.
+    /// Coordinate by coordinate: `[[f64; 8]; 6]`; the lanes of each coordinate can be anywhere.
     Lanes,
 }
 
 /// The names of the methods over many states.
 pub(super) struct BatchNames {
     batch: Ident,
-    /// A block of states in memory, and what computes it.
+    /// The method for a block of states in memory; the next one computes it in a kernel.
     states: Ident,
     states_with: Ident,
     columns: Ident,
-    /// A block in lanes in memory, one elsewhere, and what computes it.
+    /// The method for a block in lanes in memory; the next two are for lanes in any place, and in a kernel.
     pub(super) block: Ident,
     lanes: Ident,
     lanes_with: Ident,
 }
 
 impl BatchNames {
-    /// The methods of a block in this layout: the one that is called, and the one that the kernel calls.
+    /// The methods of a block in this layout: the method that is called, and the method that the kernel calls.
     pub(super) fn of(&self, layout: Layout) -> (&Ident, &Ident) {
         match layout {
             Layout::States => (&self.states, &self.states_with),
@@ -108,7 +108,8 @@ impl BatchNames {
 }
 
 impl Methods<'_, '_> {
-    /// The methods over slices, columns and blocks of `lanes` states; none for a function that needs no inputs.
+    /// Prints the methods over slices, columns and blocks of `lanes` states; there are none for a function that needs
+    /// no inputs.
     pub(super) fn batch(&mut self, lanes: usize) -> Vec<ImplItem> {
         let mut slices = self.slices(lanes);
         if slices.used().next().is_none() {
@@ -139,7 +140,7 @@ impl Methods<'_, '_> {
     fn slices(&self, lanes: usize) -> Slices {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
-        // The variables of the methods.
+        // Reserve the names of the methods' own variables.
         for word in ["count", "whole", "start", "half", "lane", "lanes", "result", "circular"] {
             variables.namer.name(word);
         }
@@ -155,7 +156,7 @@ impl Methods<'_, '_> {
         Slices { variables, inputs, outputs, count, lanes: Literal::usize_unsuffixed(count) }
     }
 
-    /// Cuts slices of states into blocks.
+    /// Prints the method that cuts slices of states into blocks.
     fn over_slices(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
         let (runtime, lanes) = (self.number.runtime(), &slices.lanes);
         let BatchNames { batch, states: method, .. } = names;
@@ -200,7 +201,7 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// Cuts columns into blocks, which stay where they are.
+    /// Prints the method that cuts columns into blocks, without copying them.
     fn over_columns(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
         let (runtime, lanes) = (self.number.runtime(), &slices.lanes);
         let BatchNames { columns, lanes: method, .. } = names;
@@ -257,8 +258,8 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// Halves the slices until little is left, for as many threads as there are. Halves begin where
-    /// blocks do, so that each state is computed as it is by one thread.
+    /// Prints the method that halves the slices, down to short ones, and computes the halves on several threads. Halves
+    /// start at the starts of blocks, so that each state has the same result as on one thread.
     fn over_threads(&mut self, slices: &Slices, lanes: usize, batch: &Ident) -> ImplItem {
         let parallel = derived(&mut self.scope.methods, batch, "parallel");
         let parameters = slices.slices(&self.number.ty());
@@ -306,18 +307,18 @@ impl Methods<'_, '_> {
     }
 }
 
-/// `q.len().min(tau.len())`
+/// Makes the smallest of several lengths: `q.len().min(tau.len())`.
 fn least(lengths: impl Iterator<Item = Expr>) -> Option<Expr> {
     lengths.reduce(|a, b| parse_quote!(#a.min(#b)))
 }
 
-/// A variable for each name.
+/// Makes a variable for each name, with a suffix.
 fn suffixed(names: &[&Ident], suffix: &str, slices: &Slices) -> Vec<Ident> {
     let mut namer = slices.variables.namer.clone();
     names.iter().map(|name| derived(&mut namer, name, suffix)).collect()
 }
 
-/// `((q, qd), tau)`, for `q.iter().zip(qd).zip(tau)`.
+/// Makes the pattern `((q, qd), tau)` for `q.iter().zip(qd).zip(tau)`.
 fn zip_pattern(used: &[&Ident], outputs: &[&Ident]) -> syn::Pat {
     let names = used.iter().chain(outputs).map(|name| syntax::binding(name));
     names.reduce(|pattern, next| parse_quote!((#pattern, #next))).unwrap_or(parse_quote!(_))

@@ -22,11 +22,11 @@ pub(super) struct Body<'a> {
 
 /// A part of a long program: a function of its own.
 pub(super) struct PartFunction {
-    /// The names that it takes.
+    /// The names of its arguments.
     pub(super) entering: Vec<Ident>,
-    /// The names that it gives.
+    /// The names of the values that it returns.
     pub(super) leaving: Vec<Ident>,
-    /// Its kind.
+    /// Its statements.
     pub(super) statements: Vec<Stmt>,
 }
 
@@ -65,8 +65,8 @@ impl<'a> Body<'a> {
         self.grouped.parts.iter().flat_map(|part| self.part_statements(part)).collect()
     }
 
-    /// The parts of a program that is cut. `source_name` names the variable that a load reads, for
-    /// those loads that are variables.
+    /// The parts of a program that is cut. `source_name` returns the variable that a load reads, for
+    /// loads that are variables.
     pub(super) fn parts(&self, source_name: &dyn Fn(Source) -> Option<Ident>) -> Vec<PartFunction> {
         let part = |part: &Part| PartFunction {
             entering: {
@@ -87,7 +87,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// A block whose living values leave as a tuple.
+    /// Prints a block as an expression; the values that are used later are returned as a tuple.
     fn nested(&self, block: &Block) -> Stmt {
         let names = self.names_of(&block.leaving);
         let values = names.iter().map(syntax::variable).collect();
@@ -107,7 +107,7 @@ impl<'a> Body<'a> {
         values.iter().filter_map(|value| self.names[value.index()].clone()).collect()
     }
 
-    /// A value as an operand: its name if it has one.
+    /// Makes the operand for a value: its name if it has one, otherwise its expression.
     fn operand(&self, value: Value) -> Expr {
         match &self.names[value.index()] {
             Some(name) => syntax::variable(name),
@@ -115,7 +115,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// The operation of a value. `Limits::expression` bounds how deep this goes.
+    /// Makes the expression of a value's operation. `Limits::expression` bounds the depth of the recursion.
     fn expression(&self, value: Value) -> Expr {
         let binary = |a, op, b| syntax::binary(self.operand(a), op, self.operand(b));
         match self.program.operation(value) {

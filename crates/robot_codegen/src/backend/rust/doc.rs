@@ -2,7 +2,7 @@
 
 use syn::{Attribute, parse_quote};
 
-/// Documentation attributes, one for each line.
+/// Makes documentation attributes, one for each line.
 pub(super) fn attributes(lines: &[String]) -> Vec<Attribute> {
     let lines = lines.iter().map(|line| {
         let line = if line.is_empty() { line.clone() } else { format!(" {line}") };

@@ -20,18 +20,18 @@ use crate::module::Function;
 use crate::program::{Operation, Program, Source};
 use crate::trigonometry::Trigonometry;
 
-/// Functions of more operations than this are not offered for inlining into other crates.
+/// The most operations of a function that is offered for inlining into other crates.
 const INLINE_LIMIT: usize = 5000;
 
 /// The names of a function's methods.
 pub(super) struct Names {
     pub(super) plain: Ident,
     pub(super) sc: Ident,
-    /// The plain method and that of sines and cosines as kernels call them.
+    /// The form of the plain method that kernels call; `sc_with` is that of the method that takes sines and cosines.
     pub(super) with: Ident,
     sc_with: Ident,
     angles: Ident,
-    /// The plain method limb by limb.
+    /// The method that computes the function limb by limb.
     limbs: Ident,
 }
 
@@ -48,7 +48,7 @@ impl Names {
     }
 }
 
-/// All items of one function.
+/// Prints all items of one function.
 pub(super) fn items(scope: &mut Scope<'_>, function: &Function, plain: &Ident) -> Vec<Item> {
     let mut items = vec![];
     items.extend(outputs::type_item(scope, function, scope.options.generic));
@@ -86,7 +86,7 @@ pub(super) struct Methods<'s, 'a> {
     pub(super) function: &'s Function,
     pub(super) number: &'s Number,
     pub(super) names: Names,
-    /// Whether it is compiled for several processors.
+    /// Whether the function is compiled for several processors.
     pub(super) dispatched: bool,
 }
 
@@ -121,21 +121,21 @@ impl<'s, 'a> Methods<'s, 'a> {
         methods
     }
 
-    /// Whether sines and cosines are calls of the standard library: these stay outside of kernels.
+    /// Whether sines and cosines are calls of the standard library, which stay outside of kernels.
     pub(super) fn has_calls(&self) -> bool {
         self.scope.options.trigonometry == Trigonometry::Standard
     }
 
-    /// The choice of the arithmetic after sines and cosines of the standard library. After these calls, over
-    /// which LLVM can keep nothing in registers, it is 3 to 7 % slower inlined where multiply-adds are compiled
-    /// in, if it has more inputs than them (`docs/performance.md`).
+    /// Chooses how the arithmetic is called after sines and cosines of the standard library. LLVM cannot keep values in
+    /// registers across these calls. If multiply-adds are compiled in, and the arithmetic needs inputs other than sines
+    /// and cosines, it is 3 to 7 % slower if it is inlined (`docs/performance.md`).
     fn choice_after_calls(&self) -> Choice {
         let function = self.function;
         let more = used_inputs(function, &function.core).contains(&true);
         if more { Choice::Apart } else { Choice::Call }
     }
 
-    /// The arithmetic as kernels and loops call it, and its type argument.
+    /// The method of the arithmetic that kernels and loops call, with its type argument.
     pub(super) fn arithmetic_method(&self) -> TokenStream {
         let Names { plain, sc, with, sc_with, .. } = &self.names;
         let without_angles = self.function.angles.results().is_empty();
@@ -149,13 +149,13 @@ impl<'s, 'a> Methods<'s, 'a> {
         }
     }
 
-    /// Whether every angle is a plain entry of an input.
+    /// Whether every angle is an entry of an input.
     fn has_plain_angles(&self) -> bool {
         let operations = self.function.angles.operations();
         operations.iter().all(|operation| matches!(operation, Operation::Load(Source::Input(_))))
     }
 
-    /// From the inputs: the angles, their sines and cosines, and the arithmetic.
+    /// Prints the method that takes the inputs and computes the angles, their sines and cosines, and the arithmetic.
     fn whole(&mut self) -> Vec<ImplItem> {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
@@ -208,7 +208,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         [public, with].into_iter().chain(self.of_limbs(&limbs, &name)).collect()
     }
 
-    /// `&[q1, q2]` and the statements before it, or a call of the method of the angles.
+    /// Returns `&[q1, q2]` and the statements before it, or a call of the method that computes the angles.
     pub(super) fn angles_argument(&mut self, variables: &mut Variables) -> (Vec<Stmt>, Expr) {
         let function = self.function;
         if self.has_plain_angles() {
@@ -222,7 +222,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         (vec![], parse_quote!(&self.#method(#(#arguments),*)))
     }
 
-    /// The angles if they are more than entries of inputs.
+    /// Prints the method that computes the angles, if some are not entries of inputs.
     fn angles(&mut self) -> Vec<ImplItem> {
         let (function, name) = (self.function, self.names.angles.clone());
         let mut variables = Variables::new(self.scope, function);
@@ -246,7 +246,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         [method].into_iter().chain(printed.parts).collect()
     }
 
-    /// The arithmetic of a function without angles.
+    /// Prints the arithmetic of a function without angles.
     fn arithmetic(&mut self) -> Vec<ImplItem> {
         let function = self.function;
         let variables = Variables::new(self.scope, function);
@@ -267,7 +267,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         [public].into_iter().chain(self.core(variables, &with, &[], &chosen, vec![])).collect()
     }
 
-    /// The arithmetic, with sines and cosines given.
+    /// Prints the method of the arithmetic that takes sines and cosines.
     fn arithmetic_of_angles(&mut self) -> Vec<ImplItem> {
         let function = self.function;
         let variables = Variables::new(self.scope, function);
@@ -295,7 +295,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         [public].into_iter().chain(core).collect()
     }
 
-    /// Sines, cosines, and the inputs used besides.
+    /// The parameters: sines, cosines, and the inputs that are used in addition.
     fn sc_parameters(&self, variables: &Variables, used: &[bool]) -> Vec<TokenStream> {
         let array = syntax::array_type(&self.number.ty(), self.function.angles.results().len());
         let (s, c) = (&variables.sines, &variables.cosines);
@@ -329,7 +329,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         self.print_with(&number, program, variables, name)
     }
 
-    /// The angles: sums, computed as the target is compiled for.
+    /// Prints the angles. They are sums and use the arithmetic of the compilation target.
     fn print_angles(&mut self, variables: &mut Variables, name: &Ident) -> Printed {
         let number = self.number.without_arithmetic();
         let function = self.function;
@@ -385,7 +385,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         syntax::with_body(signature, statements, value)
     }
 
-    /// A method that kernels call, inlined into each.
+    /// Makes a method that kernels call and that is inlined into each.
     fn private(
         &self,
         name: &Ident,
@@ -402,8 +402,8 @@ impl<'s, 'a> Methods<'s, 'a> {
         syntax::with_body(signature, statements, value)
     }
 
-    /// Short functions are offered for inlining; if there is a loop over states, they have to be
-    /// inlined into it for the loop to be vectorised.
+    /// Returns the attribute for inlining, if the function is short. If there is a loop over states, the function has
+    /// to be inlined into it, so that the loop can be vectorized.
     fn inline(&self) -> Option<TokenStream> {
         let short = self.function.core.operations().len() <= INLINE_LIMIT;
         short
@@ -447,7 +447,7 @@ impl<'s, 'a> Methods<'s, 'a> {
         ]
     }
 
-    /// The angles as code, where each is one expression.
+    /// The angles as code if each is a single expression; otherwise a reference to the method of the angles.
     fn angle_texts(&mut self) -> Vec<String> {
         let function = self.function;
         let mut variables = Variables::new(self.scope, function);
@@ -463,7 +463,7 @@ impl<'s, 'a> Methods<'s, 'a> {
     }
 }
 
-/// The function as a free function, for modules without parameters.
+/// Makes a free function that calls the method, for modules without parameters.
 fn free_function(scope: &Scope<'_>, function: &Function, name: &Ident) -> Item {
     let ty = scope.number.ty();
     let inputs = Variables::new(scope, function).inputs;

@@ -15,7 +15,7 @@ use crate::backend::common::{self, ConstantValue, Scalar};
 use crate::counts::Counts;
 use crate::program::{Operation, Program, Source};
 
-/// The caller's constants.
+/// Makes the caller's constants.
 pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     let items = scope.options.constants.iter().zip(&scope.constants);
     let items = items.map(|(item, name)| {
@@ -54,7 +54,7 @@ pub(super) fn constants(scope: &mut Scope<'_>) -> Vec<Item> {
     items.collect()
 }
 
-/// `pub struct Parameters` if the module has any.
+/// Makes `pub struct Parameters`, if the module has parameters.
 pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     if !scope.has_parameters() {
         return vec![];
@@ -90,7 +90,7 @@ pub(super) fn parameters(scope: &Scope<'_>) -> Vec<Item> {
     items
 }
 
-/// `pub struct Model` and its constructor.
+/// Makes `pub struct Model` and its constructor.
 pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
     let title = common::markdown_line(&scope.module.name);
     if !scope.has_parameters() {
@@ -124,7 +124,7 @@ pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
     items
 }
 
-/// The constructor of a model whose parameters differ between lanes: the models of all lanes, side by side.
+/// Makes the constructor of a model whose parameters differ between lanes: each field has a value for each lane.
 fn over_lanes(scope: &Scope<'_>) -> Item {
     let (fields, ty) = (&scope.fields, scalar_type(scope.options.scalar));
     let runtime = scope.number.runtime();
@@ -194,7 +194,8 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
     syntax::impl_model(items)
 }
 
-/// A field as it is stored: `as` binds tighter than what a value may hold.
+/// Converts the value of a field to the type in which it is stored. The node of the cast gets brackets where its
+/// operand needs them, because `as` has a high precedence.
 fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
     match scope.options.scalar {
         Scalar::F64 => value,
@@ -207,7 +208,7 @@ fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
     }
 }
 
-/// `let Parameters { g, l1, .. } = *parameters;` with the parameters that the program loads.
+/// Makes `let Parameters { g, l1, .. } = *parameters;` with the parameters that the program loads.
 fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &[Ident]) -> Stmt {
     let loaded: Vec<usize> = program
         .sources()
@@ -225,7 +226,8 @@ fn take_parameters(scope: &Scope<'_>, program: &Program, from: &Ident, locals: &
     parse_quote!(let Parameters { #(#fields,)* #rest } = *#from;)
 }
 
-/// Arithmetic is `const`, reciprocals included; the other functions of the runtime are not.
+/// Whether a program can be a `const` function: arithmetic and reciprocals are `const`, the other functions of the
+/// runtime are not.
 pub(super) fn is_const(program: &Program) -> bool {
     let called = |operation: &Operation| match operation {
         Operation::Call(function, _) => *function != Function::RecipPositive,
@@ -243,7 +245,7 @@ fn constructor_doc(scope: &Scope<'_>) -> Vec<String> {
     ]
 }
 
-/// `Model::NOMINAL` if the constructor is `const` and all nominal values are known.
+/// Makes `Model::NOMINAL`, if the constructor is `const` and all nominal values are known.
 fn nominal_model(scope: &Scope<'_>, is_const: bool) -> Option<ImplItem> {
     let mut specs = scope.module.parameters.iter();
     let known = specs.all(|spec| spec.nominal.is_some());

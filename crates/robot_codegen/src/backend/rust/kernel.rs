@@ -1,4 +1,4 @@
-//! Methods that run on the processor at hand: each is compiled for several, and chooses when it is called.
+//! Methods that are compiled for several processors and choose their code for the current one when they are called.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -10,34 +10,34 @@ use super::variables::Variables;
 use crate::module::Function;
 use crate::program::{Limits, Operation, Statements};
 
-/// Functions of fewer operations than this are as fast compiled for any processor.
+/// The fewest operations of a function that is compiled for several processors; shorter ones are equally fast without.
 const LEAST_OPERATIONS: usize = 16;
 
-/// Whether a function is compiled for several processors: not if it is tiny, and not if it is cut into parts,
-/// whose speed is that of fetching their instructions.
+/// Whether a function is compiled for several processors. Tiny functions are not, nor are functions that are cut into
+/// parts, whose speed is limited by fetching their instructions.
 pub(super) fn is_dispatched(function: &Function, limits: &Limits) -> bool {
     let operations = function.core.operations().len() + function.angles.operations().len();
     operations >= LEAST_OPERATIONS && Statements::new(&function.core, limits).parts.len() <= 1
 }
 
-/// Whether a function has operations that round once where the processor can.
+/// Whether a function has multiply-adds, which round once if the processor has the instruction.
 pub(super) fn is_fused(function: &Function) -> bool {
     let mut operations = function.core.operations().iter();
     operations.any(|operation| matches!(operation, Operation::MulAdd(..)))
 }
 
-/// The choice that a method makes.
+/// The way in which a method calls its kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
     /// Inlined if there is nothing to choose.
     Call,
-    /// Never inlined where multiply-adds are compiled in: after calls of the library's sine and cosine.
+    /// Never inlined if multiply-adds are compiled in; used after calls of the standard library's sine and cosine.
     Apart,
-    /// Never inlined, with the widest vectors: a block of states.
+    /// Never inlined, with the widest vectors; used for a block of states.
     Block,
 }
 
-/// What a method hands to its kernel.
+/// The arguments that a method passes to its kernel.
 pub(super) struct Handed<'h> {
     /// The names of the arguments.
     pub(super) names: Vec<&'h Ident>,
@@ -46,7 +46,7 @@ pub(super) struct Handed<'h> {
 }
 
 impl Methods<'_, '_> {
-    /// The statement and the value of a method that runs `method` as a kernel.
+    /// Makes the statements and the value of a method that runs `method` as a kernel.
     pub(super) fn kernel(
         &self,
         choice: Choice,
@@ -84,18 +84,18 @@ impl Methods<'_, '_> {
         (statements, parse_quote!(#runtime::#dispatch(Kernel(self, #(#names),*))))
     }
 
-    /// `::<A>` in a kernel whose multiply-adds follow the processor.
+    /// The type argument `::<A>` in a kernel whose multiply-adds depend on the processor.
     pub(super) fn arithmetic_argument(&self) -> Option<TokenStream> {
         self.number.has_arithmetic().then(|| quote!(::<A>))
     }
 
-    /// `<A: Arithmetic>` of a method that such a kernel calls.
+    /// The parameter `<A: Arithmetic>` of a method that such a kernel calls.
     pub(super) fn arithmetic_parameter(&self) -> Option<TokenStream> {
         let runtime = self.number.runtime();
         self.number.has_arithmetic().then(|| quote!(<A: #runtime::Arithmetic>))
     }
 
-    /// The inputs that are chosen, handed by reference.
+    /// The chosen inputs, passed by reference.
     pub(super) fn handed<'v>(
         &self,
         variables: &'v Variables,

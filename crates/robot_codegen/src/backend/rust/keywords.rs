@@ -1,7 +1,7 @@
-//! Words that names of printed Rust keep clear of.
+//! Words that names in printed Rust must not be.
 
-/// The words that cannot be identifiers, or mean something else where names occur; then crates and
-/// types that a module of the name would hide from the code around it.
+/// Words that cannot be identifiers or have a special meaning where names occur; then crates and
+/// types that a module with this name would hide from the code around it.
 pub(super) const RESERVED: &[&str] = &[
     "Self",
     "abstract",
@@ -72,7 +72,7 @@ pub(super) const RESERVED: &[&str] = &[
 mod tests {
     use super::*;
 
-    /// But for the words that are reserved in places, and the names that can be hidden.
+    /// Excludes words that are reserved only in some contexts and names that can be hidden.
     #[test]
     fn reserved_words_are_no_identifiers_and_adapted_ones_are() {
         let identifiers = RESERVED.iter().filter(|word| syn::parse_str::<syn::Ident>(word).is_ok());

@@ -1,7 +1,7 @@
 //! A block of states: one loop whose body is the whole function.
 //!
-//! LLVM's loop vectoriser turns it into vectors of states, whatever the order of the statements, where its
-//! vectoriser of straight-line code would find vectors or not by chance.
+//! LLVM's loop vectorizer turns it into vectors of states, for any order of the statements. Its vectorizer for
+//! straight-line code would find vectors only by chance.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -17,7 +17,7 @@ use crate::backend::common::{Scalar, used_inputs};
 use crate::trigonometry::Trigonometry;
 
 impl Methods<'_, '_> {
-    /// What computes a block.
+    /// Prints the methods that compute a block.
     pub(super) fn of_block(
         &mut self,
         slices: &mut Slices,
@@ -54,7 +54,7 @@ impl Methods<'_, '_> {
         vec![chooses, syntax::with_body(signature, loops, value)]
     }
 
-    /// The method of one block in memory.
+    /// Prints the method for one block in memory.
     pub(super) fn block(&self, slices: &Slices, names: &BatchNames) -> ImplItem {
         let lanes = self.lane_array(slices);
         let parameters = slices.inputs.iter().map(|(name, length, _)| {
@@ -87,13 +87,13 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// `[f64; 8]`
+    /// The type of one number in each lane: `[f64; 8]`.
     fn lane_array(&self, slices: &Slices) -> Type {
         let (scalar, lanes) = (self.number.ty(), &slices.lanes);
         parse_quote!([#scalar; #lanes])
     }
 
-    /// The outputs of all states.
+    /// The type of the outputs for all states of a block.
     fn block_type(&self, slices: &Slices, layout: Layout) -> Type {
         let (scalar, array, lanes) = (self.number.ty(), self.lane_array(slices), &slices.lanes);
         let shapes = slices.outputs.iter().map(|(_, shape)| shape);
@@ -110,7 +110,7 @@ impl Methods<'_, '_> {
         }
     }
 
-    /// `q: [&[f64; 8]; 6]`, and the types with a lifetime.
+    /// Returns parameters such as `q: [&[f64; 8]; 6]`, and their types with a lifetime.
     fn block_parameters(
         &self,
         slices: &Slices,
@@ -131,13 +131,13 @@ impl Methods<'_, '_> {
         parameters.unzip()
     }
 
-    /// Whether states are put side by side before a block is computed: LLVM makes no vectors of a loop over sixteen
-    /// states in memory, and such code takes four times as long.
+    /// Whether the states of a block are converted to lanes before it is computed. LLVM does not vectorize a loop over
+    /// sixteen states in memory, and such code takes four times as long.
     fn is_turned(&self, slices: &Slices) -> bool {
         self.scope.options.scalar == Scalar::F32 && slices.count >= 16 && self.dispatched
     }
 
-    /// The states side by side, computed as lanes, and back.
+    /// Prints the conversion of the states to lanes, the computation, and the conversion of the results back to states.
     fn turned(&self, slices: &Slices, names: &BatchNames) -> Vec<Stmt> {
         let (runtime, scalar, lanes) = (self.number.runtime(), self.number.ty(), &slices.lanes);
         let used: Vec<&Ident> = slices.used().collect();
@@ -163,7 +163,7 @@ impl Methods<'_, '_> {
         statements
     }
 
-    /// The loop over the states of a block.
+    /// Prints the loop over the states of a block.
     fn loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
         let lanes = slices.lanes.clone();
         let array = |zero: Expr, length: &Literal| -> Expr { parse_quote!([#zero; #length]) };
@@ -178,18 +178,17 @@ impl Methods<'_, '_> {
         });
         let mut statements: Vec<Stmt> = zeros.collect();
         statements.extend(self.copied(slices, layout));
-        if self.function.angles.results().is_empty() {
-            statements.push(self.loop_without_angles(slices, layout));
-            return statements;
-        }
-        match self.scope.options.trigonometry {
-            Trigonometry::Polynomial => statements.push(self.one_loop(slices, layout)),
-            Trigonometry::Standard => statements.extend(self.two_loops(slices, layout)),
-        }
+        let stores = self.stores(slices, layout);
+        let is_angular = !self.function.angles.results().is_empty();
+        statements.extend(match self.scope.options.trigonometry {
+            _ if !is_angular => self.loops_without_angles(slices, layout, &stores),
+            Trigonometry::Polynomial => self.one_loop_each(slices, layout, &stores),
+            Trigonometry::Standard => self.two_loops(slices, layout, &stores),
+        });
         statements
     }
 
-    /// `let q = &lane(q, lane);` for the names.
+    /// Makes `let q = &lane(q, lane);` for each name.
     fn states(&self, names: &[&Ident], layout: Layout) -> Vec<Stmt> {
         let runtime = self.number.runtime();
         let state = |name: &&Ident| match layout {
@@ -199,11 +198,16 @@ impl Methods<'_, '_> {
         names.iter().map(state).collect()
     }
 
-    fn loop_without_angles(&mut self, slices: &Slices, layout: Layout) -> Stmt {
+    fn loops_without_angles(
+        &mut self,
+        slices: &Slices,
+        layout: Layout,
+        stores: &[Vec<Stmt>],
+    ) -> Vec<Stmt> {
         let used: Vec<&Ident> = slices.used().collect();
-        let (states, stores) = (self.states(&used, layout), self.stores(slices, layout));
+        let states = self.states(&used, layout);
         let (lanes, method) = (&slices.lanes, self.arithmetic_method());
-        // A method that is not a kernel's takes all inputs.
+        // A method that is not called from a kernel takes all inputs.
         let all = slices.inputs.iter().filter(|(_, _, used)| *used || !self.dispatched);
         let arguments = all.map(|(name, ..)| name);
         let unused = slices.inputs.iter().filter(|(_, _, used)| !used && !self.dispatched);
@@ -211,50 +215,67 @@ impl Methods<'_, '_> {
             let length = Literal::usize_unsuffixed(*length);
             parse_quote!(let #name = &[0.0; #length];)
         });
-        parse_quote! {
-            for lane in 0..#lanes {
-                #(#states)*
-                #(#unused)*
-                let result = self.#method(#(#arguments),*);
-                #(#stores)*
+        let (arguments, unused): (Vec<&Ident>, Vec<Stmt>) = (arguments.collect(), unused.collect());
+        let loops = stores.iter().map(|stores| -> Stmt {
+            parse_quote! {
+                for lane in 0..#lanes {
+                    #(#states)*
+                    #(#unused)*
+                    let result = self.#method(#(#arguments),*);
+                    #(#stores)*
+                }
             }
-        }
+        });
+        loops.collect()
     }
 
-    /// The whole function in one loop.
-    fn one_loop(&mut self, slices: &mut Slices, layout: Layout) -> Stmt {
+    /// Prints the whole function in one loop for each group of stores; a loop does not compute what it does not store.
+    fn one_loop_each(
+        &mut self,
+        slices: &mut Slices,
+        layout: Layout,
+        stores: &[Vec<Stmt>],
+    ) -> Vec<Stmt> {
         let (takes, angles) = self.angles_argument(&mut slices.variables);
         let used: Vec<&Ident> = slices.used().collect();
-        let (states, stores) = (self.states(&used, layout), self.stores(slices, layout));
+        let states = self.states(&used, layout);
         let (method, circular) = (self.arithmetic_method(), self.number.circular_each());
         let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
         let inputs = slices.variables.chosen(&used_inputs(self.function, &self.function.core));
         let lanes = &slices.lanes;
-        parse_quote! {
-            for lane in 0..#lanes {
-                #(#states)*
-                #(#takes)*
-                let (#s, #c) = #circular(#angles);
-                let result = self.#method(&#s, &#c, #(#inputs),*);
-                #(#stores)*
+        let loops = stores.iter().map(|stores| -> Stmt {
+            parse_quote! {
+                for lane in 0..#lanes {
+                    #(#states)*
+                    #(#takes)*
+                    let (#s, #c) = #circular(#angles);
+                    let result = self.#method(&#s, &#c, #(#inputs),*);
+                    #(#stores)*
+                }
             }
-        }
+        });
+        loops.collect()
     }
 
-    /// Sines and cosines of the standard library in a loop of their own, for they are calls, and a
-    /// loop with calls is not vectorised.
-    fn two_loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
+    /// Prints two loops. Sines and cosines of the standard library have a loop of their own, because they are calls,
+    /// and a loop with calls is not vectorized.
+    fn two_loops(
+        &mut self,
+        slices: &mut Slices,
+        layout: Layout,
+        stores: &[Vec<Stmt>],
+    ) -> Vec<Stmt> {
         let function = self.function;
         let (takes, angles) = self.angles_argument(&mut slices.variables);
         let angle_inputs = slices.variables.chosen(&used_inputs(function, &function.angles));
         let angle_states = self.states(&angle_inputs, layout);
         let inputs = slices.variables.chosen(&used_inputs(function, &function.core));
-        let (states, stores) = (self.states(&inputs, layout), self.stores(slices, layout));
+        let states = self.states(&inputs, layout);
         let count = Literal::usize_unsuffixed(function.angles.results().len());
         let (lanes, sin_cos) = (&slices.lanes, self.number.circular_array());
         let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
         let method = self.arithmetic_method();
-        vec![
+        let mut statements: Vec<Stmt> = vec![
             parse_quote!(let mut circular = [([0.0; #count], [0.0; #count]); #lanes];),
             parse_quote! {
                 for (lane, circular) in circular.iter_mut().enumerate() {
@@ -263,18 +284,21 @@ impl Methods<'_, '_> {
                     *circular = #sin_cos(#angles);
                 }
             },
+        ];
+        statements.extend(stores.iter().map(|stores| -> Stmt {
             parse_quote! {
                 for (lane, (#s, #c)) in circular.iter().enumerate() {
                     #(#states)*
                     let result = self.#method(#s, #c, #(#inputs),*);
                     #(#stores)*
                 }
-            },
-        ]
+            }
+        }));
+        statements
     }
 
-    /// `State::set_lane(result, &mut tau, lane);`
-    fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Stmt> {
+    /// Makes the statements that store the results, `State::set_lane(result, &mut tau, lane);`, in a group for each loop.
+    fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Vec<Stmt>> {
         if layout == Layout::Lanes && self.has_matrices() {
             return self.entries(slices);
         }
@@ -288,6 +312,6 @@ impl Methods<'_, '_> {
         let store = |(name, value): (&Ident, Expr)| -> Stmt {
             parse_quote!(#set(#value, &mut #name, lane);)
         };
-        stores.map(store).collect()
+        vec![stores.map(store).collect()]
     }
 }

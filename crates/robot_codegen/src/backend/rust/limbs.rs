@@ -1,5 +1,5 @@
-//! Functions as the limbs of a robot compute them: a function of one limb over any scalar, called with the limbs in
-//! lanes.
+//! Functions that are computed limb by limb: a function of one limb over any scalar is called with one limb in each
+//! lane.
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
@@ -17,19 +17,19 @@ use crate::limbs::{LimbCall, LimbResult, Limbs};
 use crate::module::Function;
 use crate::program::{Limits, Program, Source, Statements};
 
-/// Whether every function of one limb is a single body.
+/// Whether no function of a limb is cut into parts.
 fn are_whole(limbs: &Limbs, limits: &Limits) -> bool {
     let mut functions = limbs.calls.iter().map(|call| &call.function);
     functions.all(|function| Statements::new(&function.core, limits).parts.len() <= 1)
 }
 
-/// For each input of a function, whether it needs any entry.
+/// For each input of a function, whether the function reads any of its entries.
 fn used_by(function: &Function) -> Vec<bool> {
     let programs = [&function.angles, &function.core].map(|program| used_inputs(function, program));
     programs[0].iter().zip(&programs[1]).map(|(a, b)| *a || *b).collect()
 }
 
-/// For each input of a function, whether any limb needs it.
+/// For each input of a function, whether any limb reads an entry of it.
 pub(super) fn used_by_limbs(function: &Function, limbs: &Limbs) -> Vec<bool> {
     let mut used = vec![false; function.inputs.len()];
     for call in &limbs.calls {
@@ -40,7 +40,7 @@ pub(super) fn used_by_limbs(function: &Function, limbs: &Limbs) -> Vec<bool> {
     used
 }
 
-/// The sines and cosines of a limb's angles, as variables.
+/// Prints the statements that compute the sines and cosines of a limb's angles.
 fn sines(
     function: &Function,
     number: &Number,
@@ -48,7 +48,7 @@ fn sines(
     angles: Vec<Expr>,
 ) -> Vec<Stmt> {
     if number.is_generic() {
-        // Each a call of its own: one by way of a function value is not inlined into a kernel.
+        // Each angle has a call of its own, because a call of a function value is not inlined into a kernel.
         let sin_cos = number.method("sin_cos");
         let pairs = variables.sines_and_cosines(&function.core).into_iter().zip(angles);
         let taken = pairs.map(|(pair, angle)| parse_quote!(let #pair = #sin_cos(#angle);));
@@ -62,14 +62,14 @@ fn sines(
 }
 
 impl Methods<'_, '_> {
-    /// The limbs, if they compute the function side by side: with the runtime's sines, in a kernel.
+    /// The limbs, if the function is computed limb by limb; that requires the runtime's sines and a kernel.
     pub(super) fn limbs(&self) -> Option<&Limbs> {
         let limbs = self.function.limbs.as_ref()?;
         let taken = self.dispatched && !self.has_calls();
         (taken && are_whole(limbs, &self.scope.options.limits)).then_some(limbs)
     }
 
-    /// The method that computes the function limb by limb, and those of single limbs.
+    /// Prints the method that computes the function limb by limb, and the methods of single limbs.
     pub(super) fn of_limbs(&mut self, limbs: &Limbs, name: &Ident) -> Vec<ImplItem> {
         let function = self.function;
         let variables = Variables::new(self.scope, function);
@@ -107,7 +107,7 @@ impl Methods<'_, '_> {
         items
     }
 
-    /// The statements that call a limb's function, and the names of its results in each lane.
+    /// Returns the statements that call a limb's function, and the names of its results in each lane.
     fn limb_call(
         &self,
         limbs: &Limbs,
@@ -179,7 +179,7 @@ impl Methods<'_, '_> {
         (statements, results)
     }
 
-    /// The function of one limb: over any scalar, or over numbers if there is one lane.
+    /// Prints the function of one limb, over any scalar, or over plain numbers if there is only one lane.
     fn of_one(&self, call: &LimbCall, name: &Ident) -> ImplItem {
         let function = &call.function;
         let number = match call.lanes() {

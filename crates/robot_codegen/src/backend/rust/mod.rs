@@ -1,9 +1,9 @@
-//! Rust.
+//! The printer of Rust code.
 //!
-//! [`generate`] gives a syntax tree, which prints as text ([`RustModule::to_text`]) or as tokens.
-//! The code uses `core` and the runtime alone, allocates nothing, cannot panic and has no
-//! conditionals: arrays are taken apart by patterns, every value is a `let`, and the only calls are
-//! those of the runtime's scalar functions.
+//! [`generate`] returns a syntax tree, which prints as text ([`RustModule::to_text`]) or as tokens.
+//! The code uses only `core` and the runtime, allocates nothing, cannot panic and has no
+//! conditionals: arrays are split by patterns, every value is a `let`, and only the
+//! runtime's scalar functions are called.
 
 mod batch;
 mod body;
@@ -42,10 +42,10 @@ use crate::error::Errors;
 use crate::module::Module;
 use crate::program::Limits;
 
-/// Rust.
+/// Rust, as a language of printed code.
 ///
-/// rustc overflows its stack on a few thousand `let`s in one block; expressions of a few operations and functions of
-/// 8,000 statements it compiles well.
+/// rustc overflows its stack on a few thousand `let`s in one block, but compiles expressions of a few operations and
+/// functions of 8,000 statements well.
 pub const LANGUAGE: Language = Language {
     name: "Rust",
     extension: "rs",
@@ -58,7 +58,7 @@ impl Target for RustOptions {
         &LANGUAGE
     }
 
-    /// One file, whatever the [`Wrapping`].
+    /// Prints one file, for any [`Wrapping`].
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         let text = generate(module, self)?.to_text();
         let name = format!("{}.{}", identifier(&module.name), LANGUAGE.extension);
@@ -66,14 +66,14 @@ impl Target for RustOptions {
     }
 }
 
-/// The lints that generated code cannot keep, each for a reason: names come from robot files, and
-/// straight-line arithmetic is neither short nor sparing with digits.
+/// The lints that generated code cannot satisfy, because its names come from robot files and
+/// straight-line arithmetic is long and has constants with many digits.
 const ALLOWED_LINTS: [&str; 17] = [
-    // Not every function of a module is used by everyone.
+    // Users of a module do not use all of its functions.
     "dead_code",
     "non_snake_case",
     "non_camel_case_types",
-    // The text may be included in a private module.
+    // The text can be included in a private module.
     "unreachable_pub",
     "clippy::approx_constant",
     "clippy::doc_markdown",
@@ -105,7 +105,7 @@ pub struct RustModule {
 }
 
 impl RustModule {
-    /// The text, with the header as comment.
+    /// The text, with the header as a comment.
     #[must_use]
     pub fn to_text(&self) -> String {
         let mut text = String::new();
@@ -120,7 +120,7 @@ impl RustModule {
         text
     }
 
-    /// The tokens, for macros; comments are not among them, documentation is.
+    /// The tokens, for macros. They contain documentation, but no other comments.
     #[must_use]
     pub fn to_tokens(&self) -> TokenStream {
         self.file.to_token_stream()
@@ -131,7 +131,7 @@ impl RustModule {
 ///
 /// # Errors
 ///
-/// A runtime path that is not a path; constants beyond the range of `f32` if that is asked for.
+/// The runtime path is not a path, or constants are outside the range of the scalar type `f32`.
 pub fn generate(module: &Module, options: &RustOptions) -> Result<RustModule, Errors> {
     let mut scope = Scope::new(module, options)?;
     let mut items = items::constants(&mut scope);

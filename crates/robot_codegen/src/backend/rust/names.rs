@@ -1,11 +1,11 @@
-//! The names that the items of a module have, for code that calls them.
+//! The names of a module's items, for code that calls them.
 
 use super::namer::{Namer, identifier};
 use crate::backend::common::Setter;
 use crate::module::{Function, Module};
 
-/// The names of a module's items. A name that is reserved or taken is adapted, so that code which calls the module
-/// has to ask.
+/// The names of a module's items. A name that is reserved or taken is adapted, so code that calls the module must take
+/// the names from here.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Names {
     /// The module.
@@ -21,7 +21,7 @@ pub struct Names {
 }
 
 impl Names {
-    /// The names, and the namer of the functions of `Model` for the rest of them.
+    /// Makes the names, and the namer for further functions of `Model`.
     pub(super) fn new(module: &Module, setters: &[Setter]) -> (Names, Namer) {
         let parameters = module.parameters.iter().map(|parameter| parameter.name.as_str());
         let mut methods = Namer::with(&["new", "new_lanes", "NOMINAL"]);
@@ -39,13 +39,13 @@ impl Names {
     }
 }
 
-/// The names of a module that is printed with these setters.
+/// Returns the names of the items of a module that is printed with these setters.
 #[must_use]
 pub fn names(module: &Module, setters: &[Setter]) -> Names {
     Names::new(module, setters).0
 }
 
-/// The fields of the type that holds a function's outputs, if it has several.
+/// Returns the names of the fields of the type that holds a function's outputs, if it has several.
 #[must_use]
 pub fn output_names(function: &Function) -> Vec<String> {
     let outputs = function.outputs.iter().map(|output| output.name.as_str());

@@ -1,4 +1,4 @@
-//! The number type of generated code, and what of the runtime it calls.
+//! The number type of generated code, and the runtime's functions for it.
 
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -8,15 +8,15 @@ use super::syntax;
 use crate::backend::common::Scalar;
 use crate::trigonometry::Trigonometry;
 
-/// The number type that one function computes with.
+/// The number type with which a function computes.
 #[derive(Clone)]
 pub(super) struct Number {
     kind: Kind,
     runtime: syn::Path,
     trigonometry: Trigonometry,
-    /// Whether multiply-adds and polynomials are those of the type parameter `A`.
+    /// Whether multiply-adds and polynomials are methods of the type parameter `A`.
     arithmetic: bool,
-    /// Whether the model stores its fields in a type of its own, the type parameter `P`.
+    /// Whether the model's fields have a type of their own, the type parameter `P`.
     own_fields: bool,
 }
 
@@ -42,12 +42,12 @@ impl Number {
         }
     }
 
-    /// The number with the multiply-adds and polynomials of the type parameter `A`.
+    /// This number with the multiply-adds and polynomials of the type parameter `A`.
     pub(super) fn with_arithmetic(&self) -> Number {
         Number { arithmetic: true, ..self.clone() }
     }
 
-    /// The number as the target is compiled for.
+    /// This number with the arithmetic of the compilation target.
     pub(super) fn without_arithmetic(&self) -> Number {
         Number { arithmetic: false, ..self.clone() }
     }
@@ -56,7 +56,7 @@ impl Number {
         self.arithmetic
     }
 
-    /// The number as any scalar of the runtime; `own_fields` if the model has fields.
+    /// Any scalar of the runtime in place of this number; `own_fields` must be set if the model has fields.
     pub(super) fn generic(&self, own_fields: bool) -> Number {
         Number { kind: Kind::Generic, own_fields, ..self.clone() }
     }
@@ -69,7 +69,7 @@ impl Number {
         &self.runtime
     }
 
-    /// The type.
+    /// The Rust type.
     pub(super) fn ty(&self) -> Type {
         match self.kind {
             Kind::Scalar(scalar) => scalar_type(scalar),
@@ -77,7 +77,7 @@ impl Number {
         }
     }
 
-    /// The generic parameters of a function that computes with it.
+    /// The generic parameters of a function that computes with this number.
     pub(super) fn generics(&self) -> syn::Generics {
         let runtime = &self.runtime;
         match self.kind {
@@ -86,7 +86,7 @@ impl Number {
         }
     }
 
-    /// The bounds on the types beyond `T` being a scalar.
+    /// The bounds on the types, in addition to `T` being a scalar.
     pub(super) fn where_clause(&self) -> Option<syn::WhereClause> {
         let runtime = &self.runtime;
         let fields = self.own_fields.then(|| quote!(P: #runtime::Field<T>));
@@ -128,7 +128,8 @@ impl Number {
         if self.arithmetic { parse_quote!(A::mul_add) } else { self.method("mul_add") }
     }
 
-    /// The reciprocal of what is positive: of a float by a function that is `const`, for constructors.
+    /// The function for the reciprocal of a positive number. For floats it is a `const` function, so that constructors
+    /// can call it.
     pub(super) fn recip_positive(&self) -> Expr {
         let runtime = &self.runtime;
         match self.kind {
@@ -138,7 +139,7 @@ impl Number {
         }
     }
 
-    /// `sin_cos` of one angle by the chosen trigonometry.
+    /// The function for one angle with this name, such as `sin_cos`, of the chosen trigonometry.
     pub(super) fn circular(&self, name: &str) -> Expr {
         let (runtime, ty) = (&self.runtime, self.ty());
         let name = Ident::new(name, proc_macro2::Span::call_site());
@@ -162,7 +163,7 @@ impl Number {
         }
     }
 
-    /// The same by polynomials, for the body of a loop over states.
+    /// The same function by polynomials, for the body of a loop over states.
     pub(super) fn circular_each(&self) -> Expr {
         let runtime = &self.runtime;
         if self.arithmetic {
@@ -173,7 +174,7 @@ impl Number {
     }
 }
 
-/// The type of Rust.
+/// The Rust type of a scalar.
 pub(super) fn scalar_type(scalar: Scalar) -> Type {
     match scalar {
         Scalar::F64 => parse_quote!(f64),
@@ -193,7 +194,7 @@ mod tests {
         number.constant(value).to_token_stream().to_string().replace(' ', "")
     }
 
-    /// To the last bit: tests of generated code allow for the roundings of many operations.
+    /// Checks to the last bit, because other tests of generated code have tolerances for rounding.
     #[test]
     fn constants_are_the_nearest_numbers_of_the_type() {
         let values = [0.1, 1.0 / 3.0, 9.81, 16_777_217.0, 1e-30, 3.0e38, 2.5e-7];

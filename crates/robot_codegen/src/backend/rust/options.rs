@@ -16,13 +16,13 @@ pub struct RustOptions {
     pub trigonometry: Trigonometry,
     /// The number type of the functions.
     pub scalar: Scalar,
-    /// Whether each function has a second form `…_generic` over any scalar of the runtime, lanes
-    /// among them.
+    /// Whether each function has a second form `…_generic` over any scalar of the runtime, including
+    /// lanes.
     pub generic: bool,
-    /// Whether each function has a form `…_batch` over slices of states, computed in blocks of so
-    /// many, which LLVM turns into vectors; 8 is a good number.
+    /// The number of states in a block, if each function has a form `…_batch` over slices of states, which computes
+    /// them in blocks that LLVM turns into vectors. 8 is a good number.
     pub batch: Option<usize>,
-    /// Whether each batch has a form `…_batch_parallel` too, over the threads of the crate `rayon`.
+    /// Whether each batch also has a form `…_batch_parallel`, on the threads of the crate `rayon`.
     pub parallel: Parallel,
     /// The wrapping of the items.
     pub wrapping: Wrapping,
@@ -36,7 +36,7 @@ pub struct RustOptions {
 }
 
 impl Default for RustOptions {
-    /// `f64` by the runtime's sine and cosine, in a module, without generic forms.
+    /// Options for `f64` with the runtime's sine and cosine, in a module, without generic forms.
     fn default() -> RustOptions {
         RustOptions {
             header: vec![],
@@ -57,10 +57,10 @@ impl Default for RustOptions {
 /// Whether batches are computed by several threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Parallel {
-    /// By the caller's alone.
+    /// No: only on the caller's thread.
     #[default]
     No,
-    /// By those of `rayon`, which the crate around the code depends on.
+    /// Yes: on the threads of `rayon`, on which the crate around the code must depend.
     Yes,
     /// Adds parallel forms if the crate around the code has its feature `rayon`.
     WithFeature,
@@ -69,11 +69,11 @@ pub enum Parallel {
 /// The wrapping of the items of a module.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Wrapping {
-    /// `pub mod name { … }` that allows the lints generated code cannot keep: for text that is
-    /// included somewhere, where an inner attribute is not allowed.
+    /// `pub mod name { … }` with attributes for the lints that generated code cannot satisfy; for text that is
+    /// included in a file, where inner attributes are not allowed.
     #[default]
     Module,
-    /// Nothing: the text is a module's or crate's own file, which should allow [`allowed_lints`].
+    /// No wrapping: the text is the file of a module or crate, which should allow [`allowed_lints`].
     ///
     /// [`allowed_lints`]: super::allowed_lints
     Items,

@@ -39,7 +39,7 @@ pub(super) fn fields(function: &Function) -> Vec<Ident> {
     output_names(function).iter().map(|name| ident(name)).collect()
 }
 
-/// What the variable `result` has of each output: itself, or a field.
+/// For each output, the expression for its value in the variable `result`: the variable itself or a field.
 pub(super) fn of_result(scope: &Scope<'_>, function: &Function) -> Vec<Expr> {
     match scope.output_type(function) {
         None => vec![parse_quote!(result)],
@@ -56,7 +56,7 @@ pub(super) fn returned(scope: &Scope<'_>, function: &Function, number: &Number) 
     }
 }
 
-/// The results of a program as the value that its function returns.
+/// Combines the results of a program into the value that its function returns.
 pub(super) fn value(scope: &Scope<'_>, function: &Function, results: Vec<Expr>) -> Expr {
     let mut results = results.into_iter();
     let mut values = function.outputs.iter().map(|output| shape(output, &mut results));
@@ -70,7 +70,7 @@ pub(super) fn value(scope: &Scope<'_>, function: &Function, results: Vec<Expr>) 
     }
 }
 
-/// The next results in the shape of an output.
+/// Combines the next results into the shape of an output.
 fn shape(output: &Output, results: &mut impl Iterator<Item = Expr>) -> Expr {
     let mut next = |count: usize| results.by_ref().take(count).collect::<Vec<_>>();
     match output.shape.as_slice() {

@@ -10,21 +10,21 @@ use super::scope::Scope;
 use super::syntax;
 use crate::program::Source;
 
-/// A function whose body may be cut.
+/// A function whose body can be cut.
 pub(super) struct CutFunction<'f> {
     /// The number type.
     pub(super) number: &'f Number,
-    /// The name of the function whose body it is.
+    /// The name of the function.
     pub(super) name: &'f Ident,
-    /// Whether that is a method of the model, not its constructor.
+    /// Whether the function is a method of the model, and not its constructor.
     pub(super) is_method: bool,
-    /// Whether it is `const`.
+    /// Whether the function is `const`.
     pub(super) is_const: bool,
-    /// The variable that a load reads, for those loads that are variables.
+    /// Returns the variable that a load reads, for loads that are variables.
     pub(super) source_name: &'f dyn Fn(Source) -> Option<Ident>,
 }
 
-/// The statements of a body, and the functions of its parts if it is long.
+/// Returns the statements of a body, and the functions of its parts if it is long.
 pub(super) fn statements(
     scope: &mut Scope<'_>,
     body: &Body<'_>,

@@ -1,4 +1,4 @@
-//! The names of a module and what every printer of its items needs.
+//! The names of a module and other data that all printers of its items need.
 
 use proc_macro2::Ident;
 
@@ -10,7 +10,7 @@ use crate::backend::common::{Scalar, check_range};
 use crate::error::{Error, Errors};
 use crate::module::{Function, Module};
 
-/// The names of a module.
+/// The names of a module, its options and its number types.
 pub(super) struct Scope<'a> {
     pub(super) module: &'a Module,
     pub(super) options: &'a RustOptions,
@@ -30,9 +30,9 @@ pub(super) struct Scope<'a> {
     pub(super) functions: Vec<Ident>,
     /// For each function with several outputs, the type that holds them.
     output_types: Vec<Option<Ident>>,
-    /// The names that variables must not have: a pattern would mean the constant or type.
+    /// The namer of variables, which must not have the names of constants and types: a pattern would refer to these.
     values: Namer,
-    /// The functions of `Model`.
+    /// The namer of the functions of `Model`.
     pub(super) methods: Namer,
 }
 
@@ -40,11 +40,11 @@ fn runtime_path(path: &str) -> Result<syn::Path, Error> {
     syn::parse_str(path).map_err(|_| Error::RuntimePath { path: path.to_owned() })
 }
 
-/// Checks a path of the runtime, such as `::robot_runtime`, as generated code shall name it.
+/// Checks a path of the runtime that generated code will use, such as `::robot_runtime`.
 ///
 /// # Errors
 ///
-/// A text that is not a path of Rust.
+/// The text is not a Rust path.
 pub fn check_runtime_path(path: &str) -> Result<(), Error> {
     runtime_path(path).map(drop)
 }
@@ -82,24 +82,25 @@ impl<'a> Scope<'a> {
         })
     }
 
-    /// A namer for the variables of a function.
+    /// Makes a namer for the variables of a function.
     pub(super) fn variables(&self) -> Namer {
         self.values.clone()
     }
 
-    /// The type that holds the outputs of a function with several.
+    /// The type that holds the outputs of a function, if it has several.
     pub(super) fn output_type(&self, function: &Function) -> Option<Ident> {
         let mut functions = self.module.functions.iter();
         let index = functions.position(|known| known.name == function.name)?;
         self.output_types[index].clone()
     }
 
-    /// Whether the model's fields may be of any type: if there are some and functions over any scalar.
+    /// Whether the type of the model's fields is a parameter, that is, if there are fields and functions over any
+    /// scalar.
     pub(super) fn has_own_fields(&self) -> bool {
         self.has_parameters() && self.options.generic
     }
 
-    /// Whether the module's model exists without parameters being given.
+    /// Whether the module has parameters.
     pub(super) fn has_parameters(&self) -> bool {
         !self.module.parameters.is_empty()
     }

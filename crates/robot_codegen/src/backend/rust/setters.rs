@@ -27,14 +27,14 @@ impl Argument<'_> {
         quote!(#name: #ty)
     }
 
-    /// `let [x, y, z] = center_of_mass;`
+    /// Makes `let [x, y, z] = center_of_mass;` for an array.
     fn take(&self) -> Option<Stmt> {
         let (name, entries) = (&self.name, &self.entries);
         (entries.len() > 1).then(|| parse_quote!(let [#(#entries),*] = #name;))
     }
 }
 
-/// The setters on `Parameters`, and the models that they give of the nominal parameters.
+/// Prints the setters of `Parameters`, and functions of `Model` that apply them to the nominal parameters.
 pub(super) fn items(scope: &Scope<'_>, is_const: bool) -> Vec<Item> {
     let options = scope.options;
     let constness = is_const.then(|| quote!(const));
@@ -75,7 +75,7 @@ fn arguments<'a>(scope: &Scope<'_>, setter: &'a Setter) -> Vec<Argument<'a>> {
     named.into_iter().map(argument).collect()
 }
 
-/// The field of a parameter.
+/// Returns the field of a parameter.
 fn field<'s>(scope: &'s Scope<'_>, name: &str) -> Option<&'s Ident> {
     let index = scope.module.parameters.iter().position(|parameter| parameter.name == name)?;
     scope.parameters.get(index)

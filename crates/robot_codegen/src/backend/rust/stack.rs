@@ -1,23 +1,22 @@
-//! An estimate of the stack that generated code takes, without a compiler.
+//! An estimate of the stack that generated code needs, without a compiler.
 
 use super::LANGUAGE;
 use crate::module::Function;
 use crate::program::{Program, Statements, Value};
 
-/// The stack of a function apart from its values: return addresses, saved registers, places of
-/// arguments, an expression's values while it is computed.
+/// The stack of a function in bytes, without its named values: return addresses, saved registers, places of
+/// arguments, values within an expression.
 const FIXED: usize = 256;
 
-/// An estimate, from above, of the bytes of stack that a call of a function takes if nothing is
-/// optimized, sines and cosines themselves apart. `scalar` is the size of a number, 8 or 4 bytes.
+/// Estimates from above the bytes of stack that a call of a function needs without optimization, not counting the
+/// stack of sines and cosines. `scalar` is the size of a number, 8 or 4 bytes.
 ///
-/// Without optimization rustc gives every named value a place of its own. There are the statements
-/// of the program, those that leave a block twice more, as a part of its tuple and by their outer name;
-/// the entries of inputs, angles, sines and cosines, each twice: in its array and
-/// where a pattern takes it; the outputs four times: as numbers, as rows, as arrays and as the
-/// result; and one in four of the values that wait inside an expression for another one, for the rest
-/// while registers last. Optimized code takes less. This is not a proof: tests compare it with what the compiler
-/// makes of every robot of the project, and `robot-symbolic prove` measures.
+/// Without optimization, rustc gives every named value a place of its own. The estimate counts each statement of the
+/// program once; the values that leave a block twice more, as parts of its tuple and under their outer names;
+/// the entries of inputs, angles, sines and cosines twice, in their arrays and in patterns; the outputs four times, as
+/// numbers, as rows, as arrays and as the result; and a quarter of the values that wait within an expression for
+/// another operand, because registers hold the others. Optimized code needs less. The estimate is not a proof: tests
+/// compare it with compiled code of every robot of the project, and `robot-symbolic prove` measures the stack.
 #[must_use]
 pub fn estimate(function: &Function, scalar: usize) -> usize {
     let programs = [&function.core, &function.angles];
@@ -32,7 +31,7 @@ pub fn estimate(function: &Function, scalar: usize) -> usize {
             * (statements + live_values / 4 + 2 * leaving + 2 * (inputs + angles) + 4 * outputs)
 }
 
-/// The values without a name that wait for another operand of what uses them.
+/// The number of values without a name that wait for another operand of the operation that uses them.
 fn live_values(program: &Program) -> usize {
     let grouped = statements(program);
     let is_inside =
@@ -42,14 +41,14 @@ fn live_values(program: &Program) -> usize {
     inside.map(|operands| operands.count().saturating_sub(1)).sum()
 }
 
-/// The values that leave blocks, if there are several.
+/// The number of values that leave blocks, if there are several blocks.
 fn leaving(program: &Program) -> usize {
     let grouped = statements(program);
     let blocks = || grouped.parts.iter().flat_map(|part| &part.blocks);
     if blocks().count() < 2 { 0 } else { blocks().map(|block| block.leaving.len()).sum() }
 }
 
-/// The statements of a program as Rust.
+/// Groups a program into statements of Rust.
 fn statements(program: &Program) -> Statements {
     Statements::new(program, &LANGUAGE.limits)
 }

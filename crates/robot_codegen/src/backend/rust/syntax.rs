@@ -1,7 +1,7 @@
 //! Nodes of Rust's syntax tree.
 //!
-//! Expressions are built as nodes, never as tokens: printing nodes puts parentheses where
-//! precedence asks for them, pasting tokens loses them.
+//! Expressions are built as nodes, never as tokens: parentheses are printed around nodes where
+//! precedence requires them, but would be lost if tokens were pasted.
 
 use proc_macro2::{Ident, Literal, Span};
 use syn::punctuated::Punctuated;
@@ -55,7 +55,7 @@ pub(super) fn array(elements: impl IntoIterator<Item = Expr>) -> Expr {
     })
 }
 
-/// A tuple, or the element itself if there is one only.
+/// A tuple, or the element itself if there is only one.
 pub(super) fn tuple(elements: Vec<Expr>) -> Expr {
     match <[Expr; 1]>::try_from(elements) {
         Ok([element]) => element,
@@ -109,7 +109,7 @@ pub(super) fn array_pattern(elements: impl IntoIterator<Item = Pat>) -> Pat {
     })
 }
 
-/// A tuple of names, or the name itself if there is one only.
+/// A tuple of names, or the name itself if there is only one.
 pub(super) fn tuple_pattern(names: &[Ident]) -> Pat {
     match names {
         [name] => binding(name),
@@ -156,7 +156,7 @@ pub(super) fn impl_model(items: Vec<ImplItem>) -> Item {
     Item::Impl(block)
 }
 
-/// Methods of a model whatever its fields are: they are of the type `P`.
+/// Methods of a model with fields of any type `P`.
 pub(super) fn impl_model_of_any_fields(items: Vec<ImplItem>) -> Item {
     let mut block: syn::ItemImpl = parse_quote!(
         impl<P: ::core::marker::Copy> Model<P> {}
@@ -165,8 +165,8 @@ pub(super) fn impl_model_of_any_fields(items: Vec<ImplItem>) -> Item {
     Item::Impl(block)
 }
 
-/// A function whose body is the statements and then the value. `signature` has an empty body; the
-/// nodes of a long body are not printed and parsed again.
+/// A function whose body has these statements, followed by the value. `signature` has an empty body, so that the
+/// nodes of a long body are not converted to tokens and parsed again.
 pub(super) fn with_body(mut signature: ImplItemFn, statements: Vec<Stmt>, value: Expr) -> ImplItem {
     signature.block.stmts = statements;
     signature.block.stmts.push(Stmt::Expr(value, None));
@@ -178,7 +178,7 @@ pub(super) fn float(value: f64) -> Expr {
     constant(Scalar::F64, value)
 }
 
-/// A placeholder for a load without a variable, which no program of a checked module contains.
+/// A placeholder for a load without a variable, which does not occur in programs of checked modules.
 pub(super) fn nothing() -> Expr {
     parse_quote!(f64::NAN)
 }

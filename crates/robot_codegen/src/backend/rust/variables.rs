@@ -1,4 +1,4 @@
-//! The variables of a method: what its loads read, and the patterns that take arrays apart.
+//! The variables of a method, which its loads read, and the patterns that split arrays into variables.
 
 use proc_macro2::Ident;
 use syn::{Pat, Stmt, parse_quote};
@@ -12,7 +12,7 @@ use crate::program::{Program, Source};
 
 /// The variables of a method.
 pub(super) struct Variables {
-    /// The namer of the rest.
+    /// The namer for further variables.
     pub(super) namer: Namer,
     /// The arrays of the inputs.
     pub(super) inputs: Vec<Ident>,
@@ -41,7 +41,7 @@ impl Variables {
         Variables { namer, inputs, entries, sines, sine, cosines, cosine }
     }
 
-    /// The variable that a load reads, if it is one.
+    /// Returns the variable that a load reads, if it reads one.
     pub(super) fn name(&self, source: Source) -> Option<Ident> {
         let (names, index) = match source {
             Source::Input(index) => (&self.entries, index),
@@ -52,13 +52,13 @@ impl Variables {
         names.get(index as usize).cloned()
     }
 
-    /// The variables of those inputs that are chosen.
+    /// Returns the variables of the chosen inputs.
     pub(super) fn chosen(&self, choice: &[bool]) -> Vec<&Ident> {
         let inputs = self.inputs.iter().zip(choice);
         inputs.filter(|(_, chosen)| **chosen).map(|(input, _)| input).collect()
     }
 
-    /// `let [q1, _, q3] = *q;` for each input whose entries the program loads.
+    /// Makes `let [q1, _, q3] = *q;` for each input whose entries the program loads.
     pub(super) fn take_entries(&self, function: &Function, program: &Program) -> Vec<Stmt> {
         let sources = program.sources();
         let mut entries = self.entries.iter().zip(0..);
@@ -76,7 +76,7 @@ impl Variables {
         statements
     }
 
-    /// `let [q1, q2, q3, _] = *anywhere(q);` for the entries of a lane, of those inputs that are chosen.
+    /// Makes `let [q1, q2, q3, _] = *anywhere(q);` for the entries of a lane, for each chosen input.
     pub(super) fn take_lane(
         &self,
         function: &Function,
@@ -99,7 +99,7 @@ impl Variables {
         statements
     }
 
-    /// `let [sq1, _] = *s;` and the same for the cosines.
+    /// Makes `let [sq1, _] = *s;` and the same for the cosines.
     pub(super) fn take_angles(&self, program: &Program) -> [Stmt; 2] {
         let sources = program.sources();
         let sines = self.sine.iter().zip(0..);
@@ -109,7 +109,7 @@ impl Variables {
         [take(&self.sines, sines.collect()), take(&self.cosines, cosines.collect())]
     }
 
-    /// `(sq1, cq1)` for each angle.
+    /// Makes the pattern `(sq1, cq1)` for each angle.
     pub(super) fn sines_and_cosines(&self, program: &Program) -> Vec<Pat> {
         let sources = program.sources();
         let pairs = self.sine.iter().zip(&self.cosine).zip(0..);
@@ -121,7 +121,7 @@ impl Variables {
         pairs.collect()
     }
 
-    /// Binds inputs that are not used otherwise to nothing, so that they are not unused variables.
+    /// Binds inputs that are not used to `_`, so that the compiler does not warn about unused variables.
     pub(super) fn ignore(&self, used: &[bool]) -> Vec<Stmt> {
         let unused: Vec<bool> = used.iter().map(|used| !used).collect();
         let inputs = self.chosen(&unused).into_iter();

@@ -1,4 +1,4 @@
-//! From the statements of a tree to instructions.
+//! Translation of the statements of a tree to instructions.
 
 use std::collections::HashMap;
 
@@ -10,33 +10,33 @@ use super::helpers::Functions;
 use super::module::Assembly;
 use crate::backend::flat::{Body, Expression, Operator, Part, Statement};
 
-/// Where a body reads and writes.
+/// The locals with the addresses that a body reads.
 pub(super) struct Places<'p> {
     /// The local with the address of the model, or of the parameters in the constructor.
     pub(super) model: Option<Local>,
     /// The locals with the addresses of the inputs.
     pub(super) inputs: &'p [Local],
-    /// The local with the bytes between the columns of arrays, if entries lie in columns.
+    /// The local with the number of bytes from one column of an array to the next, if entries are in columns.
     pub(super) stride: Option<Local>,
 }
 
-/// The last use of a variable: the number of a statement, or behind all of them.
+/// The last use of a variable that the results use; other last uses are indices of statements.
 const END: usize = usize::MAX;
 
-/// Puts the statements of a body and leaves its variables to its results.
+/// Writes the statements of a body; its variables are then in locals for the results.
 pub(super) struct Writer<'w> {
     pub(super) code: Code,
     functions: &'w Functions,
     places: &'w Places<'w>,
     locals: HashMap<&'w str, Local>,
     last_uses: HashMap<&'w str, usize>,
-    /// The locals whose variables are not used any more.
+    /// The locals whose variables are no longer used.
     free: Vec<Local>,
-    /// The addresses of variables that parts of the body hand on.
+    /// The addresses of variables that parts of the body pass on.
     slots: &'w HashMap<&'w str, u32>,
 }
 
-/// The addresses through which the parts of a body hand on their variables.
+/// Reserves addresses for the variables that the parts of a body pass on.
 pub(super) fn slots<'b>(
     body: &'b Body,
     kind: Kind,
@@ -54,7 +54,7 @@ pub(super) fn slots<'b>(
     slots
 }
 
-/// The functions of the parts of a body.
+/// Adds the functions of the parts of a body; returns their indices.
 pub(super) fn parts(
     body: &Body,
     kind: Kind,
@@ -83,7 +83,8 @@ impl<'w> Writer<'w> {
         Writer { code, functions, places, locals, last_uses, free: vec![], slots }
     }
 
-    /// Puts statements; the results are what is computed of their variables later. `parts` are the functions of parts.
+    /// Writes statements. `results` are expressions that the caller computes later from their variables; `parts` are
+    /// the indices of the functions of parts.
     pub(super) fn statements(
         &mut self,
         statements: &'w [Statement],
@@ -146,13 +147,13 @@ impl<'w> Writer<'w> {
         };
     }
 
-    /// The entry of an input.
+    /// Loads an entry of an input.
     fn entry(&mut self, array: Local, entry: u32) {
         let offset = self.entry_address(array, entry);
         self.code.load(offset);
     }
 
-    /// Puts the address of an entry but for the offset that is given.
+    /// Writes the base address of an entry and returns the offset to add to it.
     pub(super) fn entry_address(&mut self, array: Local, entry: u32) -> u32 {
         self.code.get(array);
         match self.places.stride {
@@ -164,7 +165,7 @@ impl<'w> Writer<'w> {
         }
     }
 
-    /// Gives what is on the stack to a variable.
+    /// Assigns the value on the stack to a variable.
     fn set(&mut self, name: &'w str, index: usize) {
         if !self.last_uses.contains_key(name) && !self.slots.contains_key(name) {
             self.code.drop();
@@ -176,7 +177,7 @@ impl<'w> Writer<'w> {
         if let Some(slot) = self.slots.get(name) {
             self.code.whole(0).get(local).store(*slot);
         }
-        // What only parts use has no further use of the local.
+        // A variable that only parts use does not need the local any longer.
         if self.last_uses.get(name).is_none_or(|last| *last <= index) {
             self.free.push(local);
         } else {
@@ -193,7 +194,7 @@ impl<'w> Writer<'w> {
         });
     }
 
-    /// Puts the value of an expression.
+    /// Writes the computation of an expression, whose value is then on the stack.
     pub(super) fn value(&mut self, expression: &Expression) {
         match expression {
             Expression::Constant(value) => {
@@ -266,7 +267,7 @@ fn variables<'e>(value: &'e Expression, visit: &mut impl FnMut(&'e str)) {
     }
 }
 
-/// Adds to an address the bytes to a column, `stride` bytes from one to the next.
+/// Adds to the address on the stack the distance to a column; columns are `stride` bytes apart.
 pub(super) fn column(code: &mut Code, stride: Local, entry: u32) {
     match entry {
         0 => {}

@@ -1,20 +1,20 @@
-//! The instructions of a function, over single numbers or over lanes of them by one spelling.
+//! The instructions of a function; the same methods write them for single numbers and for lanes.
 
 use wasm_encoder::{BlockType, InstructionSink, MemArg, ValType};
 
 use crate::backend::common::Scalar;
 
-/// What a local of the function's own type holds.
+/// The kind of values with which a function computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Kind {
     /// The number type.
     pub(super) scalar: Scalar,
-    /// Whether there are several numbers side by side, in 128 bits.
+    /// Whether a value consists of several numbers in lanes, in 128 bits.
     pub(super) lanes: bool,
 }
 
 impl Kind {
-    /// The type of values.
+    /// The WebAssembly type of a value.
     pub(super) fn value(self) -> ValType {
         match (self.lanes, self.scalar) {
             (true, _) => ValType::V128,
@@ -23,7 +23,7 @@ impl Kind {
         }
     }
 
-    /// The type of the bits of values.
+    /// The WebAssembly type of the bits of a value.
     pub(super) fn bits(self) -> ValType {
         match (self.lanes, self.scalar) {
             (true, _) => ValType::V128,
@@ -32,27 +32,27 @@ impl Kind {
         }
     }
 
-    /// The bytes of a number.
+    /// The size of a number, in bytes.
     pub(super) fn size(self) -> u32 {
         if self.scalar == Scalar::F64 { 8 } else { 4 }
     }
 
-    /// The bytes of a value.
+    /// The size of a value, in bytes.
     pub(super) fn bytes(self) -> u32 {
         if self.lanes { 16 } else { self.size() }
     }
 
-    /// The bits of a number.
+    /// The size of a number, in bits.
     pub(super) fn width(self) -> u32 {
         8 * self.size()
     }
 
-    /// The bit of the sign.
+    /// The sign bit.
     pub(super) fn sign(self) -> u64 {
         1 << (self.width() - 1)
     }
 
-    /// A number of the type as bits.
+    /// The bits of a number of the type.
     pub(super) fn pattern(self, value: f64) -> u64 {
         match self.scalar {
             Scalar::F64 => value.to_bits(),
@@ -70,7 +70,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Local(pub(super) u32);
 
-/// The instructions of a function in the making.
+/// The instructions of a function under construction.
 pub(super) struct Code {
     pub(super) kind: Kind,
     pub(super) parameters: Vec<ValType>,
@@ -79,8 +79,8 @@ pub(super) struct Code {
     pub(super) bytes: Vec<u8>,
 }
 
-/// Defines methods that put an instruction of the kind of the function, named for 64-bit numbers, 32-bit numbers and
-/// lanes of both.
+/// Defines methods that write an instruction for the kind of the function. The instruction is given for 64-bit numbers,
+/// for 32-bit numbers, and for lanes of both.
 macro_rules! instructions {
     ($($(#[$doc:meta])* $name:ident = $f64:ident $f32:ident $f64x2:ident $f32x4:ident;)*) => {
         $(
@@ -109,19 +109,19 @@ impl Code {
         InstructionSink::new(&mut self.bytes)
     }
 
-    /// A new local of a type.
+    /// Adds a local of a type.
     pub(super) fn local(&mut self, ty: ValType) -> Local {
         self.locals.push(ty);
         Local((self.parameters.len() + self.locals.len() - 1) as u32)
     }
 
-    /// New locals for values.
+    /// Adds locals for values.
     pub(super) fn values<const N: usize>(&mut self) -> [Local; N] {
         let ty = self.kind.value();
         [(); N].map(|()| self.local(ty))
     }
 
-    /// New locals for the bits of values.
+    /// Adds locals for the bits of values.
     pub(super) fn patterns<const N: usize>(&mut self) -> [Local; N] {
         let ty = self.kind.bits();
         [(); N].map(|()| self.local(ty))
@@ -147,7 +147,7 @@ impl Code {
         self
     }
 
-    /// An address or a count.
+    /// Writes an address or a count.
     pub(super) fn whole(&mut self, value: u32) -> &mut Code {
         self.sink().i32_const(value.cast_signed());
         self
@@ -161,19 +161,19 @@ impl Code {
         neg = f64_neg f32_neg f64x2_neg f32x4_neg;
         abs = f64_abs f32_abs f64x2_abs f32x4_abs;
         sqrt = f64_sqrt f32_sqrt f64x2_sqrt f32x4_sqrt;
-        /// Bit by bit.
+        /// Bitwise AND.
         and = i64_and i32_and v128_and v128_and;
-        /// Bit by bit.
+        /// Bitwise OR.
         or = i64_or i32_or v128_or v128_or;
-        /// Bit by bit.
+        /// Bitwise exclusive OR.
         xor = i64_xor i32_xor v128_xor v128_xor;
-        /// Of bits as whole numbers.
+        /// The sum of bits as integers.
         whole_add = i64_add i32_add i64x2_add i32x4_add;
-        /// Of bits as whole numbers.
+        /// The difference of bits as integers.
         whole_sub = i64_sub i32_sub i64x2_sub i32x4_sub;
     }
 
-    /// A number, in all lanes.
+    /// Writes a number, in all lanes.
     pub(super) fn number(&mut self, value: f64) -> &mut Code {
         let kind = self.kind;
         match (kind.lanes, kind.scalar) {
@@ -184,7 +184,7 @@ impl Code {
         self
     }
 
-    /// Bits, in all lanes.
+    /// Writes a pattern of bits, in all lanes.
     pub(super) fn pattern(&mut self, bits: u64) -> &mut Code {
         let Kind { scalar, lanes } = self.kind;
         let wide = match scalar {
@@ -201,7 +201,7 @@ impl Code {
         self
     }
 
-    /// The bits of a value.
+    /// Reinterprets a value as its bits.
     pub(super) fn bits_of(&mut self) -> &mut Code {
         match (self.kind.lanes, self.kind.scalar) {
             (true, _) => return self,
@@ -211,7 +211,7 @@ impl Code {
         self
     }
 
-    /// The value of bits.
+    /// Reinterprets bits as a value.
     pub(super) fn value_of(&mut self) -> &mut Code {
         match (self.kind.lanes, self.kind.scalar) {
             (true, _) => return self,
@@ -221,7 +221,7 @@ impl Code {
         self
     }
 
-    /// Bits to the left by so many places.
+    /// Shifts bits to the left by a number of places.
     pub(super) fn left(&mut self, places: u32) -> &mut Code {
         let Kind { scalar, lanes } = self.kind;
         if lanes || scalar == Scalar::F32 {
@@ -238,7 +238,7 @@ impl Code {
         self
     }
 
-    /// All bits if the highest is set, else none.
+    /// Sets all bits if the highest is set, otherwise none.
     pub(super) fn spread_sign(&mut self) -> &mut Code {
         let Kind { scalar, lanes } = self.kind;
         let places = self.kind.width() - 1;
@@ -256,7 +256,7 @@ impl Code {
         self
     }
 
-    /// All bits if the first value is above the second, else none.
+    /// Sets all bits if the first value is larger than the second, otherwise none.
     pub(super) fn is_above(&mut self) -> &mut Code {
         match (self.kind.lanes, self.kind.scalar) {
             (false, Scalar::F64) => self.sink().f64_gt(),
@@ -267,7 +267,7 @@ impl Code {
         self.mask()
     }
 
-    /// All bits if the values differ or one is NaN, else none.
+    /// Sets all bits if the values differ or one is NaN, otherwise none.
     pub(super) fn differs(&mut self) -> &mut Code {
         match (self.kind.lanes, self.kind.scalar) {
             (false, Scalar::F64) => self.sink().f64_ne(),
@@ -278,7 +278,8 @@ impl Code {
         self.mask()
     }
 
-    /// All bits for 1, none for 0; lanes of a comparison are masks already.
+    /// Turns the result of a comparison of numbers, 1 or 0, into all bits or none; comparisons of lanes are masks
+    /// already.
     fn mask(&mut self) -> &mut Code {
         match (self.kind.lanes, self.kind.scalar) {
             (true, _) => self,
@@ -298,7 +299,7 @@ impl Code {
         MemArg { offset: u64::from(offset), align, target: Default::default(), ordering: None }
     }
 
-    /// The value at an address.
+    /// Loads the value at an address.
     pub(super) fn load(&mut self, offset: u32) -> &mut Code {
         let place = self.place(offset);
         match (self.kind.lanes, self.kind.scalar) {
@@ -309,7 +310,7 @@ impl Code {
         self
     }
 
-    /// The number at an address, in all lanes.
+    /// Loads the number at an address into all lanes.
     pub(super) fn load_number(&mut self, offset: u32) -> &mut Code {
         let place = self.place(offset);
         match (self.kind.lanes, self.kind.scalar) {
@@ -320,7 +321,7 @@ impl Code {
         self
     }
 
-    /// Stores a value at an address, which stands below it.
+    /// Stores a value at an address, which is below it on the stack.
     pub(super) fn store(&mut self, offset: u32) -> &mut Code {
         let place = self.place(offset);
         match (self.kind.lanes, self.kind.scalar) {
@@ -331,7 +332,7 @@ impl Code {
         self
     }
 
-    /// Repeats what `body` puts as long as the count in `local` is `least` or more.
+    /// Writes a loop that repeats the instructions of `body` while the count in `local` is at least `least`.
     pub(super) fn repeat(&mut self, local: Local, least: u32, body: impl FnOnce(&mut Code)) {
         self.sink().block(BlockType::Empty).loop_(BlockType::Empty);
         self.get(local).whole(least);

@@ -1,10 +1,10 @@
-//! The declarations of the ES module for TypeScript.
+//! The TypeScript declarations of the ES module.
 
 use super::Printer;
 use crate::backend::flat::Function;
 use crate::backend::javascript::{self, documentation};
 
-/// The text of the declarations.
+/// Prints the declarations.
 pub(super) fn text(printer: &Printer<'_>) -> String {
     let (tree, options) = (printer.tree, printer.options);
     let of_javascript = javascript::Printer { tree, options };

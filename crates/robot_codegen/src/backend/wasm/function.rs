@@ -1,4 +1,4 @@
-//! The functions of a module: of one state, and over columns of states.
+//! The functions of a module: for one state, and over columns of states.
 
 use wasm_encoder::ValType;
 
@@ -9,7 +9,8 @@ use super::module::{Assembly, GATHERED};
 use crate::backend::common::Scalar;
 use crate::backend::flat::{Body, Expression, Function, Tree};
 
-/// The constructor: from the address of the model and that of the parameters, which are in double precision.
+/// Adds the constructor, which takes the address of the model and that of the parameters, which are in double
+/// precision.
 pub(super) fn constructor(
     tree: &Tree<'_>,
     scalar: Scalar,
@@ -38,7 +39,7 @@ pub(super) fn constructor(
     assembly.add(writer.code)
 }
 
-/// The locals of a function's arguments: the model if there is one, what stands before the arrays, the arrays.
+/// The locals of a function's arguments: the model if there is one, numbers that precede the arrays, and the arrays.
 struct Arguments {
     model: Option<Local>,
     before: Vec<Local>,
@@ -67,8 +68,9 @@ impl Arguments {
     }
 }
 
-/// The function of a kind: of one state, or of several whose entries lie in columns. It takes the addresses of the
-/// model, if there is one, and of all arrays; between them the bytes from one column to the next.
+/// Adds the function of a kind: for one state, or for several whose entries are in columns. It takes the address of the
+/// model, if there is one; for several states, the number of bytes from one column to the next; and the addresses of
+/// all arrays.
 pub(super) fn function(
     tree: &Tree<'_>,
     function: &Function<'_>,
@@ -99,9 +101,9 @@ pub(super) fn function(
     assembly.add(writer.code)
 }
 
-/// The function over `n` states: several at once by `lanes`, the rest one by one by `single`, through an array of each
-/// input and output at [`GATHERED`]. It takes the address of the model, if there is one, the number of states, the
-/// numbers from one column to the next, and the addresses of all arrays.
+/// Adds the function over `n` states. It calls `lanes` for several states at once, and `single` for each remaining
+/// state, which it copies to and from arrays at [`GATHERED`]. It takes the address of the model, if there is one, the
+/// number of states, the distance between columns in numbers, and the addresses of all arrays.
 pub(super) fn batch(
     tree: &Tree<'_>,
     function: &Function<'_>,
@@ -164,7 +166,7 @@ pub(super) fn batch(
     assembly.add(code)
 }
 
-/// The arrays with their lengths and the addresses at which one state of each is gathered.
+/// The arrays with their lengths and the addresses to which one state of each is copied.
 fn gathered(function: &Function<'_>, arguments: &Arguments, kind: Kind) -> Vec<(Local, u32, u32)> {
     let arrays = function.inputs.iter().chain(&function.outputs);
     let mut next = GATHERED;

@@ -1,12 +1,12 @@
-//! The functions that printed code calls: those of the runtime, with the same bits where it does not fuse products and
-//! sums.
+//! The helper functions that printed code calls. They are those of the runtime and have the same bits if the runtime
+//! does not fuse products and sums.
 
 use super::code::{Code, Kind, Local};
 use super::module::Assembly;
 use crate::backend::flat::Helpers;
 use crate::backend::flat::polynomials::{Circular, HyperbolicTangent};
 
-/// The indices of the helpers of a kind; 0 for those that nothing calls.
+/// The indices of the helpers for a kind of values; 0 for helpers that are not called.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Functions {
     /// Sine and cosine.
@@ -17,7 +17,7 @@ pub(super) struct Functions {
     pub(super) sign: u32,
     /// Hyperbolic tangent.
     pub(super) tanh: u32,
-    /// 1/x of what is positive.
+    /// 1/x of a positive number.
     pub(super) recip_positive: u32,
 }
 
@@ -47,8 +47,8 @@ impl Functions {
 
 const ARGUMENT: Local = Local(0);
 
-/// Sine and cosine of an angle, rad. By Cody and Waite, Software Manual for the Elementary Functions (1980), chapter 8:
-/// the angle less k right angles, and minimax polynomials.
+/// Writes sine and cosine of an angle in rad, after Cody and Waite, Software Manual for the Elementary Functions
+/// (1980), chapter 8: the angle minus k right angles, and minimax polynomials.
 fn sin_cos(mut code: Code) -> Code {
     let numbers = Circular::new(code.kind.scalar);
     let [shifted, k, r, z, zz, s, c] = code.values();
@@ -78,7 +78,7 @@ fn sin_cos(mut code: Code) -> Code {
     code
 }
 
-/// The argument, and NaN if its size is not below the limit.
+/// Writes the argument, or NaN if its absolute value is not below the limit.
 fn nan_unless_below(code: &mut Code, limit: f64) {
     let kind = code.kind;
     let rest = kind.sign() - kind.pattern(limit);
@@ -86,7 +86,7 @@ fn nan_unless_below(code: &mut Code, limit: f64) {
     code.spread_sign().get(ARGUMENT).bits_of().or().value_of();
 }
 
-/// A polynomial in `z`: in Estrin's order in double precision, in Horner's in single.
+/// Writes a polynomial in `z`, in Estrin's order in double precision and in Horner's order in single precision.
 fn polynomial(code: &mut Code, coefficients: &[f64], z: Local, zz: Local) {
     if let [c0, c1, c2, c3, c4, c5] = *coefficients {
         let pair = |code: &mut Code, low: f64, high: f64| {
@@ -107,13 +107,14 @@ fn polynomial(code: &mut Code, coefficients: &[f64], z: Local, zz: Local) {
     }
 }
 
-/// Sine and cosine of the angle from those of the angle less k right angles: swapped and signed by the low bits of k.
+/// Writes sine and cosine of the angle from those of the angle minus k right angles, which are swapped and change sign
+/// depending on the low bits of k.
 fn turned(code: &mut Code, shifted: Local, s: Local, c: Local) {
     let width = code.kind.width();
     let to_sign = width - 2;
     let [k, swap] = code.patterns();
     code.get(shifted).bits_of().set(k);
-    // All bits of swap if k is odd.
+    // `swap` has all bits set if k is odd.
     code.get(k).left(width - 1).spread_sign();
     code.get(s).bits_of().get(c).bits_of().xor().and().set(swap);
     code.get(s).bits_of().get(swap).xor();
@@ -128,19 +129,19 @@ fn cos(mut code: Code, sin_cos: u32) -> Code {
     code
 }
 
-/// The sign: −1, 0 or 1, and NaN of NaN.
+/// Writes the sign function: −1, 0 or 1, and NaN for NaN.
 fn sign(mut code: Code) -> Code {
     let kind = code.kind;
     let [unit] = code.patterns();
     code.get(ARGUMENT).bits_of().pattern(kind.sign()).and().pattern(kind.pattern(1.0)).or();
     code.get(ARGUMENT).number(0.0).differs().and().set(unit);
-    // A NaN keeps its own bits besides.
+    // For NaN, the bits of the argument are added.
     code.get(ARGUMENT).get(ARGUMENT).differs().get(ARGUMENT).bits_of().and();
     code.get(unit).or().value_of();
     code
 }
 
-/// 1/x of a number above 0 and finite, NaN of others.
+/// Writes 1/x for finite numbers above 0, and NaN for others.
 fn recip_positive(mut code: Code) -> Code {
     let kind = code.kind;
     let [bits] = code.patterns();
@@ -151,7 +152,7 @@ fn recip_positive(mut code: Code) -> Code {
     code
 }
 
-/// Hyperbolic tangent.
+/// Writes the hyperbolic tangent.
 fn tanh(mut code: Code) -> Code {
     let kind = code.kind;
     let numbers = HyperbolicTangent::new(kind.scalar);

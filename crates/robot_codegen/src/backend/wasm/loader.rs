@@ -1,10 +1,10 @@
-//! The ES module that loads a module and copies arrays into its memory and out of it.
+//! The ES module that loads a WebAssembly module and copies arrays into its memory and out of it.
 
 use super::Printer;
 use crate::backend::flat::Function;
 use crate::backend::javascript;
 
-/// The text of the ES module.
+/// Prints the ES module.
 pub(super) fn text(printer: &Printer<'_>) -> String {
     let (tree, options) = (printer.tree, printer.options);
     let of_javascript = javascript::Printer { tree, options };

@@ -1,11 +1,12 @@
-//! WebAssembly, written directly: a module with its own memory, and an ES module that loads it.
+//! The printer of WebAssembly, which writes the binary directly: a module with its own memory, and an ES module that
+//! loads it.
 //!
-//! Functions take addresses in the module's memory, which it exports. A model of the parameters lies there too, filled
-//! by the module's own constructor. Sines and cosines are the runtime's polynomials; nothing is imported. Functions over
-//! columns of states compute in the lanes of 128 bits (`simd128`), and what is left by the functions of one state.
+//! Functions take addresses in the module's memory, which it exports. The model of the parameters is also there; the
+//! module's constructor fills it. Sines and cosines are the runtime's polynomials; nothing is imported. Functions over
+//! columns of states compute in lanes of 128 bits (`simd128`), and the remaining states by the functions of one state.
 //!
-//! Values that are used once stay on the stack; others have locals, which are used again after the last use of their
-//! values. What is too long for one function is cut into parts, which hand on their variables through memory.
+//! Values that are used once stay on the stack; others have locals, which are reused after the last use of their
+//! values. Bodies that are too long for one function are cut into parts, which pass on their variables through memory.
 
 mod body;
 mod code;
@@ -24,23 +25,24 @@ use crate::module::Module;
 use crate::program::Limits;
 use crate::trigonometry::Trigonometry;
 
-/// WebAssembly. Engines take functions of up to 50,000 locals and 7.6 MB, and optimize shorter ones better.
+/// WebAssembly, as a language of printed code. Engines accept functions of up to 50,000 locals and 7.6 MB, and optimize
+/// shorter ones better.
 pub const LANGUAGE: Language = Language {
     name: "WebAssembly",
     extension: "wasm",
-    // Its names are those of the ES module.
+    // Its names are used in the ES module.
     reserved: javascript::LANGUAGE.reserved,
     limits: Limits { expression: 32, block: usize::MAX, function: 3000, part: 800 },
 };
 
 /// The name of the memory.
 pub const MEMORY: &str = "memory";
-/// The name of the first address that is free.
+/// The name of the first free address.
 pub const HEAP_BASE: &str = "heap_base";
 /// The name of the constructor.
 pub const CONSTRUCTOR: &str = "create_model";
 
-/// Names that the module and what loads it use besides those of functions.
+/// Names that the module and the ES module that loads it use in addition to those of functions.
 const TAKEN: &[&str] = &[
     MEMORY,
     HEAP_BASE,
@@ -61,7 +63,7 @@ const TAKEN: &[&str] = &[
 /// The printer of WebAssembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wasm {
-    /// The options; sines and cosines must be the runtime's.
+    /// The options; sines and cosines must be those of the runtime.
     pub options: FlatOptions,
     /// Whether there are functions over columns of states.
     pub batch: bool,
@@ -72,7 +74,7 @@ impl Target for Wasm {
         &LANGUAGE
     }
 
-    /// The module, the ES module that loads it, and its declarations.
+    /// Prints the module, the ES module that loads it, and its declarations.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         self.check(module)?;
         let tree = tree(module, &self.options);
@@ -87,7 +89,7 @@ impl Target for Wasm {
 }
 
 impl Wasm {
-    /// The bytes of the module alone.
+    /// Prints only the module, as bytes.
     ///
     /// # Errors
     ///
@@ -116,7 +118,7 @@ pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
 }
 
-/// For each function, the name of the one over columns of states; a function without inputs has none.
+/// For each function, the name of its form over columns of states; a function without inputs has none.
 #[must_use]
 pub fn batch_names(tree: &Tree<'_>) -> Vec<Option<String>> {
     let is_taken = |name: &str| tree.functions.iter().any(|function| function.name == name);
@@ -138,12 +140,12 @@ struct Printer<'a> {
 }
 
 impl Printer<'_> {
-    /// The array of numbers in JavaScript.
+    /// The JavaScript type of arrays of numbers.
     fn array(&self) -> &'static str {
         if self.options.scalar == Scalar::F64 { "Float64Array" } else { "Float32Array" }
     }
 
-    /// The functions with the names over columns, if there are such functions.
+    /// The functions, with the names of their forms over columns if there are such forms.
     fn functions(&self) -> impl Iterator<Item = (&Function<'_>, Option<&str>)> {
         let names = self.batch_names.iter();
         let names = names.map(|name| name.as_deref().filter(|_| self.batch));

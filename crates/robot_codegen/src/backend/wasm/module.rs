@@ -1,4 +1,4 @@
-//! The sections of a module, and what lies where in its memory.
+//! The sections of a module, and the layout of its memory.
 
 use wasm_encoder::{
     CodeSection, ConstExpr, CustomSection, ExportKind, ExportSection, Function, FunctionSection,
@@ -12,19 +12,19 @@ use super::{CONSTRUCTOR, HEAP_BASE, MEMORY, Printer};
 use crate::backend::common::Scalar;
 use crate::backend::flat::{self, Helpers, Tree};
 
-/// The address at which functions over columns gather the arrays of one state.
+/// The address to which functions over columns copy the arrays of one state.
 pub(super) const GATHERED: u32 = 16;
-/// The bytes of a page of memory.
+/// The size of a page of memory, in bytes.
 const PAGE: u32 = 1 << 16;
 
-/// Functions in the making.
+/// The functions of a module under construction.
 pub(super) struct Assembly {
     types: Vec<(Vec<ValType>, Vec<ValType>)>,
     functions: FunctionSection,
     code: CodeSection,
-    /// The first address that parts of functions hand on variables at.
+    /// The first address of the variables that parts of functions pass on.
     shared: u32,
-    /// The first address that is free.
+    /// The first free address.
     heap: u32,
 }
 
@@ -34,7 +34,7 @@ impl Assembly {
         Assembly { types: vec![], functions, code, shared, heap: shared }
     }
 
-    /// The first address that parts of functions hand on variables at.
+    /// The first address of the variables that parts of functions pass on.
     pub(super) fn shared(&self) -> u32 {
         self.shared
     }
@@ -44,7 +44,7 @@ impl Assembly {
         self.heap = self.heap.max(end);
     }
 
-    /// Adds a function; its index.
+    /// Adds a function; returns its index.
     pub(super) fn add(&mut self, code: Code) -> u32 {
         let Code { parameters, results, locals, mut bytes, .. } = code;
         let ty = (parameters, results);
@@ -62,7 +62,7 @@ impl Assembly {
     }
 }
 
-/// The bytes of a module.
+/// Writes the bytes of a module.
 pub(super) fn bytes(printer: &Printer<'_>) -> Vec<u8> {
     let (tree, scalar) = (printer.tree, printer.options.scalar);
     let mut assembly = Assembly::new(GATHERED + gathered(tree, scalar));
@@ -98,13 +98,13 @@ pub(super) fn bytes(printer: &Printer<'_>) -> Vec<u8> {
     finished(printer, &assembly, &exports)
 }
 
-/// The bytes of the arrays of the largest function.
+/// The size of the arrays of the function with the largest arrays, in bytes.
 fn gathered(tree: &Tree<'_>, scalar: Scalar) -> u32 {
     let entries = |function: &flat::Function<'_>| -> usize {
         function.inputs.iter().chain(&function.outputs).map(|array| array.length).sum()
     };
     let most = tree.functions.iter().map(entries).max().unwrap_or_default();
-    // Vectors behind it lie at multiples of their size.
+    // Rounded up, so that vectors after the arrays are aligned to their size.
     (most * scalar.size()).next_multiple_of(16) as u32
 }
 
@@ -126,7 +126,7 @@ fn finished(printer: &Printer<'_>, assembly: &Assembly, exports: &ExportSection)
     let constant = GlobalType { val_type: ValType::I32, mutable: false, shared: false };
     globals.global(constant, &ConstExpr::i32_const(heap.cast_signed()));
     let mut module = Module::new();
-    // Near the start, where files say whose they are.
+    // The header is near the start, where files state their origin.
     for line in &printer.options.header {
         let data = line.as_bytes().into();
         module.section(&CustomSection { name: "generator".into(), data });

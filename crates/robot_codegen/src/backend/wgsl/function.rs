@@ -5,7 +5,7 @@ use crate::backend::common;
 use crate::backend::flat::{Array, Body, Expression, Function, Statement, infix};
 use crate::trigonometry::Trigonometry;
 
-/// A function, its parts, and its kernel.
+/// Prints a function, its parts, and its kernel.
 pub(super) fn function(printer: &Printer<'_>, function: &Function<'_>) -> Vec<String> {
     let body = function.whole();
     let mut lines = parts(printer, &body);
@@ -23,7 +23,7 @@ pub(super) fn function(printer: &Printer<'_>, function: &Function<'_>) -> Vec<St
     lines
 }
 
-/// The type of that many numbers.
+/// The type of an array of numbers.
 fn of(length: usize) -> String {
     format!("array<f32, {length}>")
 }
@@ -92,7 +92,7 @@ fn circular(printer: &Printer<'_>, sine: &str, cosine: &str, angle: &str) -> Vec
     }
 }
 
-/// The functions of the parts of a body that is very long.
+/// Prints the functions of the parts of a very long body.
 fn parts(printer: &Printer<'_>, body: &Body) -> Vec<String> {
     let mut lines = vec![];
     for part in &body.parts {
@@ -114,7 +114,7 @@ fn parts(printer: &Printer<'_>, body: &Body) -> Vec<String> {
     lines
 }
 
-/// The kernel of a function, if it has inputs.
+/// Prints the kernel of a function, if the function has inputs.
 fn kernel(printer: &Printer<'_>, function: &Function<'_>) -> Vec<String> {
     let Some(kernel) = kernel_name(printer.tree, function) else { return vec![] };
     let [inputs, outputs, size] = ["inputs", "outputs", "size"].map(|name| printer.private(name));
@@ -147,7 +147,7 @@ fn {kernel}(@builtin(global_invocation_id) id: vec3<u32>, @builtin(num_workgroup
     lines
 }
 
-/// An entry of the state in a buffer.
+/// The place of an entry of the current state in a buffer.
 fn place(buffer: &str, row: usize) -> String {
     match row {
         0 => format!("{buffer}[i]"),

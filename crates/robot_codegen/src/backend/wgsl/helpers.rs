@@ -1,5 +1,5 @@
-//! The functions that printed WGSL calls: those of the runtime, with integers rounded by WGSL's own function where the
-//! runtime adds and subtracts a large number, for WGSL lets compilers reorder sums.
+//! The helper functions that printed WGSL calls. They are those of the runtime, except that numbers are rounded to
+//! integers by a function of WGSL. The runtime adds and subtracts a large number, but WGSL lets compilers reorder sums.
 
 use super::{Printer, number};
 use crate::backend::common::Scalar;
@@ -19,7 +19,7 @@ fn assignments(steps: impl IntoIterator<Item = Assignment>) -> String {
     lines.collect::<String>().trim_end().to_owned()
 }
 
-/// The helpers that the functions need.
+/// Prints the helpers that the functions need.
 pub(super) fn helpers(printer: &Printer<'_>) -> Vec<String> {
     let needed = printer.tree.helpers();
     let circular = needed.circular && printer.options.trigonometry == Trigonometry::Polynomial;
@@ -39,7 +39,7 @@ pub(super) fn helpers(printer: &Printer<'_>) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
-/// As constants such numbers are errors.
+/// Prints a function that returns NaN. It reads the bits from a variable, because NaN as a constant is an error.
 fn not_a_number(printer: &Printer<'_>) -> String {
     let name = printer.private("not_a_number");
     format!(
@@ -106,7 +106,7 @@ fn {name}(x: f32) -> f32 {{
 
 fn tanh(printer: &Printer<'_>) -> String {
     let numbers = HyperbolicTangent::new(Scalar::F32);
-    // The first two steps round to an integer by a large number.
+    // The first two steps, which round to an integer by means of a large number, are skipped.
     let rest = assignments(numbers.rest(&Plain).into_iter().skip(2));
     let (limit, log2_e) = (number(numbers.saturated), number(numbers.log2_e()));
     let name = printer.private("tanh");

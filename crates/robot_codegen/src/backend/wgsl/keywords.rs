@@ -1,7 +1,7 @@
-//! Words that names of printed WGSL keep clear of.
+//! Words that names in printed WGSL must not be.
 
-/// The keywords, the words that the language reserves, then the types, functions and enumerants that printed code needs
-/// or that a name must not hide.
+/// The keywords and the reserved words of the language, then the types, functions and enumerants that printed code
+/// needs or that a name must not hide.
 pub(super) const RESERVED: &[&str] = &[
     "NULL",
     "Self",

@@ -1,5 +1,5 @@
-//! WGSL, the shading language of WebGPU: a function in single precision for each function of the module, and a compute
-//! kernel over columns of states.
+//! The printer of WGSL, the shading language of WebGPU: for each function of the module, a function in single precision
+//! and a compute kernel over columns of states.
 
 mod function;
 mod helpers;
@@ -17,7 +17,7 @@ use crate::module::Module;
 use crate::program::Limits;
 use crate::trigonometry::Trigonometry;
 
-/// WGSL. Drivers compile a function for a time that grows faster than its size.
+/// WGSL, as a language of printed code. The time that drivers take to compile a function grows faster than its size.
 pub const LANGUAGE: Language = Language {
     name: "WGSL",
     extension: "wgsl",
@@ -28,13 +28,13 @@ pub const LANGUAGE: Language = Language {
 /// Names that the printer uses for itself within functions.
 const TAKEN: &[&str] = &["i", "step", "id", "groups", "n", "stride"];
 
-/// The states of a workgroup.
+/// The number of states of a workgroup.
 pub const WORKGROUP: usize = 64;
 
 /// The printer of WGSL.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wgsl {
-    /// The options; the type must be single precision, which is WGSL's.
+    /// The options; the number type must be single precision, the only one of WGSL.
     pub options: FlatOptions,
 }
 
@@ -43,7 +43,7 @@ impl Target for Wgsl {
         &LANGUAGE
     }
 
-    /// One module.
+    /// Prints one module.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         if self.options.scalar != Scalar::F32 {
             return Err(Errors::from(Error::Single { language: LANGUAGE.name }));
@@ -61,19 +61,19 @@ pub fn tree(module: &Module) -> Tree<'_> {
     Tree::new(module, &LANGUAGE, TAKEN, &["kernel"], &[])
 }
 
-/// `ur5_gravity`
+/// The name of a function in WGSL: `ur5_gravity`.
 #[must_use]
 pub fn function_name(tree: &Tree<'_>, function: &Function<'_>) -> String {
     format!("{}_{}", tree.name, function.name)
 }
 
-/// The entry point of a function, `ur5_gravity_kernel`, if it has inputs.
+/// The name of the kernel of a function, `ur5_gravity_kernel`, if the function has inputs.
 #[must_use]
 pub fn kernel_name(tree: &Tree<'_>, function: &Function<'_>) -> Option<String> {
     (!function.inputs.is_empty()).then(|| format!("{}_{}", tree.name, function.form(0)))
 }
 
-/// Whether functions read a model.
+/// Whether functions read the model.
 #[must_use]
 pub fn has_model(tree: &Tree<'_>) -> bool {
     tree.has_parameters() && !tree.fields.is_empty()
@@ -84,19 +84,20 @@ struct Printer<'a> {
     options: &'a FlatOptions,
 }
 
-/// A comment: a line for each paragraph.
+/// Prints a comment, with a line for each paragraph.
 fn comment(lines: &[String]) -> impl Iterator<Item = String> {
     lines.iter().map(|line| format!("// {}", comment_line(line)).trim_end().to_owned())
 }
 
-/// A number of either sign.
+/// Prints a number of either sign.
 fn number(value: f64) -> String {
     let sign = if value.is_sign_negative() { "-" } else { "" };
     format!("{sign}{}f", Scalar::F32.digits(value))
 }
 
 impl Printer<'_> {
-    /// A name that no function has: it begins with the module's, for WGSL has no namespaces, and ends with an underscore.
+    /// Makes a name for internal use. It begins with the name of the module, because WGSL has no namespaces, and ends
+    /// with an underscore, so that no function has it.
     fn private(&self, name: &str) -> String {
         format!("{}_{name}_", self.tree.name)
     }
@@ -123,7 +124,7 @@ impl Printer<'_> {
         lines.join("\n")
     }
 
-    /// The buffers.
+    /// Prints the declarations of the buffers.
     fn bindings(&self) -> Vec<String> {
         let [inputs, outputs, size, model] =
             ["inputs", "outputs", "size", "model"].map(|name| self.private(name));
@@ -152,7 +153,7 @@ struct {size_type} {{
         lines
     }
 
-    /// A constant of the module, if it is a number; WGSL has no texts.
+    /// Prints a constant of the module, if it is a number; WGSL has no strings.
     fn constant(&self, item: &ConstantItem) -> Option<String> {
         let value = match &item.value {
             ConstantValue::Size(size) => format!("u32 = {size}u"),

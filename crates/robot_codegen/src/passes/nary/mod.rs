@@ -1,8 +1,8 @@
-//! Sums and products of many terms, a view of a program for the passes that reorder them.
+//! Sums and products of many terms: a view of a program for the passes that reorder them.
 //!
-//! A sum that one other sum alone uses is part of it, and so with products; what several values use
-//! stays a node of its own, for the sharing is what makes a program cheap. So does what depends on
-//! parameters alone: it costs nothing, and left as it is, it is the same in every function of a
+//! A sum that is used only by one other sum becomes part of it, and likewise for products. A value that several
+//! others use stays a node of its own, because sharing makes a program cheap. A value that depends only on
+//! parameters also stays: it costs nothing at a call, and if unchanged it is the same in every function of a
 //! module. Signs belong to the terms.
 
 use robot_symbolic::Function;
@@ -39,7 +39,7 @@ pub(super) enum Node {
     Sum(Vec<Term>),
     /// The product of the factors.
     Product(Vec<Id>),
-    /// The first by the second.
+    /// The first node divided by the second.
     Quotient(Id, Id),
     /// A function of a term.
     Call(Function, Term),
@@ -55,7 +55,7 @@ pub(super) struct Nary {
 }
 
 impl Nary {
-    /// The view of a program.
+    /// Makes the view of a program.
     pub(super) fn new(program: &Program) -> Nary {
         let mut view =
             Nary { nodes: vec![], stages: vec![], leaves: FxHashMap::default(), results: vec![] };
@@ -78,12 +78,12 @@ impl Nary {
         &self.nodes[id as usize]
     }
 
-    /// The cycle at which a node is known.
+    /// The stage at which a node is known.
     pub(super) fn stage(&self, id: Id) -> Stage {
         self.stages[id as usize]
     }
 
-    /// Whether a node costs nothing at a call.
+    /// Whether a node is known before the call, so that it costs nothing at a call.
     pub(super) fn is_early(&self, id: Id) -> bool {
         self.stage(id) < Stage::Call
     }
@@ -95,18 +95,18 @@ impl Nary {
         id
     }
 
-    /// Puts another node of the same value in the place of one.
+    /// Replaces a node with another node that has the same value.
     pub(super) fn replace(&mut self, id: Id, node: Node) {
         self.stages[id as usize] = self.stage_of(&node);
         self.nodes[id as usize] = node;
     }
 
-    /// A constant; not negative.
+    /// Adds a constant, which must not be negative.
     pub(super) fn constant(&mut self, value: f64) -> Id {
         self.leaf(Operation::Constant(Constant::new(value)))
     }
 
-    /// For each node, how often it is an operand or a result of what is needed.
+    /// For each node, how often it is a result, or an operand of a node that is needed.
     pub(super) fn uses(&self) -> Vec<u32> {
         let mut uses = vec![0_u32; self.nodes.len()];
         let mut pending: Vec<Id> = self.results.iter().map(|term| term.node).collect();
@@ -188,7 +188,7 @@ impl Nary {
         }
     }
 
-    /// The sum of terms, some of which may be taken apart.
+    /// Makes the sum of two terms; a term whose flag is set is split into its own terms.
     fn sum(&mut self, parts: [(Term, bool); 2]) -> Term {
         let mut terms: Vec<Term> = vec![];
         for (term, inline) in parts {
@@ -207,7 +207,7 @@ impl Nary {
         }
     }
 
-    /// x − x vanishes, x + x becomes 2 x.
+    /// Merges equal terms: x − x vanishes, x + x becomes 2 x.
     fn merge_like(&mut self, terms: Vec<Term>) -> Vec<Term> {
         let mut multiples: Vec<(Id, i64)> = vec![];
         let mut places: FxHashMap<Id, usize> = FxHashMap::default();
@@ -298,7 +298,7 @@ impl Nary {
     }
 }
 
-/// A value of the program under construction, and whether its negative is meant.
+/// A value of the program under construction, and whether its negative is the term.
 #[derive(Clone, Copy, Debug)]
 struct Signed(Value, bool);
 
@@ -321,13 +321,13 @@ impl Signed {
     }
 }
 
-/// The value that a term was built as. Operands are built before their users.
+/// Returns the value that was built for a term. Operands are built before the nodes that use them.
 fn signed(built: &[Option<Signed>], term: Term) -> Signed {
     let Signed(value, negative) = built[term.node as usize].unwrap_or(Signed(Value(0), false));
     Signed(value, negative != term.negative)
 }
 
-/// For each value, how often it is used, a use of its negative included.
+/// For each value, how often it or its negative is used.
 fn uses_through_signs(program: &Program) -> Vec<u32> {
     let mut uses = program.uses();
     for (value, operation) in program.values().rev() {

@@ -23,7 +23,7 @@ fn sums_used_once_are_one_sum() {
     assert_eq!(terms.len(), 2, "z − (x + y) + y = z − x");
 }
 
-/// The one sum that a program of one result is.
+/// The terms of the sum that is the single result of a program.
 fn sum_of(build: impl Fn(&mut Builder, [Value; 4]) -> Value) -> Vec<(Node, bool)> {
     let mut b = Builder::new();
     let loads = [0, 1, 2, 3].map(|index| b.load(Source::Input(index)));
@@ -110,7 +110,7 @@ fn a_negative_is_a_use_of_what_it_negates() {
     assert_eq!((uses[sum.index()], uses[twice.index()]), (2, 1));
 }
 
-/// Uses are of what is needed alone, and of one node as often as it stands there.
+/// Only uses by needed nodes count, and a node that uses another twice counts twice.
 #[test]
 fn uses_are_counted() {
     let mut b = Builder::new();
@@ -120,7 +120,8 @@ fn uses_are_counted() {
     let root = b.call(Function::Sqrt, quotient);
     let program = b.finish(vec![root, root, quotient]);
     let view = Nary::new(&program);
-    // x twice in its square, that in the quotient, that in the root and by itself, the root twice.
+    // The square uses x twice, the quotient the square once; the root and the results use the quotient, the results the
+    // root twice.
     assert_eq!(view.uses(), [2, 1, 1, 2, 0, 2], "{unused:?}");
 }
 
@@ -149,7 +150,7 @@ fn signs_multiply() {
     }
 }
 
-/// There and back adds no operation, and sums begin with what is known early.
+/// Converting to the view and back adds no operation, and sums begin with the terms that are known early.
 #[test]
 fn there_and_back_costs_nothing() {
     let (before, after) = operations_left(|program| Nary::new(program).program());

@@ -1,15 +1,15 @@
-//! The number of operations that depend on one value alone.
+//! The number of operations that only one value needs.
 
 use std::cell::{Cell, RefCell};
 use std::ops::Deref;
 
 use crate::program::{Operation, Program, Stage, Value};
 
-/// The most values that the queries may visit, after which nothing gains: each query on a sum of n terms may
-/// visit all of them, and n queries n² values. Robots of 64 joints stay far below.
+/// The most values that all queries together may visit; after that, every gain is 0. A query on a sum of n terms can
+/// visit all of them, so n queries can visit n² values. Robots with 64 joints stay far below this limit.
 const MAX_VISITS: u64 = 30_000_000;
 
-/// The values that a value is computed from: at most three, stored inline because there are many of these lists.
+/// The values from which a value is computed: at most three, stored inline because there are many of these lists.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Operands {
     values: [Value; 3],
@@ -40,13 +40,13 @@ pub(super) struct Cones {
     operands: Vec<Operands>,
     costs: Vec<usize>,
     early: Vec<bool>,
-    /// The number of needed uses of each value. The queries change it and change it back.
+    /// The number of uses of each value by needed values. Queries change it temporarily.
     uses: RefCell<Vec<usize>>,
-    /// The values that queries have visited.
+    /// The number of values that queries have visited.
     visits: Cell<u64>,
-    /// For each value the last query of [`Cones::depend_on`] that met it.
+    /// For each value, the number of the last query of [`Cones::depend_on`] that visited it.
     met: RefCell<Vec<u64>>,
-    /// The number of these queries.
+    /// The number of queries of [`Cones::depend_on`].
     queries: Cell<u64>,
 }
 
@@ -73,18 +73,18 @@ impl Cones {
         self.early[value.index()]
     }
 
-    /// The values that a value is computed from.
+    /// The values from which a value is computed.
     pub(super) fn operands(&self, value: Value) -> &[Value] {
         &self.operands[value.index()]
     }
 
-    /// The operations that would go if the value were not needed.
+    /// The number of operations that would be removed if the value were not needed.
     pub(super) fn size(&self, value: Value) -> usize {
         self.gain(value, &[], 0)
     }
 
-    /// The operations that would go if the value were computed from other operands at a cost; 0
-    /// where none would, or where it would take too long to say.
+    /// The number of operations that would be saved if the value were computed from other operands at this cost; 0
+    /// if none would, or if the limit of visits has been reached.
     pub(super) fn gain(&self, value: Value, operands: &[Value], cost: usize) -> usize {
         let mut uses = self.uses.borrow_mut();
         if uses[value.index()] == 0 || self.visits.get() > MAX_VISITS {
@@ -102,7 +102,7 @@ impl Cones {
         (freed + self.costs[value.index()]).saturating_sub(added + cost)
     }
 
-    /// Computes a value from other operands.
+    /// Replaces the operands and the cost of a value.
     pub(super) fn replace(&mut self, value: Value, operands: Operands, cost: usize) {
         let mut uses = self.uses.borrow_mut();
         for operand in operands.iter() {
@@ -116,7 +116,7 @@ impl Cones {
         self.costs[value.index()] = cost;
     }
 
-    /// Whether any of some values depends on a value.
+    /// Whether any of these values depends on a value.
     pub(super) fn depend_on(&self, values: &[Value], value: Value) -> bool {
         let query = self.queries.get() + 1;
         self.queries.set(query);
@@ -134,7 +134,7 @@ impl Cones {
         false
     }
 
-    /// One use less; the cost of what nothing needs any more.
+    /// Removes one use of a value; returns the cost of the values that are then no longer needed.
     fn release(&self, value: Value, uses: &mut [usize]) -> usize {
         let (mut pending, mut cost) = (vec![value], 0);
         while let Some(value) = pending.pop() {
@@ -148,7 +148,7 @@ impl Cones {
         cost
     }
 
-    /// One use more; the cost of what was not needed before.
+    /// Adds one use of a value; returns the cost of the values that were not needed before.
     fn hold(&self, value: Value, uses: &mut [usize]) -> usize {
         let (mut pending, mut cost) = (vec![value], 0);
         while let Some(value) = pending.pop() {
@@ -184,14 +184,14 @@ mod tests {
         let cones = Cones::new(&program);
         assert_eq!(cones.size(sum), 80_000);
         let sizes: Vec<usize> = program.values().map(|(value, _)| cones.size(value)).collect();
-        // 40,000 queries of up to 160,000 visits each would be 3.2 thousand million.
+        // Without the limit, 40,000 queries of up to 160,000 visits each would visit 3.2 billion values.
         assert!(cones.visits.get() <= MAX_VISITS + 400_000, "{}", cones.visits.get());
         assert_eq!(sizes.last(), Some(&0));
-        // Nor do they end before that.
+        // The queries do not stop before the limit.
         assert!(cones.visits.get() > MAX_VISITS, "{}", cones.visits.get());
     }
 
-    /// The costs of what the results of some operands need, one value counted with other operands.
+    /// Returns the cost of all needed values, with one value computed from other operands.
     fn needed(
         cones: &Cones,
         results: &[Value],
@@ -214,7 +214,7 @@ mod tests {
         cost
     }
 
-    /// A query gives the same result as a count of everything, also after replacements.
+    /// A query gives the same result as a count of all operations, also after replacements.
     #[test]
     fn gains_are_differences_of_counts() {
         let mut gained = 0;
@@ -251,7 +251,7 @@ mod tests {
         assert!(gained > 100, "{gained}");
     }
 
-    /// A value that nothing needs gains nothing, and a value depends on itself and its operands.
+    /// The gain of a value that nothing needs is 0, and a value depends on itself and its operands.
     #[test]
     fn dependence_is_along_operands() {
         let mut b = Builder::new();
@@ -261,9 +261,10 @@ mod tests {
         let unused = b.add(x, z);
         let program = b.finish(vec![square, other]);
         let cones = Cones::new(&program);
-        // Of what the square is of, the sum twice, its two loads; there and back.
+        // The query visits the operands of the square: the sum twice and its two loads, first to release and then to
+        // hold them.
         assert_eq!((cones.size(square), cones.visits.get()), (2, 8));
-        // The square, the sum once, one of its loads.
+        // This query visits the square, the sum once, and one of its loads.
         assert!(cones.depend_on(&[square], x) && cones.visits.get() > 9);
         assert_eq!([square, other, sum, unused].map(|value| cones.size(value)), [2, 1, 1, 0]);
         for _ in 0..2 {
@@ -273,7 +274,7 @@ mod tests {
         }
     }
 
-    /// One use of two is not a reason for a value to be removed.
+    /// A value with two uses stays if one of them is removed.
     #[test]
     fn shared_values_stay() {
         let mut b = Builder::new();

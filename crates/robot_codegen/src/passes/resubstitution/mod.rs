@@ -1,23 +1,21 @@
-//! Resubstitution: a value that is a multiple, or the sum or product of two, of values computed
-//! anyway needs no operations of its own beyond that.
+//! Resubstitution: a value that equals a multiple of another computed value, or the sum or product of two of them,
+//! is computed from these.
 //!
-//! The other passes look at how a program is written; this one looks at its values, at sample
-//! points in twice the precision of `f64`, and so finds what no rule relates: terms that vanish,
-//! moments parallel to each other, squares of a vector's length before and after a turn. The
-//! technique is that of logic synthesis (Brayton, Hachtel and Sangiovanni-Vincentelli 1990), on
-//! numbers.
+//! The other passes use the operations of a program; this one uses its values at sample points, in twice the
+//! precision of `f64`. So it finds relations that follow from no rule: terms that vanish, moments that are
+//! parallel, squares of a vector's length before and after a rotation. The technique comes from logic synthesis
+//! (Brayton, Hachtel and Sangiovanni-Vincentelli 1990) and is applied to numbers here.
 //!
-//! A replacement must agree with what it replaces, at every point, to within the rounding of the
-//! evaluation that it replaces. That is evidence, no proof. Two numbers near 1 that have nothing to do
-//! with each other agree to within such a tolerance by a chance of some 10⁻¹⁵; there are six points, of
-//! which pairs share the values of parameters, so that even if parameters alone decide, three are
-//! left: 10⁻⁴⁵, times the millions of pairs that are compared. If that rounding may be large, as in
-//! long recursions, whose bounds grow with each joint, agreement is not evidence, and nothing is replaced.
-//! But the points are fixed, the same for every program, and values of one program are not unrelated; no
-//! bound follows for them. The results are therefore compared once more at other points, and what code
-//! computes is held against independent solvers by the tests.
+//! A replacement must agree with the replaced value at every point, to within the rounding error of the
+//! replaced evaluation. That is evidence, not a proof. Two unrelated numbers near 1 agree to within such a
+//! tolerance with a probability of about 10⁻¹⁵. There are six points, in pairs with the same values of the
+//! parameters, so that three are left even for values that depend only on parameters: 10⁻⁴⁵, times the millions
+//! of pairs that are compared. If the rounding error can be large, as in long recursions, where its bound grows with
+//! each joint, agreement is not evidence, and nothing is replaced. This estimate is not a bound: the points are the
+//! same for every program, and the values of one program are not unrelated. The results are therefore compared
+//! again at other points, and tests compare the results of generated code with independent solvers.
 //!
-//! Absolute values, signs and roots are taken for unrelated numbers, so that nothing follows from the
+//! Absolute values, signs and roots are treated as unrelated numbers, so that nothing is concluded from the
 //! sign that an argument happens to have at the points.
 
 mod cones;
@@ -33,13 +31,13 @@ pub(crate) use self::samples::Samples;
 use super::Resubstitution;
 use crate::program::{Builder, Operation, Program, Value};
 
-/// Rounds after which the search ends, improved or not.
+/// The most rounds of the search.
 const ROUNDS: usize = 8;
-/// The largest rounding of a sum relative to that of the value it replaces.
+/// The largest rounding error of a term of a sum, relative to that of the value that the sum replaces.
 const GROWTH: f64 = 4.0;
 
-/// Replaces values by multiples of others, and with [`Resubstitution::Pairs`] by sums and products
-/// of two, if that saves operations. Reassociates.
+/// Replaces values with multiples of others, and with [`Resubstitution::Pairs`] also with sums and products
+/// of two others, if that saves operations. This pass reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) -> Program {
     let mut found = super::dead_code::run(program);
@@ -53,7 +51,7 @@ pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) 
     if samples.agree(program, &found) { found } else { program.clone() }
 }
 
-/// A form that a value can be computed in.
+/// A form in which a value can be computed.
 #[derive(Clone, Copy, Debug)]
 enum Form {
     /// A constant.
@@ -66,7 +64,7 @@ enum Form {
     SumMultiple(Value, f64, Value),
     /// ± the first ± the second.
     Sum((Value, bool), (Value, bool)),
-    /// ± the product.
+    /// ± the product of two values.
     Product(Value, Value, bool),
 }
 
@@ -125,9 +123,10 @@ struct Search<'p> {
     samples: Vec<Sample>,
     /// The values that forms may use.
     operands: Vec<Value>,
-    /// They by their size at the first point.
+    /// The operands by their absolute value at the first point.
     by_size: FxHashMap<u64, Vec<Value>>,
-    /// The values known at calls, by the quotient of their first two points, which multiples have in common.
+    /// The operands known at a call, by the quotient of their values at the first two points, which is the same for
+    /// multiples.
     by_direction: FxHashMap<u64, Vec<Value>>,
 }
 
@@ -156,7 +155,7 @@ impl<'p> Search<'p> {
         Search { program, cones, forms, samples, operands, by_size, by_direction }
     }
 
-    /// Visits the values, those that most depends on first; whether any was replaced.
+    /// Visits the values, first those whose removal would remove the most operations; returns whether any was replaced.
     fn sweep(&mut self, effort: Resubstitution) -> bool {
         let mut order: Vec<(usize, Value)> =
             self.program.values().map(|(value, _)| (self.cones.size(value), value)).collect();
@@ -181,7 +180,7 @@ impl<'p> Search<'p> {
         changed
     }
 
-    /// Constants, equal values, multiples by constants or by what parameters alone decide.
+    /// Tries constants, equal values, and multiples by constants or by values that depend only on parameters.
     fn try_multiples(&self, value: Value, room: usize, best: &mut Best) {
         let sample = &self.samples[value.index()];
         if sample.is_constant() {
@@ -213,7 +212,7 @@ impl<'p> Search<'p> {
         }
     }
 
-    /// Sums and products of two.
+    /// Tries sums and products of two values.
     fn try_pairs(&self, value: Value, room: usize, best: &mut Best) {
         let sample = &self.samples[value.index()];
         if !sample.is_regular() {
@@ -221,7 +220,7 @@ impl<'p> Search<'p> {
         }
         for first in self.operands.iter().copied().filter(|first| *first != value) {
             let other = &self.samples[first.index()];
-            // Most have no partner: the first points show that at once.
+            // Most values have no partner, which the first two points show quickly.
             let [x, y] = [0, 1].map(|point| (sample.value(point), other.value(point)));
             if other.rounding() <= GROWTH * sample.rounding() {
                 for negative in [false, true] {
@@ -242,11 +241,11 @@ impl<'p> Search<'p> {
         }
     }
 
-    /// Sums of one value and another or its multiple.
+    /// Tries sums of one value and another, or a multiple of another.
     fn try_sums(&self, value: Value, first: (Value, bool), room: usize, best: &mut Best) {
         let sample = &self.samples[value.index()];
         let rest = sample.minus(&self.samples[first.0.index()], first.1);
-        // A sum of much larger values would round more than what it replaces.
+        // A sum of much larger values would round more than the value that it replaces.
         let grows = |value: Value, factor: f64| {
             self.samples[value.index()].rounding() * factor > GROWTH * sample.rounding()
         };
@@ -270,7 +269,7 @@ impl<'p> Search<'p> {
         }
     }
 
-    /// The values that equal ± a sample.
+    /// Returns the values that equal a sample or its negative.
     fn equal_to(&self, sample: &Sample) -> impl Iterator<Item = (Value, bool)> {
         near(&self.by_size, key(sample.value(0))).filter_map(|value| {
             let negative = sample.equals(&self.samples[value.index()])?;
@@ -278,7 +277,7 @@ impl<'p> Search<'p> {
         })
     }
 
-    /// Takes a form if it saves more than the best so far and does not need the value itself.
+    /// Takes a form as the best one if it saves more than the best so far and does not depend on the value itself.
     fn offer(&self, value: Value, form: Form, best: &mut Best) {
         let operands = form.operands();
         let gain = self.cones.gain(value, &operands, form.cost());
@@ -287,7 +286,7 @@ impl<'p> Search<'p> {
         }
     }
 
-    /// The program with the forms in the place of the values.
+    /// Builds the program in which the values are replaced with their forms.
     fn program(&self) -> Program {
         let mut builder = Builder::new();
         let mut built: Vec<Option<Value>> = vec![None; self.forms.len()];
@@ -323,7 +322,7 @@ struct Best {
     form: Option<Form>,
 }
 
-/// The leading 30 bits of a number's size.
+/// Returns the leading 30 bits of a number, without its sign.
 fn key(value: f64) -> u64 {
     value.abs().to_bits() >> 22
 }
@@ -332,7 +331,7 @@ fn has_near(table: &FxHashMap<u64, Vec<Value>>, key: u64) -> bool {
     near(table, key).next().is_some()
 }
 
-/// The entries of a table under a key and its neighbors, because rounding may cross the border.
+/// Returns the entries of a table with this key and the two next to it, because rounding can change the key by one.
 fn near(table: &FxHashMap<u64, Vec<Value>>, key: u64) -> impl Iterator<Item = Value> + '_ {
     let keys = [key, key.wrapping_sub(1), key.wrapping_add(1)];
     keys.into_iter().filter_map(|key| table.get(&key)).flatten().copied()

@@ -50,7 +50,7 @@ fn multiples_need_one_multiplication() {
     assert_eq!(Counts::of_calls(&found).operations(), Counts::of_calls(&program).operations() - 2);
 }
 
-/// 3 x + 3 y beside x + y and 3 x: a product in place of a product and a sum.
+/// 3 x + 3 y, if x + y and 3 x are computed too: one product replaces a product and a sum.
 #[test]
 fn two_operations_become_one_multiplication() {
     let mut b = Builder::new();
@@ -62,7 +62,7 @@ fn two_operations_become_one_multiplication() {
     assert_eq!(Counts::of(&found).operations(), 3);
 }
 
-/// The operations that are left of what `build` makes of five inputs.
+/// The operations that remain of the program that `build` makes from five inputs.
 fn left(build: impl Fn(&mut Builder, [Value; 5]) -> Vec<Value>) -> usize {
     let mut b = Builder::new();
     let loads = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));
@@ -106,7 +106,7 @@ fn a_sum_with_a_multiple_is_found() {
     assert_eq!(operations, 2);
 }
 
-/// cos kθ by its recursion: bounds of rounding grow with each step, the values do not.
+/// cos kθ by its recursion: the bounds on rounding errors grow with each step, but the values do not.
 #[test]
 fn a_long_recursion_is_not_taken_for_rounding() {
     let mut b = Builder::new();
@@ -143,7 +143,7 @@ fn other_results_do_not_agree() {
     assert!(!samples.agree(&program(1.5), &program(1.5 + 1e-6)));
 }
 
-/// What agrees at the points that are compared alone is not taken.
+/// A replacement that agrees only at the points of comparison is not taken.
 #[test]
 fn a_program_of_other_results_is_not_taken() {
     let mut b = Builder::new();
@@ -158,7 +158,7 @@ fn a_program_of_other_results_is_not_taken() {
     assert_eq!(run(&program, &lying, Resubstitution::Multiples), program);
 }
 
-/// cos kθ again: the values are below 1, and their bounds grow past every limit.
+/// cos kθ again: the values are below 1, and their bounds grow beyond any limit.
 #[test]
 fn trust_ends_where_rounding_may_reach_a_part_in_a_billion() {
     let (mut b, mut cosines) = (Builder::new(), vec![]);
@@ -192,7 +192,7 @@ fn an_absolute_value_is_no_argument() {
     assert_eq!(run(&program, &Samples::unrelated(), Resubstitution::Pairs), program);
 }
 
-/// What each form says that it costs and needs, and what it computes.
+/// The stated cost and operands of each form agree with the value that it computes.
 #[test]
 fn forms_cost_and_compute_what_they_say() {
     let (x, y) = (Value(0), Value(1));
@@ -226,7 +226,7 @@ fn forms_cost_and_compute_what_they_say() {
     }
 }
 
-/// Keys are 30 bits of a number, and its sign is none of them: what differs by less is under one or the next.
+/// Keys are 30 bits of a number without its sign. Numbers that differ by less have the same key or neighboring ones.
 #[test]
 fn near_are_numbers_that_agree_to_nine_digits() {
     for number in [1.0, 1.75, 3e-7, 6e8] {
@@ -242,7 +242,8 @@ fn near_are_numbers_that_agree_to_nine_digits() {
     }
 }
 
-/// What a search finds directly: ways to compute the last result as sums with one of the first values.
+/// The sums that a search finds directly: ways to compute the last result as a sum that contains one of the first
+/// values.
 fn sums_found(
     build: impl Fn(&mut Builder, [Value; 4]) -> (Value, Value),
     negative: bool,
@@ -259,8 +260,8 @@ fn sums_found(
     best.form
 }
 
-/// x + y as (x z + y z)/z beside x + c and c − y, whose difference is the same: with a large c it rounds more than
-/// four times what the quotient does.
+/// x + y as (x z + y z)/z, if x + c and c − y are computed too, whose difference is the same. If c is large, the
+/// difference rounds more than four times as much as the quotient.
 #[test]
 fn sums_of_much_larger_values_are_not_taken() {
     let found = |size: f64| {
@@ -292,7 +293,8 @@ fn sums_of_much_larger_values_are_not_taken() {
     assert!(none.iter().all(Option::is_none), "{none:?}");
 }
 
-/// (x z u + y z)/z is x u + y, but not with x u as (x + c w) u − c w u for a large c, whose rounding is large.
+/// (x z u + y z)/z is x u + y, but this form is not taken if x u is (x + c w) u − c w u with a large c, which rounds a
+/// lot.
 #[test]
 fn values_that_round_much_more_are_no_terms() {
     let found = |size: f64| {
@@ -316,7 +318,7 @@ fn values_that_round_much_more_are_no_terms() {
     assert!(found(0.25) && !found(1e4));
 }
 
-/// A sum whose both terms are negative is not a form: the negative of the sum would be.
+/// A sum of two negative terms is not a form, because it would be the negative of a sum.
 #[test]
 fn one_term_of_a_sum_is_positive() {
     let of_signs = |negative: bool| {
@@ -334,7 +336,7 @@ fn one_term_of_a_sum_is_positive() {
     assert!(of_signs(true).is_none());
 }
 
-/// (x z + c y z)/z less x is c y: taken where that rounds no more than the quotient.
+/// (x z + c y z)/z minus x is c y. The form is taken only if it rounds no more than the quotient.
 #[test]
 fn multiples_that_are_much_larger_are_not_taken() {
     let found = |constant: f64, fourth: bool| {

@@ -9,20 +9,20 @@ use crate::program::{Operation, Program, Value};
 pub enum Schedule {
     /// As the expressions were built.
     Construction,
-    /// Depth first from the results, of two operands first the one that needs more registers, so
-    /// that values live briefly.
+    /// Depth first from the results, so that values are alive for a short time. Of two operands, the one that needs
+    /// more registers comes first.
     DepthFirst,
-    /// The value that the results wait for longest comes first, while registers last, so that a processor
-    /// finds work while it waits (`schedule/throughput.rs`). Programs too long for one function are ordered
-    /// depth first, so that few values pass from one function to the next.
+    /// The operation for which results wait longest comes first, as long as there are registers, so that a processor
+    /// has work while it waits (`schedule/throughput.rs`). Programs that are too long for one function are ordered
+    /// depth first, so that few values are passed from one function to the next.
     #[default]
     Throughput,
 }
 
-/// Operations, beyond which [`Schedule::Throughput`] is depth first.
+/// The number of operations above which [`Schedule::Throughput`] orders depth first.
 const LONG: usize = 6000;
 
-/// Orders the statements. Not a bit changes.
+/// Orders the statements. No bits change.
 #[must_use]
 pub(super) fn run(program: &Program, schedule: Schedule) -> Program {
     match schedule {
@@ -47,7 +47,7 @@ impl Reordering {
         self.moved[value.index()].is_some()
     }
 
-    /// The operation comes next; its operands are there.
+    /// Appends an operation, whose operands must already be in the new order.
     fn push(&mut self, value: Value, operation: Operation) {
         let at = |operand: Value| self.moved[operand.index()].unwrap_or(operand);
         self.operations.push(operation.map(at));
@@ -78,7 +78,7 @@ fn depth_first(program: &Program) -> Program {
                     order.push(value, operation);
                 }
             } else {
-                // The last goes first.
+                // The last of `pending` is taken first.
                 missing.sort_by_key(|operand| registers[operand.index()]);
                 pending.extend(missing);
             }
@@ -87,7 +87,7 @@ fn depth_first(program: &Program) -> Program {
     order.finish(program)
 }
 
-/// The registers that each value needs if nothing were shared (Sethi and Ullman 1970).
+/// Returns the number of registers that each value would need if no values were shared (Sethi and Ullman 1970).
 fn registers(program: &Program) -> Vec<u32> {
     let mut registers: Vec<u32> = Vec::with_capacity(program.operations().len());
     for operation in program.operations() {
@@ -130,7 +130,7 @@ mod tests {
         assert!(after * 10 < before * 9, "{before} became {after}");
     }
 
-    /// Two if a chain takes up loads, one more for each level of a tree.
+    /// Two registers for a chain of loads, and one more for each level of a tree.
     #[test]
     fn registers_are_those_of_sethi_and_ullman() {
         let mut b = Builder::new();
@@ -145,11 +145,11 @@ mod tests {
         let registers = registers(&program);
         let of = |value: Value| registers[value.index()];
         assert_eq!([loads[0], pairs[3], fours[1], tree, chain, root].map(of), [1, 2, 3, 4, 2, 3]);
-        // Two pairs, the first of which is kept meanwhile, and a load beside both.
+        // Two pairs, of which the first is kept while the second is computed, and one more load.
         assert_eq!(of(three), 3);
     }
 
-    /// Of two operands the one that needs more registers is first, whichever side it is on.
+    /// Of two operands, the one that needs more registers comes first, on either side.
     #[test]
     fn the_operand_of_more_registers_is_first() {
         for swapped in [false, true] {
@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    /// Each operation once, after its operands, and nothing else.
+    /// Each operation occurs once, after its operands, and there are no others.
     #[test]
     fn no_operation_is_lost_or_made() {
         for seed in 0..100 {

@@ -1,14 +1,14 @@
 //! List scheduling (Graham 1969): the order in which a simple processor would start the operations.
 //!
-//! A call waits for chains of dependent operations: without the sines and cosines some 100 cycles for
-//! an arm of six joints, twice the time that its operations need if they overlap. A processor looks
-//! a few hundred instructions ahead, so that work from the other end of a function is out of its
-//! sight. Here the operation whose results are waited for longest starts first.
+//! A call waits for chains of dependent operations: about 100 cycles for an arm with six joints, without the sines
+//! and cosines, which is twice the time that its operations need if they overlap. A processor looks only a few hundred
+//! instructions ahead, so it does not find work at the other end of a function. Here, the operation for which
+//! results wait longest starts first.
 //!
-//! The processor of the model starts two products and two sums a cycle, as current x86-64 and 64-bit ARM
-//! cores do. An operation takes it half of what it takes them (`latency.rs`): they work on the next call while this one
-//! waits. Over the arms of `docs/performance.md` other numbers make up to 2 % in the time of a call. While
-//! more values than registers are alive, operations that end the life of others go first.
+//! The model of a processor starts two products and two sums in each cycle, as current x86-64 and 64-bit ARM
+//! cores do. Its latencies are half of theirs (`latency.rs`), because they work on the next call while this one
+//! waits. Other values of the model change the time of a call by up to 2 % for the arms in `docs/performance.md`. While
+//! more values are alive than there are registers, operations that end the lives of others go first.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,11 +17,11 @@ use super::Reordering;
 use crate::passes::latency::shared_latency;
 use crate::program::{Operation, Program, Value};
 
-/// Products, quotients and calls started in a cycle.
+/// The number of products, quotients and calls that start in a cycle.
 const PRODUCTS: usize = 2;
-/// Sums and changes of sign started in a cycle.
+/// The number of sums and changes of sign that start in a cycle.
 const SUMS: usize = 2;
-/// Values alive, from which on those that end lives go first: what 32 registers hold, a few left for
+/// The number of live values from which on operations that end lives go first: 32 registers, minus a few for
 /// operands from memory.
 const REGISTERS: isize = 24;
 
@@ -29,7 +29,7 @@ fn is_sum(operation: Operation) -> bool {
     matches!(operation, Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_))
 }
 
-/// Cycles from the start of each operation to the last result that waits for it.
+/// The cycles from the start of each operation to the last result that waits for it.
 fn heights(program: &Program) -> Vec<u32> {
     let mut heights = vec![0; program.operations().len()];
     for (value, operation) in program.values().rev() {
@@ -53,21 +53,21 @@ pub(super) fn run(program: &Program) -> Program {
 /// The state of the scheduler.
 struct List<'p> {
     program: &'p Program,
-    /// Cycles from the start of each operation to the last result that waits for it.
+    /// The cycles from the start of each operation to the last result that waits for it.
     height: Vec<u32>,
     /// The operations that use each value, each once.
     users: Vec<Vec<Value>>,
-    /// For each operation, the operands that have not started.
+    /// For each operation, the number of operands that have not started.
     missing: Vec<usize>,
-    /// For each value, the operations that still need it, and one where it is a result.
+    /// For each value, the number of operations that still need it, plus one if it is a result.
     needed: Vec<usize>,
-    /// For each operation, the operands that no other needs any more: their lives end with it.
+    /// For each operation, the number of operands that no other operation still needs: their lives end with it.
     ends: Vec<isize>,
-    /// The cycle in which the operands of each operation are there.
+    /// For each operation, the cycle in which its operands are known.
     start: Vec<u32>,
-    /// Operations whose operands are there, the one waited for longest first.
+    /// Operations whose operands are known; first the one for which results wait longest.
     ready: BTreeSet<(Reverse<u32>, Value)>,
-    /// Operations whose operands have started, by the cycle in which they are there.
+    /// Operations whose operands have started, by the cycle in which the operands are known.
     waiting: BTreeMap<u32, Vec<Value>>,
     now: u32,
     alive: isize,
@@ -119,7 +119,7 @@ impl<'p> List<'p> {
         self.ready.is_empty() && self.waiting.is_empty()
     }
 
-    /// Starts what a cycle has room for.
+    /// Starts as many operations as one cycle has room for.
     fn cycle(&mut self) {
         while let Some(entry) = self.waiting.first_entry()
             && *entry.key() <= self.now
@@ -131,7 +131,7 @@ impl<'p> List<'p> {
         let (mut products, mut sums) = (PRODUCTS, SUMS);
         while let Some(value) = self.choose(products > 0, sums > 0) {
             let operation = self.program.operation(value);
-            // Registers are short and nothing frees one: operations under way may.
+            // If no registers are left and this operation frees none, operations under way may free some.
             let under_way = products + sums < PRODUCTS + SUMS || !self.waiting.is_empty();
             if under_way && self.alive >= REGISTERS && self.growth(value) > 0 {
                 break;
@@ -146,7 +146,7 @@ impl<'p> List<'p> {
         self.now += 1;
     }
 
-    /// The operation to start next, of those that have room.
+    /// Returns the operation to start next, among those for which the cycle has room.
     fn choose(&self, products: bool, sums: bool) -> Option<Value> {
         let candidates = self.ready.iter().map(|(_, value)| *value);
         let mut candidates = candidates
@@ -155,16 +155,17 @@ impl<'p> List<'p> {
         if self.alive < REGISTERS || self.growth(first) <= 0 {
             return Some(first);
         }
-        // Of those that add no value the one waited for longest.
+        // Of those that add no live value, the one for which results wait longest.
         Some(candidates.find(|value| self.growth(*value) <= 0).unwrap_or(first))
     }
 
-    /// By how much the number of values alive grows if an operation starts.
+    /// Returns by how much the number of live values grows if an operation starts.
     fn growth(&self, value: Value) -> isize {
         1 - self.ends[value.index()]
     }
 
-    /// Tells the users of a value if but one still needs it; for those that have started it is the same.
+    /// If only one operation still needs a value, records this for all its users; for those that have already started
+    /// it has no effect.
     fn note_end(&mut self, value: Value) {
         if self.needed[value.index()] == 1 && !self.program.operation(value).is_leaf() {
             for user in &self.users[value.index()] {
@@ -245,8 +246,8 @@ mod tests {
 
     #[test]
     fn few_values_live_where_many_could() {
-        // A hundred products of two loads each, summed from the first to the last: all could start
-        // at once, and then would wait for their turn.
+        // A hundred products of two loads each, summed from the first to the last. All could start
+        // at once, but would then have to wait for their sums.
         let mut builder = Builder::new();
         let mut sum = builder.load(Source::Input(0));
         for index in 0..100 {
@@ -264,11 +265,11 @@ mod tests {
             values.filter(|(value, _)| value.index() <= at && last[value.index()] > at).count()
         };
         let most = (0..last.len()).map(alive).max().unwrap();
-        // Operations under way come on top of 24; 32 registers are enough.
+        // Operations under way are added to the 24 values; 32 registers are enough.
         assert!(most <= 26, "{most}");
     }
 
-    /// A product of three dense matrices, of some entries the reciprocal: many values live long.
+    /// A product of three dense matrices, with the reciprocals of some entries: many values are alive for a long time.
     fn matrices(size: u32) -> Program {
         let mut b = Builder::new();
         let mut entries = |first: u32| -> Vec<Value> {
@@ -297,7 +298,7 @@ mod tests {
         b.finish(second)
     }
 
-    /// The cycles that the processor of the model takes for a program in its order, and the most values
+    /// Returns the cycles that the model takes for a program in its order, and the largest number of values
     /// alive at once.
     fn cost(program: &Program) -> (u32, usize) {
         let mut there: Vec<u32> = vec![];
@@ -334,7 +335,7 @@ mod tests {
         (there.into_iter().max().unwrap_or(0), (0..last.len()).map(alive).max().unwrap_or(0))
     }
 
-    /// As built and as ordered: the numbers of this model; another model has others.
+    /// Values of this model, as built and as ordered; another model would have others.
     #[test]
     fn time_and_registers_of_dense_matrices() {
         let costs = [2, 4, 6].map(|size| {
@@ -373,7 +374,7 @@ mod tests {
         assert_eq!(heights(&program), [28, 28, 28, 3, 26, 16, 9, 2]);
     }
 
-    /// If both users of a value take it as both of their operands, it is one operand.
+    /// A value that is both operands of an operation counts as one operand.
     #[test]
     fn operands_are_told_once() {
         let (x, y) = (Value(3), Value(5));
@@ -385,7 +386,7 @@ mod tests {
         assert!(each(Operation::Load(Source::Input(0))).is_empty());
     }
 
-    /// The life of a value ends with the last operation that needs it, but not that of a result or load.
+    /// The life of a value ends with the last operation that needs it, except for results and loads.
     #[test]
     fn growth_is_one_less_what_ends() {
         let mut b = Builder::new();
@@ -403,7 +404,7 @@ mod tests {
             list.begin(value, program.operation(value));
             assert_eq!(list.alive, alive, "{value:?}");
             if value == square {
-                // The product alone needs the sum now.
+                // Only the product needs the sum now.
                 assert_eq!(list.growth(product), 0);
             }
         }

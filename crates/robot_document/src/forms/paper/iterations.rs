@@ -1,5 +1,5 @@
-//! The paper's iterations on sums in the order of writing; [`robot_dynamics::newton_euler`] has them on expressions,
-//! whose operands have no order.
+//! The paper's iterations with sums that keep the order in which they are written. [`robot_dynamics::newton_euler`] has
+//! them with expressions, whose operands have no order.
 
 use robot_dynamics::mechanism::{Mechanism, MechanismLink};
 use robot_dynamics::quantity::Kind;
@@ -14,7 +14,7 @@ use crate::layout::Order;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Column<'g>(pub(super) [Sum<'g>; 3]);
 
-/// The vectors of all links by kind.
+/// The vectors of all links, by their kinds.
 #[derive(Debug, Default)]
 pub(super) struct Iterations<'g> {
     rotations: Vec<[Column<'g>; 3]>,
@@ -29,7 +29,7 @@ pub(super) struct Iterations<'g> {
     joint_moments: Vec<Column<'g>>,
 }
 
-/// Expressions of the mechanism as sums: lengths after coordinates, as in (12).
+/// Converts expressions of the mechanism to sums, with lengths after coordinates, as in (12).
 pub(super) struct Reader<'o, 'r>(pub(super) &'o Order<'r>);
 
 impl Reader<'_, '_> {
@@ -48,7 +48,7 @@ impl Reader<'_, '_> {
 }
 
 impl<'g> Iterations<'g> {
-    /// Both iterations.
+    /// Carries out the outward and the inward iteration.
     pub(super) fn new(
         mechanism: &Mechanism<'g>,
         reader: &Reader<'_, '_>,
@@ -61,7 +61,7 @@ impl<'g> Iterations<'g> {
         Ok(all)
     }
 
-    /// The vectors of a kind, link by link; of joint torques none.
+    /// The vectors of a kind, link by link; none for joint torques.
     pub(super) fn vectors(&self, kind: Kind) -> &[Column<'g>] {
         match kind {
             Kind::CenterOfMassAcceleration => &self.of_centers,
@@ -88,7 +88,7 @@ impl<'g> Iterations<'g> {
                 self.angular_accelerations[parent].clone(),
                 self.accelerations[parent].clone(),
             ),
-            // Gravity enters as the base's acceleration against it.
+            // Gravity enters as an opposite acceleration of the base.
             None => {
                 let gravity = reader.column(mechanism.gravity)?;
                 (Column::default(), Column::default(), gravity.negative())
@@ -132,7 +132,8 @@ impl<'g> Iterations<'g> {
         mechanism: &Mechanism<'g>,
         reader: &Reader<'_, '_>,
     ) -> Result<(), PolynomialError> {
-        // What the tips and the children receive, in the order of (26) and (36): rotated, then shifted.
+        // The wrenches from tips and children, in the order of (26) and (36): the rotated moments, then the shifted
+        // forces.
         let mut forces = vec![Column::default(); mechanism.links.len()];
         let mut turned = forces.clone();
         let mut shifted = forces.clone();
@@ -181,12 +182,12 @@ impl<'g> Column<'g> {
         Column(self.0.map(Sum::negative))
     }
 
-    /// A factor times the vector.
+    /// The product of a scalar and the vector.
     fn times(&self, factor: &Sum<'g>) -> Column<'g> {
         Column(self.0.each_ref().map(|component| factor.times(component)))
     }
 
-    /// The product of a matrix with these rows and the vector.
+    /// The product of a matrix, given by its rows, and the vector.
     fn turned(&self, rows: &[Column<'g>; 3]) -> Column<'g> {
         Column(rows.each_ref().map(|row| row.dot(self)))
     }
@@ -197,7 +198,7 @@ impl<'g> Column<'g> {
         products.fold(Sum::default(), Sum::plus)
     }
 
-    /// The vector product, as that of the skew-symmetric matrix of the first one and the other: row by row.
+    /// The cross product, computed row by row as the skew-symmetric matrix of the first vector times the second.
     fn cross(&self, other: &Column<'g>) -> Column<'g> {
         let ([a, b, c], [x, y, z]) = (&self.0, &other.0);
         Column([

@@ -1,4 +1,4 @@
-//! Equations in the order and the shape of the paper "The dynamic model of TRTTR1 modular serial robot".
+//! Equations in the order and the form of the paper "The dynamic model of TRTTR1 modular serial robot".
 
 mod iterations;
 mod relations;
@@ -19,8 +19,8 @@ pub(super) use relations::relations;
 pub(crate) use relations::vectors;
 
 impl<'g> Writer<'_, 'g> {
-    /// The terms of quantities in the order in which the paper's relations yield them, masses in front of brackets;
-    /// `None` for a quantity that they do not yield, such as a joint torque with friction.
+    /// The terms of quantities in the order in which the paper's relations yield them, with masses in front of
+    /// brackets; `None` for a quantity that these relations do not yield, such as a joint torque with friction.
     pub(super) fn in_paper_order(
         &self,
         quantities: &[Quantity<'g>],
@@ -91,7 +91,7 @@ impl<'g> Writer<'_, 'g> {
     }
 }
 
-/// A mass times a sum, as (16) to (19) have it: in front of brackets, with a minus sign if a term has one.
+/// A mass times a sum in brackets, as in (16) to (19). A minus sign is taken out of the brackets if any term has one.
 fn bracketed<'g>(mass: &[ArrangedTerm<'g>], sum: &[ArrangedTerm<'g>]) -> Vec<ArrangedTerm<'g>> {
     let ([mass], [_, _, ..]) = (mass, sum) else {
         return Sum::of_terms(mass).times(&Sum::of_terms(sum)).arranged();

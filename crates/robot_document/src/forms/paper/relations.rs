@@ -1,4 +1,4 @@
-//! The relations of vectors from which the paper's equations follow: (8), (14), (20), (26), (36) and (52).
+//! The vector relations from which the paper's equations follow: (8), (14), (20), (26), (36) and (52).
 
 use robot_dynamics::mechanism::{Mechanism, MechanismLink};
 use robot_dynamics::quantity::{Kind, Symbol};
@@ -9,27 +9,27 @@ use super::super::{Equation, Writer};
 use crate::error::Error;
 use crate::math::{Fence, Math, Script};
 
-/// A relation of vectors.
+/// A vector relation.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Relation {
-    /// The name of what it yields: `a_c4` with the components `a_c4.x` …, or `Q1`.
+    /// The name of the quantity that follows from it: `a_c4`, with the components `a_c4.x` …, or `Q1`.
     pub of: String,
-    /// The relation; its text names what it yields.
+    /// The relation as an equation, whose text is the name of that quantity.
     pub equation: Equation,
 }
 
 impl Relation {
-    /// The start of the names of relations.
+    /// The beginning of the names of relations.
     pub(crate) const NAME: &'static str = "relation_";
 
-    /// Whether an equation of that name follows.
+    /// Whether the equation with this name follows from the relation.
     pub(crate) fn yields(&self, name: &str) -> bool {
         name.strip_prefix(&self.of).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
     }
 }
 
-/// The relations of all quantities that the robot's joints have as the paper has them: those of joints with drives of
-/// their own or with friction have more terms than the paper's.
+/// The relations that hold for the robot as the paper states them. Joints with drives of their own or with friction
+/// have additional terms, so their relations are omitted.
 pub(in crate::forms) fn relations(writer: &Writer<'_, '_>) -> Result<Vec<Relation>, Error> {
     let derivation = writer.derivation();
     let mechanism = &derivation.mechanism;
@@ -54,7 +54,7 @@ pub(in crate::forms) fn relations(writer: &Writer<'_, '_>) -> Result<Vec<Relatio
     Ok(all)
 }
 
-/// The symbols that only relations have, with their meanings: of link i, and of j that it carries.
+/// The symbols that occur only in relations, with their meanings, for a link i and a link j that it carries.
 pub(crate) fn vectors() -> Vec<(Math, &'static str)> {
     let i = || Math::Letter('i');
     let own = |letter| with(Math::Letter(letter).under_bar(), i(), i());
@@ -92,7 +92,7 @@ fn relation(of: String, left: Math, right: Vec<Math>) -> Relation {
     Relation { of, equation: Equation { name, text, left, right: Math::row(right) } }
 }
 
-/// A scalar before a vector, in brackets if it is a sum.
+/// A scalar factor of a vector, in parentheses if it is a sum.
 fn factor(writer: &Writer<'_, '_>, value: Expr<'_>) -> Result<Vec<Math>, Error> {
     let shown = writer.symbols.expression(value)?;
     let is_sum = shown.pieces().iter().any(|piece| matches!(piece, Math::Sign('+' | '-')));
@@ -102,7 +102,7 @@ fn factor(writer: &Writer<'_, '_>, value: Expr<'_>) -> Result<Vec<Math>, Error> 
     }])
 }
 
-/// A letter under a bar, `\bar{r}_{c_5}^5`, with what is below and in which axes it is.
+/// A letter with a bar, such as `\bar{r}_{c_5}^5`, with a lower index and the frame of its axes as the upper one.
 fn bar(letter: char, lower: Math, axes: usize) -> Math {
     with(Math::Letter(letter).under_bar(), lower, Math::integer(axes))
 }
@@ -140,7 +140,7 @@ fn moment(number: usize) -> Vec<Math> {
     right
 }
 
-/// The numbers of the tips and the children of a link, in the order in which their wrenches are added.
+/// The numbers of the tips and children of a link, in the order in which their wrenches are added.
 fn carried(mechanism: &Mechanism<'_>, link: usize) -> Vec<usize> {
     let tips = mechanism.frames.iter().filter(|frame| frame.wrench.is_some());
     let tips = tips.enumerate().filter(|(_, frame)| frame.link == Some(link));
@@ -151,13 +151,13 @@ fn carried(mechanism: &Mechanism<'_>, link: usize) -> Vec<usize> {
     tips.chain(children).collect()
 }
 
-/// `[R]_6^5 ·` and what it turns.
+/// A rotation times a vector, such as `[R]_6^5 ·` and the vector.
 fn turned(from: usize, to: usize, vector: Math) -> [Math; 3] {
     let base = Math::Fenced(Fence::Brackets, Box::new(Math::Letter('R')));
     [with(base, Math::integer(from), Math::integer(to)), sign('·'), vector]
 }
 
-/// (26): what the link carries, and its own force.
+/// (26): the forces of the carried links, and the link's own force.
 fn joint_force(number: usize, carried: &[usize]) -> Vec<Math> {
     let mut right = vec![];
     for one in carried {
@@ -168,7 +168,7 @@ fn joint_force(number: usize, carried: &[usize]) -> Vec<Math> {
     right
 }
 
-/// (36)
+/// (36): the moments and forces of the carried links, and the link's own moment and force.
 fn joint_moment(number: usize, carried: &[usize]) -> Vec<Math> {
     let mut right = vec![];
     for one in carried {
@@ -186,7 +186,7 @@ fn joint_moment(number: usize, carried: &[usize]) -> Vec<Math> {
     right
 }
 
-/// (52): the projection on the joint axis, by its components if it is an axis of the frame.
+/// (52): the projection on the joint axis, with components if the axis is an axis of the frame.
 fn of_torque(number: usize, link: &MechanismLink<'_>) -> Relation {
     let kind = match link.kind {
         JointKind::Revolute => Kind::LinkMoment,

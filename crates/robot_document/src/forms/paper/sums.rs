@@ -1,8 +1,8 @@
-//! Sums of products in the order in which they are written: the terms of a product of sums are the products of their
-//! terms, one after the other, and like terms merge at the place of the first.
+//! Sums of products that keep the order in which they are written. The terms of a product of sums are the products of
+//! their terms in order, and like terms are merged at the place of the first.
 //!
-//! The paper's equations come out in its order if its relations are carried out so: (24), (31) to (34), (39) and what
-//! follows from them.
+//! The paper's equations come out in its order if its relations are carried out in this way: (24), (31) to (34), (39)
+//! and the equations that follow from them.
 
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 use robot_symbolic::{Expr, Function, Id, Number, View};
@@ -22,12 +22,12 @@ type Key = Vec<(Id, i32)>;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sum<'g> {
     terms: Vec<Term<'g>>,
-    /// The place of the term with these factors.
+    /// The places of terms by their factors.
     places: FxHashMap<Key, usize>,
 }
 
 impl<'g> Sum<'g> {
-    /// The terms of an expanded expression in their order.
+    /// Converts the terms of an expanded expression, in their order.
     pub(super) fn of_terms(terms: &[ArrangedTerm<'g>]) -> Sum<'g> {
         let mut sum = Sum::default();
         for term in terms {
@@ -68,7 +68,7 @@ impl<'g> Sum<'g> {
         product
     }
 
-    /// The terms as they are printed.
+    /// The terms in the form in which they are printed.
     pub(super) fn arranged(&self) -> Vec<ArrangedTerm<'g>> {
         let one = |term: &Term<'g>| {
             let negative = term.coefficient.is_negative();
@@ -80,7 +80,7 @@ impl<'g> Sum<'g> {
         self.terms.iter().filter(|term| !term.coefficient.is_zero()).map(one).collect()
     }
 
-    /// Adds a term, with 1 − c² in place of s².
+    /// Adds a term, in which s² is replaced by 1 − c².
     fn add_term(&mut self, term: Term<'g>) {
         let mut pending = vec![term];
         while let Some(mut term) = pending.pop() {
@@ -101,7 +101,7 @@ impl<'g> Sum<'g> {
     fn merge(&mut self, term: Term<'g>) {
         let key = term.key();
         match self.places.get(&key).and_then(|place| self.terms.get_mut(*place)) {
-            // What has canceled is written anew at the end.
+            // A term that has canceled is appended at the end when it occurs again.
             Some(known) if !known.coefficient.is_zero() => {
                 known.coefficient = &known.coefficient + &term.coefficient;
             }
@@ -114,8 +114,9 @@ impl<'g> Sum<'g> {
 }
 
 impl<'g> Term<'g> {
-    /// The factors of the first and then those of the other; equal ones are a power at the place of the first. A single
-    /// factor joins the power in a product that has it already: `l_5 M_5 q̈_2 l_5` is `M_5 q̈_2 l_5²`.
+    /// The factors of the first term and then those of the other; equal ones become a power at the place of the first.
+    /// If the first term is a single factor that the other contains too, it joins the power there: `l_5 M_5 q̈_2 l_5`
+    /// is `M_5 q̈_2 l_5²`.
     fn times(&self, other: &Term<'g>) -> Term<'g> {
         let coefficient = &self.coefficient * &other.coefficient;
         if let [(single, exponent)] = self.factors.as_slice()
@@ -140,7 +141,7 @@ impl<'g> Term<'g> {
         self.factors.retain(|(_, exponent)| *exponent != 0);
     }
 
-    /// The place of a power of a sine above the first, and the sine's angle.
+    /// The place of a sine with an exponent of at least 2, and the angle of the sine.
     fn square_of_a_sine(&self) -> Option<(usize, Expr<'g>)> {
         self.factors.iter().enumerate().find_map(|(place, (atom, exponent))| match atom.view() {
             View::Call(Function::Sin, argument) if *exponent >= 2 => Some((place, argument)),

@@ -1,4 +1,4 @@
-//! Whole documents.
+//! Whole documents in LaTeX.
 
 use super::equations::{Layout, equations};
 use super::{formula, text};
@@ -11,21 +11,21 @@ use crate::width::width;
 /// The layout of a document.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Page {
-    /// Columns on a page, 1 or 2.
+    /// The number of columns on a page, 1 or 2.
     pub columns: u8,
-    /// The width of a column, cm.
+    /// The width of a column, in cm.
     pub width: f64,
 }
 
-/// Between two columns, cm.
+/// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
 /// The struts that separate the first row from a rule above it, and the last row from one below.
 const STRUTS: [&str; 2] = [r"\rule{0pt}{2.7ex}", r"\rule[-1.1ex]{0pt}{0pt}"];
-/// Between the columns of a table, pt, in any size.
+/// The gap between the columns of a table in all font sizes, in pt.
 const COLUMN_GAP: f64 = 12.5;
 
 impl Page {
-    /// A page of A4 with one or two columns of the usual width.
+    /// An A4 page with one or two columns of the usual width.
     #[must_use]
     pub fn with_columns(columns: u8) -> Page {
         if columns > 1 { Page { columns: 2, width: 8.2 } } else { Page { columns: 1, width: 16.0 } }
@@ -36,12 +36,12 @@ impl Page {
     }
 }
 
-/// The document as the source of a LaTeX run: article, amsmath and geometry are all that it needs, and TikZ for a
-/// figure.
+/// Writes the document as LaTeX source. It only needs the class article, the packages amsmath and geometry and, for a
+/// figure, TikZ.
 ///
 /// # Errors
 ///
-/// A piece of an equation that does not fit a column.
+/// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let mut writer = Writer { page, latex: String::new(), tables: 0 };
     writer.head(document);
@@ -73,7 +73,7 @@ impl Writer {
         ));
         self.line("\\usepackage{amsmath}");
         if document.blocks.iter().any(|block| matches!(block, Block::Figure(_))) {
-            // Without TikZ there is no figure, and all the rest.
+            // Without TikZ, the document is complete except for the figure.
             self.line("\\IfFileExists{tikz.sty}{\\usepackage{tikz}}{}");
         }
         self.line("\\setlength{\\mathindent}{0pt}");
@@ -84,7 +84,7 @@ impl Writer {
         self.line("\\raggedbottom");
         self.line("\\begin{document}");
         self.line("\\raggedright");
-        // A display at the start of a paragraph has an empty line above it already.
+        // A display at the start of a paragraph already has an empty line above it.
         self.line("\\setlength{\\abovedisplayskip}{0pt}");
         self.line("\\setlength{\\belowdisplayskip}{4pt plus 2pt}");
         self.line(&format!("{{\\LARGE {}\\par}}\\medskip", text(&document.title)));
@@ -113,12 +113,12 @@ impl Writer {
         Ok(())
     }
 
-    /// A line of a paragraph: formulas wider than a column are broken.
+    /// A line of a paragraph, in which formulas wider than a column are broken.
     fn inlines(&self, inlines: &[Inline]) -> String {
         wrapped(inlines, Layout::of_centimeters(self.page.width).width - 20.0)
     }
 
-    /// A table that stays where it is, in parts that are never broken.
+    /// A table that does not float, in parts that are never broken across pages.
     fn table(&mut self, table: &Table) {
         self.tables += 1;
         let available = Layout::of_centimeters(self.page.width).width;
@@ -139,7 +139,7 @@ impl Writer {
             let cells = cells.iter().zip(&part.widths);
             cells.map(|(cell, width)| shown(cell, *width, scale)).collect::<Vec<_>>().join(" & ")
         };
-        // A cell of several lines has line breaks of its own.
+        // In cells of several lines, `\\` would break a line within the cell.
         let end = match part.widths.iter().any(Option::is_some) {
             true => "\\tabularnewline",
             false => "\\\\",
@@ -159,12 +159,12 @@ impl Writer {
     }
 }
 
-/// The specification of a column.
+/// The specification of a column for `tabular`.
 fn column(width: Option<f64>) -> String {
     width.map_or_else(|| "l".to_owned(), |width| format!("p{{{}pt}}", width.floor()))
 }
 
-/// A cell; formulas that are wider than their column are broken.
+/// A cell, in which formulas wider than its column are broken.
 fn shown(cell: &[Inline], width: Option<f64>, scale: f64) -> String {
     match width {
         None => line(cell),

@@ -1,4 +1,4 @@
-//! Displayed equations, broken into lines, in an environment of amsmath.
+//! Displayed equations in an environment of amsmath, broken into lines.
 
 use crate::breaking::{is_within_product, right_side};
 use crate::document::NumberedEquation;
@@ -7,34 +7,34 @@ use crate::latex::formula;
 use crate::math::Math;
 use crate::width::width;
 
-/// The lines that equations are to fit.
+/// The lines on which equations must fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
-    /// The width of a line, in printer's points, 72.27 to an inch.
+    /// The width of a line in printer's points, 72.27 per inch.
     pub width: f64,
 }
 
-/// Lines in one environment; longer ones are cut, for TeX sets an environment as a whole, in a time that
-/// grows with the square of its length.
+/// The largest number of lines in one environment. Longer ones are split, because TeX sets an environment as a whole,
+/// and its time grows with the square of the length.
 const LONGEST: usize = 40;
-/// The number of an equation, pt.
+/// The width of the number of an equation, in pt.
 const NUMBER: f64 = 36.0;
-/// The error of estimates, pt.
+/// An upper bound for the error of estimated widths, in pt.
 const MARGIN: f64 = 2.0;
 
 impl Layout {
-    /// A line of so many centimeters.
+    /// A line of this width in centimeters.
     #[must_use]
     pub fn of_centimeters(width: f64) -> Layout {
         Layout { width: width / 2.54 * 72.27 }
     }
 }
 
-/// Equations one below the other, aligned at their equals signs; those with a label are numbered.
+/// Writes equations one below the other, aligned at their equals signs; those with a label are numbered.
 ///
 /// # Errors
 ///
-/// A piece of an equation that cannot be broken and does not fit a line.
+/// If a piece of an equation cannot be broken and does not fit on a line.
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
     let numbered = list.iter().any(|equation| equation.label.is_some());
     let left = list.iter().map(|one| width(&one.equation.left)).fold(0.0, f64::max);
@@ -50,9 +50,9 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
 struct Writer {
     numbered: bool,
     latex: String,
-    /// The lines of the environment that is being filled.
+    /// The lines of the current environment.
     rows: Vec<String>,
-    /// Whether it goes on with an equation that started in the one before.
+    /// Whether the current environment continues an equation from the preceding one.
     is_within: bool,
 }
 
@@ -62,7 +62,7 @@ impl Writer {
         let lines = right_side(equation, available, if label.is_some() { NUMBER } else { 0.0 })?;
         let left = formula(&equation.left);
         let last = lines.len().saturating_sub(1);
-        // Equations stay whole if they can.
+        // An equation is kept in one environment if possible.
         if self.rows.len() + lines.len() > LONGEST {
             self.end(Cut::Between);
         }
@@ -86,14 +86,14 @@ impl Writer {
             }
             self.rows.push(row);
         }
-        // What follows has a left side of its own.
+        // The next equation has another left side, so it starts a new environment.
         if self.is_within {
             self.end(Cut::Between);
         }
         Ok(())
     }
 
-    /// Ends an environment; within an equation the lines go on at the usual distance.
+    /// Ends the environment. If the cut is within an equation, its lines continue at the usual distance.
     fn end(&mut self, cut: Cut) {
         if self.rows.is_empty() {
             return;
@@ -116,14 +116,14 @@ impl Writer {
     }
 }
 
-/// Where an environment ends.
+/// Whether an environment ends between equations or within one.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Cut {
     Between,
     Within,
 }
 
-/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
+/// A further line of an equation: the sign at its beginning has the same spaces as within a sum.
 pub(in crate::notation) fn continued(line: &Math) -> String {
     match line.pieces() {
         [Math::Sign(_), rest @ ..] => {

@@ -4,7 +4,7 @@ use super::document::line;
 use super::text;
 use crate::figure::{Color, Figure, Label, Path, Point, Segment, Shape, coordinate, hundredths};
 
-/// A figure with its caption on a line of a width in points.
+/// A figure with its caption, for lines of `available` points.
 pub(super) fn figure(figure: &Figure, available: f64) -> String {
     let scale = figure.scale(available);
     let colors = figure.colors();

@@ -13,7 +13,7 @@ pub fn formula(math: &Math) -> String {
     writer.latex
 }
 
-/// Whether factors are set apart in the source, which changes nothing in print.
+/// Whether factors are separated by spaces in the source, which does not change the printed formula.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Spacing {
     Wide,
@@ -26,7 +26,7 @@ struct Writer {
 }
 
 impl Writer {
-    /// Adds text; a letter does not become part of a command before it.
+    /// Appends text, with a space before a letter that would become part of the preceding command.
     fn push(&mut self, text: &str) {
         if text.starts_with(|c: char| c.is_ascii_alphabetic()) {
             let head = self.latex.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -122,7 +122,7 @@ impl Writer {
 
     fn script(&mut self, script: &Script, spacing: Spacing) {
         match &script.base {
-            // Indices of their own need a group.
+            // A base with indices of its own needs a group.
             Math::Script(_) | Math::Row(_) => self.group(&script.base, Spacing::Tight),
             base => self.write(base, spacing),
         }
@@ -138,7 +138,8 @@ impl Writer {
     }
 
     fn matrix(&mut self, rows: &[Vec<Math>]) {
-        // A column with entries of several lines begins each at the left, further apart than the lines.
+        // A column with entries of several lines is aligned at the left, and its entries are further apart than their
+        // lines.
         let apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
         let [begin, gap, end] = match apart {
             true => [r"\left[\begin{array}{@{}l@{}}", r" \\[6pt] ", r" \end{array}\right]"],
@@ -155,7 +156,7 @@ impl Writer {
         self.push(end);
     }
 
-    /// The lines of an entry, by the last of which it stands in its column: the gap below is measured from there.
+    /// The lines of an entry, aligned with its row by the last line, from which the gap to the next entry is measured.
     fn lines(&mut self, lines: &[Math]) {
         self.push(r"\begin{array}[b]{@{}l@{}}");
         for (place, line) in lines.iter().enumerate() {
@@ -171,10 +172,10 @@ impl Writer {
     }
 }
 
-/// Whether two neighbors are set apart.
+/// Whether two neighbors are separated by a space in the source.
 fn needs_gap(before: &Math, place: usize, piece: &Math) -> bool {
     match (before, piece) {
-        // The letters s and c of sines and cosines, and a sign before the first term.
+        // There is no space after the letters s and c of sines and cosines, or after a sign before the first term.
         (Math::Letter(_), _) => false,
         (Math::Script(script), _) if matches!(script.base, Math::Letter('s' | 'c')) => {
             script.lower.is_some() || matches!(piece, Math::Sign(_))

@@ -1,4 +1,4 @@
-//! LaTeX: formulas, documents, and the way back from LaTeX that people wrote.
+//! LaTeX: the printers of formulas and documents, and the reader of LaTeX in robot files and printed equations.
 
 mod document;
 mod equations;

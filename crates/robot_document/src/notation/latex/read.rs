@@ -1,32 +1,32 @@
-//! From LaTeX back to layout: the part of LaTeX that this project prints.
+//! The reader that turns LaTeX into layouts; it accepts the part of LaTeX that this project prints.
 
 use robot_model::signs::{Accent, Font, FunctionName, Letter};
 
 use crate::math::{Fence, Math, Script};
 
-/// Groups nested deeper than this are refused.
+/// The deepest nesting of groups; deeper nesting is an error.
 const MAX_DEPTH: usize = 200;
 
-/// LaTeX that is not a formula of this project.
+/// The error for LaTeX that this project does not print.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("at byte {place}: {message}")]
 pub struct ReadError {
-    /// The byte of the text.
+    /// The position of the error in the text, in bytes.
     pub place: usize,
     /// The problem.
     pub message: &'static str,
 }
 
-/// A formula from LaTeX for math mode. Parentheses are fences.
+/// Reads a formula from LaTeX for math mode, in which parentheses are fences.
 ///
 /// # Errors
 ///
-/// The first place that is not in the part of LaTeX that is printed.
+/// The first place that is not in the part of LaTeX that this project prints.
 pub fn read(latex: &str) -> Result<Math, ReadError> {
     Reader { latex, place: 0, depth: 0, fences: true }.whole()
 }
 
-/// The LaTeX of a symbol, in which parentheses are signs.
+/// Reads the LaTeX of a symbol, in which parentheses are plain signs.
 pub(crate) fn read_symbol(latex: &str) -> Result<Math, ReadError> {
     Reader { latex, place: 0, depth: 0, fences: false }.whole()
 }
@@ -38,14 +38,14 @@ struct Reader<'t> {
     fences: bool,
 }
 
-/// The end of a row.
+/// What ends a row.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum End {
     Text,
     Brace,
     Parenthesis,
     Right(char),
-    /// Of an entry of a matrix, or of a line.
+    /// The end of an entry of a matrix or of a line.
     Entry,
 }
 
@@ -121,7 +121,7 @@ impl<'t> Reader<'t> {
         Ok(ended)
     }
 
-    /// A piece without its indices.
+    /// Reads a piece without its indices.
     fn piece(&mut self) -> Result<Math, ReadError> {
         let Some(first) = self.rest().chars().next() else {
             return self.fault("something is missing");
@@ -183,7 +183,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// A character, an accent or a font by its command.
+    /// Reads the rest of a command for a character, an accent or a font.
     fn named(&mut self, command: &str) -> Result<Math, ReadError> {
         if let Some(letter) = Letter::of_latex(command) {
             return Ok(Math::Letter(letter.character));
@@ -216,7 +216,7 @@ impl<'t> Reader<'t> {
         self.fault("an unknown fence")
     }
 
-    /// The rows of entries up to the end of an environment.
+    /// Reads the rows of entries up to the end of an environment.
     fn entries(&mut self, environment: &str) -> Result<Vec<Vec<Math>>, ReadError> {
         let mut rows = vec![vec![]];
         loop {
@@ -239,7 +239,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The lines of a sum: parentheses may open in one and close in another, so they are one.
+    /// Reads the lines of a sum as one line, because a parenthesis can open in one line and close in another.
     fn lines(&mut self) -> Result<Math, ReadError> {
         let end = r"\end{array}";
         let Some((lines, _)) = self.rest().split_once(end) else {
@@ -250,13 +250,13 @@ impl<'t> Reader<'t> {
         Ok(Math::Lines(vec![sum]))
     }
 
-    /// A group, or one piece.
+    /// Reads an argument: a group, or a single piece.
     fn argument(&mut self) -> Result<Math, ReadError> {
         self.skip_space(End::Text);
         if self.take("{") {
             return self.row(End::Brace);
         }
-        // Without braces one digit is an argument.
+        // Without braces, only one digit is the argument.
         if let Some(digit) = self.rest().chars().next().filter(char::is_ascii_digit) {
             self.place += 1;
             return Ok(Math::Number(digit.to_string()));
@@ -287,7 +287,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// Upright letters are a word.
+/// Makes a word of upright letters.
 fn upright(inside: Math) -> Math {
     let word: Option<String> = inside
         .pieces()

@@ -1,10 +1,10 @@
-//! Displayed equations from their LaTeX.
+//! The reader of displayed equations in LaTeX.
 
 use super::read::{ReadError, read};
 use crate::math::Math;
 
-/// The equations of environments of amsmath as this project prints them: left and right sides, lines
-/// joined.
+/// Reads the equations in environments of amsmath as this project prints them: their left and right sides, with further
+/// lines joined to the first.
 ///
 /// # Errors
 ///
@@ -21,7 +21,7 @@ pub fn read_equations(latex: &str) -> Result<Vec<[Math; 2]>, ReadError> {
         let line = line.split_once(r" \label{").map_or(line, |(formula, _)| formula);
         match (line.split_once("&= "), line.split_once(r"&\quad"), equations.last_mut()) {
             (Some((left, right)), _, _) => equations.push([left.to_owned(), right.to_owned()]),
-            // The piece before the mark of a further line is there for its width.
+            // Before the mark of a further line, there is only a piece that takes up the width of the left side.
             (None, Some((_, more)), Some([_, right])) => {
                 right.push(' ');
                 right.push_str(more);

@@ -1,8 +1,8 @@
-//! Text from robot files as LaTeX: it prints, and does nothing else.
+//! Text from robot files as LaTeX that only prints it, whatever it contains.
 
 use robot_model::signs::Letter;
 
-/// Letters outside of ASCII for which LaTeX has accents.
+/// Letters outside ASCII that LaTeX writes with an accent, and the accent.
 const ACCENTED: &[(&str, &str)] = &[
     ("ÀÈÌÒÙàèòù", "`"),
     ("ÁÉÍÓÚÝáéóúýĆćŃńŚśŹź", "'"),
@@ -10,10 +10,10 @@ const ACCENTED: &[(&str, &str)] = &[
     ("ÄËÏÖÜäëöüÿ", "\""),
     ("ÃÑÕãñõ", "~"),
 ];
-/// Their letters without the accents, in the same order.
+/// The same letters without accents, in the same order.
 const BARE: &[&str] = &["AEIOUaeou", "AEIOUYaeouyCcNnSsZz", "AEIOUaeou", "AEIOUaeouy", "ANOano"];
 
-/// Other characters.
+/// The LaTeX of other characters.
 const OTHERS: &[(char, &str)] = &[
     ('\\', r"\textbackslash{}"),
     ('~', r"\textasciitilde{}"),
@@ -55,10 +55,10 @@ const OTHERS: &[(char, &str)] = &[
     ('\u{a0}', "~"),
 ];
 
-/// Words longer than this many letters may be broken anywhere after as many.
+/// The number of letters after which a longer word can be broken.
 const LONG_WORD: usize = 12;
 
-/// Text for paragraphs. Characters that Computer Modern lacks print as their code: `[U+4E2D]`.
+/// Text for paragraphs. Characters that Computer Modern lacks are printed as their code: `[U+4E2D]`.
 #[must_use]
 pub fn text(text: &str) -> String {
     let mut latex = String::new();
@@ -74,7 +74,7 @@ pub fn text(text: &str) -> String {
                 latex.push('\\');
                 latex.push(character);
             }
-            // Two of them in a row would be a dash or a ligature.
+            // Two of these in a row would become a dash or a ligature.
             '-' | '`' | '\'' | ',' | '?' | '!' if latex.ends_with(character) => {
                 latex.push_str("{}");
                 latex.push(character);
@@ -89,7 +89,7 @@ pub fn text(text: &str) -> String {
     latex
 }
 
-/// A character that is not printed as it is.
+/// The LaTeX of a character that cannot be written as it is.
 fn outside(character: char) -> String {
     if let Some((_, latex)) = OTHERS.iter().find(|(other, _)| *other == character) {
         return (*latex).to_owned();
@@ -106,7 +106,7 @@ fn outside(character: char) -> String {
     format!("[U+{:04X}]", u32::from(character))
 }
 
-/// The letters of an upright word in a formula.
+/// The LaTeX of an upright word in a formula.
 pub(super) fn in_math(word: &str) -> String {
     let mut latex = String::new();
     for character in word.chars() {

@@ -1,4 +1,4 @@
-//! Displayed equations and whole documents.
+//! Displayed equations and whole documents in Typst.
 
 use super::formula::{Place, continued};
 use super::{formula, text};
@@ -9,23 +9,23 @@ use crate::latex::{Layout, Page};
 use crate::notation::tabular::{Part, SIZES, parts};
 use crate::width::width;
 
-/// The number of an equation and its distance from the equation, pt.
+/// The width of the number of an equation and of its distance from the equation, in pt.
 const NUMBER: f64 = 44.0;
-/// The error of estimates, pt.
+/// An upper bound for the error of estimated widths, in pt.
 const MARGIN: f64 = 4.0;
-/// Between the columns of a table with the padding of the cells, pt.
+/// The gap between the columns of a table, including the padding of the cells, in pt.
 const CELL_GAP: f64 = 7.0;
-/// Between two columns, cm.
+/// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
 
-/// Lines that are never on two pages; of the parts of a longer equation the last one has the number.
+/// The number of lines that are kept together on a page. The last part of a longer equation has the number.
 const LINES: usize = 8;
 
-/// Displayed equations one below the other; those with a label are numbered.
+/// Writes displayed equations one below the other; those with a label are numbered.
 ///
 /// # Errors
 ///
-/// A piece of an equation that cannot be broken and does not fit a line.
+/// If a piece of an equation cannot be broken and does not fit on a line.
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
     let is_numbered = list.iter().any(|one| one.label.is_some());
     let numbering = if is_numbered { "\"(1)\"" } else { "none" };
@@ -66,11 +66,11 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     Ok(typst)
 }
 
-/// The document as the source of a Typst run; it needs no package, and the fonts that Typst brings.
+/// Writes the document as Typst source, which needs no packages and only the fonts that Typst contains.
 ///
 /// # Errors
 ///
-/// A piece of an equation that does not fit a column.
+/// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let mut typst = head(document, page);
     let mut tables = 0;
@@ -119,7 +119,7 @@ fn head(document: &Document, page: Page) -> String {
     )
 }
 
-/// A table that stays where it is, in parts that are never broken.
+/// A table that does not float, in parts that are never broken across pages.
 fn table(table: &Table, number: usize, page: Page) -> String {
     let available = Layout::of_centimeters(page.width).width;
     parts(table, available, CELL_GAP).iter().map(|part| self::part(part, number)).collect()
@@ -158,9 +158,9 @@ fn part(part: &Part, number: usize) -> String {
     typst
 }
 
-/// The width of a column.
+/// The width of a column in Typst.
 fn column(width: Option<f64>) -> String {
-    // The padding of the cells is within.
+    // The width includes the padding of the cells.
     width.map_or_else(|| "auto".to_owned(), |width| format!("{}pt", (width + 6.0).floor()))
 }
 

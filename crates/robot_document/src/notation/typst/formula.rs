@@ -1,4 +1,4 @@
-//! Formulas as Typst, as people write them.
+//! Formulas in Typst, written as people write them.
 
 use robot_model::signs::FunctionName;
 
@@ -6,13 +6,13 @@ use super::text::quoted;
 use crate::breaking::is_within_product;
 use crate::math::{Fence, Math, Script};
 
-/// The Typst of a formula, for math mode.
+/// The Typst source of a formula, for math mode.
 #[must_use]
 pub fn formula(math: &Math) -> String {
     shown(math, Place::Free)
 }
 
-/// Where a formula is: among the arguments of a call, a comma would start the next one.
+/// The place of a formula: in an argument of a call, a comma would start the next argument.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Place {
     Free,
@@ -46,7 +46,8 @@ fn shown(math: &Math, place: Place) -> String {
         Math::Matrix(rows) => {
             let cell = |entry: &Math| shown(entry, Place::Argument);
             let row = |row: &Vec<Math>| row.iter().map(cell).collect::<Vec<_>>().join(", ");
-            // A column with entries of several lines begins each at the left, further apart than the lines.
+            // A column with entries of several lines is aligned at the left, and its entries are further apart than
+            // their lines.
             let is_apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
             let layout =
                 if is_apart { "align: #left, row-gap: #0.8em" } else { "row-gap: #0.35em" };
@@ -64,7 +65,7 @@ fn shown(math: &Math, place: Place) -> String {
     }
 }
 
-/// A further line: the sign that it starts with is set apart from what follows, as in a sum.
+/// A further line of an equation: the sign at its beginning has the same spaces as within a sum.
 pub(super) fn continued(line: &Math, place: Place) -> String {
     match line.pieces() {
         [first @ Math::Sign('+' | '-'), rest @ ..] => {
@@ -75,7 +76,7 @@ pub(super) fn continued(line: &Math, place: Place) -> String {
     }
 }
 
-/// All signs but those of sums and lists are escaped: a single parenthesis has no other one.
+/// Escapes all signs except those of sums and lists. A parenthesis here is not part of a pair, so it is escaped too.
 fn sign(sign: char, place: Place) -> String {
     match sign {
         '·' => "dot.op".to_owned(),
@@ -91,7 +92,7 @@ fn call(function: &str, inside: &Math) -> String {
     format!("{function}({})", shown(inside, Place::Argument))
 }
 
-/// Whether Typst takes a piece as a whole before and after a sign: a number, or a letter.
+/// Whether Typst takes this source as one operand of `/`, `_` or `^`: a number or a letter.
 fn is_single(typst: &str) -> bool {
     let mut letters = typst.chars();
     match (letters.next(), letters.as_str()) {
@@ -101,13 +102,13 @@ fn is_single(typst: &str) -> bool {
     }
 }
 
-/// A piece as a whole: its parentheses do not print.
+/// Makes one operand of the source; the added parentheses are not printed.
 fn grouped(typst: &str) -> String {
     if is_single(typst) { typst.to_owned() } else { format!("({typst})") }
 }
 
-/// Pieces with a space between: letters without one would be a word, and a letter before a
-/// parenthesis a call. Beside quotation marks a space would print.
+/// Pieces separated by spaces: letters without a space would be a word, and a letter before a parenthesis a call. There
+/// is no space beside quotation marks, because it would be printed.
 fn row(pieces: &[Math], place: Place) -> String {
     let mut typst = String::new();
     for (index, piece) in pieces.iter().enumerate() {
@@ -130,7 +131,7 @@ fn row(pieces: &[Math], place: Place) -> String {
     if typst.is_empty() { "\"\"".to_owned() } else { typst }
 }
 
-/// A power of a symbol with an index is above the index.
+/// The base with its indices. The exponent of a symbol with a lower index stands above that index.
 fn with_indices(script: &Script, place: Place) -> String {
     if let (None, Some(upper), Some(own)) = (&script.lower, &script.upper, own_index(&script.base))
         && own.upper.is_none()
@@ -154,7 +155,7 @@ fn with_indices(script: &Script, place: Place) -> String {
     format!("attach({}{indices})", shown(&script.base, Place::Argument))
 }
 
-/// The indices that a base has itself.
+/// The indices of a base that has some itself.
 fn own_index(base: &Math) -> Option<&Script> {
     match base {
         Math::Script(script) => Some(script),

@@ -1,10 +1,10 @@
-//! Text from robot files as Typst: it prints, and does nothing else.
+//! Text from robot files as Typst source that only prints it, whatever it contains.
 
-/// Words longer than this many letters may be broken after as many.
+/// The number of letters after which a longer word can be broken.
 const LONG_WORD: usize = 12;
 
-/// Text for paragraphs. Every sign that could be markup is escaped; what does not print, such as a
-/// change of the direction of writing, prints as its code: `[U+202E]`.
+/// Text for paragraphs. Every character that could be markup is escaped, and characters that are not printable, such as
+/// those that change the direction of writing, are printed as their code: `[U+202E]`.
 #[must_use]
 pub fn text(text: &str) -> String {
     let mut typst = String::new();
@@ -29,7 +29,7 @@ pub fn text(text: &str) -> String {
     typst
 }
 
-/// Text in quotation marks, as Typst's formulas and code have it.
+/// Text in quotation marks for Typst formulas and code.
 pub(super) fn quoted(text: &str) -> String {
     let mut typst = String::from("\"");
     for character in text.chars() {
@@ -47,7 +47,7 @@ pub(super) fn quoted(text: &str) -> String {
     typst
 }
 
-/// Letters and signs that New Computer Modern has; no marks that combine, nothing invisible.
+/// Whether New Computer Modern has a character; combining marks and invisible characters are excluded.
 fn is_printed(character: char) -> bool {
     matches!(character,
         'À'..='ſ' | 'Α'..='Ω' | 'α'..='ω' | '–' | '—' | '‘' | '’' | '“' | '”' | '…' | '§' | '°' | '·'

@@ -9,13 +9,14 @@ use crate::economical::frames::chain::Chain;
 use crate::economical::plan::LinkPlan;
 use crate::vector::Vector;
 
-/// g(q): per joint, the moment or force along its axis that supports all that its link carries.
+/// g(q): for each joint, the moment or force along its axis that supports everything that its link carries.
 ///
-/// Only first moments are summed toward the base: the weight acts on each joint as if in one point.
+/// Only first moments are summed toward the base, because the weight acts on each joint as if concentrated in one
+/// point.
 pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>> {
     let frames = Frames::new(chain, |index| plans[index].composite_sum);
     let composites = composites(&frames);
-    // The acceleration with which the base would have to rise, in each link's own and home axes.
+    // The acceleration of the base that is equivalent to gravity, in each link's own axes and home axes.
     let mut rising: Vec<Vector<'g>> = vec![];
     let mut home: Vec<Vector<'g>> = vec![];
     let mut torques = vec![chain.graph.zero(); chain.degrees_of_freedom];
@@ -37,7 +38,7 @@ pub(crate) fn gravity<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Vec<Expr<'g>
     torques
 }
 
-/// −g · ∫ r dm over the robot, r from the base frame's origin.
+/// The potential energy −g · ∫ r dm of the robot, with r from the origin of the base frame.
 pub(crate) fn weight_in_base<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Expr<'g> {
     let frames = Frames::new(chain, |index| plans[index].composite_sum);
     let mut energy = -(chain.gravity.dot(chain.fixed_moment));

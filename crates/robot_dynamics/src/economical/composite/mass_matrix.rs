@@ -13,10 +13,11 @@ use crate::vector::{Matrix, Vector};
 use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, SymbolId, operations, walk};
 
-/// From this number of coordinates on, other forms than the plan's are tried.
+/// The smallest number of coordinates for which forms other than the plan's are tried.
 const MANY: usize = 9;
 
-/// M(q), drives included: as the plan says, or of many coordinates in the form with the fewest operations.
+/// M(q), including drives: in the form of the plan or, if there are many coordinates, in the form with the fewest
+/// operations.
 pub(crate) fn cheapest<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> SymmetricMatrix<'g> {
     let planned = mass_matrix(chain, plans);
     if chain.degrees_of_freedom < MANY {
@@ -39,20 +40,20 @@ pub(crate) fn cheapest<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> SymmetricMa
     cheapest.unwrap_or_else(|| SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom))
 }
 
-/// M(q), drives included.
+/// M(q), including drives.
 ///
-/// An element couples two joints, one inward of the other: the wrench that a unit acceleration of
-/// the outer joint requires, and the motion that a unit rate of the inner joint makes. Their
-/// product is the same wherever it is taken: at the inner joint (R. Featherstone's composite-body
-/// algorithm, "Rigid Body Dynamics Algorithms", 2008, Table 6.2), at the outer one or between, as
-/// [`LinkPlan::projected_at`] of the outer link says.
+/// An entry couples two joints, of which one is inward of the other. It is the product of the wrench that a unit
+/// acceleration of the outer joint requires and the motion of the inner joint at unit velocity. The product is the same
+/// wherever it is evaluated: at the inner joint (R. Featherstone's composite-body algorithm, "Rigid Body Dynamics
+/// Algorithms", 2008, Table 6.2), at the outer joint, or in between. [`LinkPlan::projected_at`] of the outer link
+/// specifies the place.
 pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> SymmetricMatrix<'g> {
     let frames = Frames::new(chain, |index| plans[index].composite_sum);
     let composites = composites(&frames);
     let mut matrix = SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom);
     for (index, link) in chain.links.iter().enumerate() {
         let mut wrench = inertial_wrench(&composites[index], &frames.joint_twist(index));
-        // The parent feels a gyroscopic rotor; the joint itself has its reflected inertia alone.
+        // A gyroscopic rotor acts on the parent; for the joint itself, only the reflected inertia counts.
         wrench.moment.0[2] += link.rotor_coupling;
         let mut propagated = Propagated::from_home(index, wrench);
         for projection in projections(&frames, index, plans[index].projected_at) {
@@ -73,22 +74,22 @@ pub(crate) fn mass_matrix<'g>(chain: &Chain<'g>, plans: &[LinkPlan]) -> Symmetri
     matrix
 }
 
-/// The axes in which the positions of the links' origins are summed, and wrenches and motions moved there.
+/// The axes in which the positions of the links' origins are summed and wrenches and motions are shifted to them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Arms {
-    /// The links' own: arms and joint axes have the fewest components there.
+    /// The links' own axes, in which arms and joint axes have the fewest components.
     InLinks,
-    /// The common axes: parallel joints share their direction.
+    /// The common axes, in which parallel joints have the same direction.
     InCommonAxes,
 }
 
-/// M(q) with all wrenches and motions in the axes of the innermost link: six products an entry, however far apart the
-/// joints, and some hundred operations a joint. For long chains about skew axes.
+/// M(q) with all wrenches and motions in the axes of the innermost link, for long chains with skew axes. An entry takes
+/// six products, however far apart the joints are, and a joint takes about a hundred operations.
 pub(crate) fn in_common_axes<'g>(chain: &Chain<'g>, arms: Arms) -> SymmetricMatrix<'g> {
     let frames = Frames::new(chain, |_| false);
     let composites = composites(&frames);
     let mut matrix = SymmetricMatrix::zero(chain.graph, chain.degrees_of_freedom);
-    // Of each link: its own axes in the common axes, its origin, and its joint's motion in the common axes.
+    // For each link: its own axes in the common axes, its origin, and the motion of its joint in the common axes.
     let mut axes: Vec<Matrix<'g>> = vec![];
     let mut origins: Vec<Vector<'g>> = vec![];
     let mut motions: Vec<Twist<'g>> = vec![];
@@ -137,7 +138,7 @@ pub(crate) fn in_common_axes<'g>(chain: &Chain<'g>, arms: Arms) -> SymmetricMatr
     matrix
 }
 
-/// Adds what couples two joints to the entry of their coordinates.
+/// Adds the coupling of two joints to the entry of their coordinates.
 fn add_coupled<'g>(
     matrix: &mut SymmetricMatrix<'g>,
     link: &ChainLink<'g>,
@@ -145,12 +146,12 @@ fn add_coupled<'g>(
     element: Expr<'g>,
 ) {
     let coupled = element * link.ratio * inner.ratio;
-    // Two joints of one coordinate contribute to its diagonal entry twice, in either order.
+    // Two joints of one coordinate contribute twice to its diagonal entry, once in either order.
     let coupled = if inner.coordinate == link.coordinate { coupled * 2 } else { coupled };
     matrix.add(link.coordinate, inner.coordinate, coupled);
 }
 
-/// The inertia of a joint's drive beyond that which its parent feels.
+/// The inertia of a joint's drive, without the part that acts on its parent.
 fn drive<'g>(link: &ChainLink<'g>) -> Expr<'g> {
     let own_coupling = match link.kind {
         JointKind::Revolute => link.rotor_coupling,

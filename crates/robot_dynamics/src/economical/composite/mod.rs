@@ -1,4 +1,4 @@
-//! Composites: each link with all that it carries, taken together as one rigid body.
+//! Composites: each link and everything that it carries, taken together as one rigid body.
 
 pub(crate) mod gravity;
 pub(crate) mod mass_matrix;
@@ -12,40 +12,41 @@ use crate::economical::spatial::rotation::{ConstantRotation, Plane};
 use crate::economical::spatial::{Twist, Wrench};
 use crate::vector::{Matrix, Vector};
 
-/// A quantity that parents sum over their children.
+/// A quantity that is summed over the children of each link.
 pub(crate) trait Accumulate<'g>: Copy {
     /// The empty sum.
     fn zero(graph: &'g Graph) -> Self;
     /// The sum of both.
     fn plus(&self, other: &Self) -> Self;
-    /// The quantity in the axes that its own axes were turned from.
+    /// The quantity in the axes from which a turn in the given plane leads to its own axes.
     fn turned(&self, plane: &Plane<'g>) -> Self;
-    /// The quantity in the axes that its own axes were rotated from.
+    /// The quantity in the axes from which the given rotation leads to its own axes.
     fn rotated(&self, rotation: &ConstantRotation<'g>) -> Self;
-    /// The quantity about an origin from which its own origin lies at `arm`.
+    /// The quantity about another origin; `arm` is the position of its own origin relative to that one.
     fn shifted(&self, arm: Vector<'g>) -> Self;
-    /// [`Accumulate::shifted`] in two summands: the part that is constant if the arm is, and the rest.
+    /// The result of [`Accumulate::shifted`] as two summands: a part that is constant if the arm is, and the rest.
     fn shifted_in_parts(&self, arm: Vector<'g>) -> (Self, Self) {
         (Self::zero(arm.0[0].graph()), self.shifted(arm))
     }
 }
 
-/// Sums a quantity of every link over all that it carries, about the link's origin, in its home axes.
+/// Sums a quantity of every link over everything that the link carries. The sums are about the link's origin, in its
+/// home axes.
 ///
 /// `own` is in the links' own axes.
 pub(crate) fn gather<'g, T: Accumulate<'g>>(frames: &Frames<'_, 'g>, own: Vec<T>) -> Vec<T> {
     gather_across(frames, own, |_, composite| *composite)
 }
 
-/// [`gather`], if a parent's sum has something else of a link than its composite: `crossed` makes it of the link and
-/// its composite, in home axes.
+/// Sums a quantity like [`gather`], for sums in which the contribution of a link to its parent differs from the link's
+/// composite: `crossed` computes the contribution from the index of the link and its composite, in home axes.
 pub(crate) fn gather_across<'g, T: Accumulate<'g>>(
     frames: &Frames<'_, 'g>,
     mut own: Vec<T>,
     crossed: impl Fn(usize, &T) -> T,
 ) -> Vec<T> {
     let chain = frames.chain;
-    // The sums over the children, in the link's own axes and in its home axes.
+    // The sums over the children, separately in the link's own axes and in its home axes.
     let none = T::zero(chain.graph);
     let mut from_children = vec![none; chain.links.len()];
     let mut at_home = vec![none; chain.links.len()];
@@ -62,7 +63,7 @@ pub(crate) fn gather_across<'g, T: Accumulate<'g>>(
         } else {
             let (constant, rest) =
                 composite.rotated(&link.rotation).shifted_in_parts(joint_frame.origin);
-            // Constants first, so that they fold into the parent's own.
+            // Constants are added first, so that they are combined with the parent's own constants.
             own[parent] = own[parent].plus(&constant);
             from_children[parent] = from_children[parent].plus(&rest);
         }
@@ -72,8 +73,8 @@ pub(crate) fn gather_across<'g, T: Accumulate<'g>>(
 
 /// The composite pseudo-inertia of every link about its origin, in its home axes.
 ///
-/// Regrouped mass counts where it was regrouped to, so that behind rotations a composite has
-/// no mass: only its effect on the joint axes is that of the robot.
+/// Regrouped mass belongs to the link to which it was moved, so that composites of links on revolute joints have no
+/// mass. Composites therefore agree with those of the robot only in their effect on the joint axes.
 pub(crate) fn composites<'g>(frames: &Frames<'_, 'g>) -> Vec<PseudoInertia<'g>> {
     gather(frames, frames.chain.links.iter().map(|link| link.inertia).collect())
 }
@@ -108,7 +109,7 @@ impl<'g> Accumulate<'g> for PseudoInertia<'g> {
         rest.plus(of_mass)
     }
 
-    /// The part of the mass alone, and Σ + h pᵀ + p hᵀ with h.
+    /// The two parts: the contribution of the mass alone, and Σ + h pᵀ + p hᵀ with h.
     fn shifted_in_parts(&self, arm: Vector<'g>) -> (Self, Self) {
         let (Vector(h), Vector(p)) = (self.first, arm);
         let shift = arm * self.mass;
@@ -149,7 +150,7 @@ impl<'g> Accumulate<'g> for Wrench<'g> {
     }
 }
 
-/// A vector without a point of application: its components alone.
+/// A free vector, without a point of application: only its components are transformed.
 impl<'g> Accumulate<'g> for Vector<'g> {
     fn zero(graph: &'g Graph) -> Self {
         Vector::zero(graph)
@@ -172,12 +173,12 @@ impl<'g> Accumulate<'g> for Vector<'g> {
     }
 }
 
-/// A symmetric matrix from its upper triangle, so that both are one expression.
+/// A symmetric matrix from the entries of its upper triangle, so that both triangles contain the same expressions.
 pub(crate) fn symmetric<'g>(entry: impl Fn(usize, usize) -> Expr<'g>) -> Matrix<'g> {
     Matrix::from_fn(|a, b| entry(a.min(b), a.max(b)))
 }
 
-/// The wrench that a body asks for to be accelerated by a twist, at rest: P A.
+/// The wrench that accelerates a body at rest by a given twist: P A.
 pub(crate) fn inertial_wrench<'g>(inertia: &PseudoInertia<'g>, motion: &Twist<'g>) -> Wrench<'g> {
     let Twist { angular, linear } = *motion;
     let (first, Matrix(s)) = (inertia.first, inertia.second);

@@ -5,19 +5,19 @@ use crate::economical::frames::Frames;
 use crate::economical::plan::Place;
 use crate::economical::spatial::Twist;
 
-/// One entry (i, j) of a joint-by-joint product: where link j's wrench is projected on the motion of joint i.
+/// An entry (i, j) of a product over joints: the projection of link j's wrench on the motion of joint i.
 #[derive(Clone, Debug)]
 pub(crate) struct Projection {
-    /// The link of the inner joint; at first the outer link itself.
+    /// The link of the inner joint; in the first projection, the outer link itself.
     pub(crate) inner: usize,
-    /// The place where both are expressed.
+    /// The place at which both are expressed.
     pub(crate) place: Place,
-    /// The places that the inner joint's motion passes on the way from its home axes, from outside in.
+    /// The places through which the inner joint's motion is propagated from its home axes, ordered from outside inward.
     route: Vec<Place>,
 }
 
-/// The projections of a link's wrench on its own joint and on all joints inward of it: the wrench goes inward as
-/// far as `projected_at`, and the motions of joints farther inward come there.
+/// The projections of a link's wrench on its own joint and on all joints inward of it. The wrench is propagated inward
+/// as far as `projected_at`; the motions of joints farther inward are propagated outward to that place.
 pub(crate) fn projections(
     frames: &Frames<'_, '_>,
     link: usize,
@@ -41,15 +41,15 @@ pub(crate) fn projections(
 }
 
 impl Projection {
-    /// A motion given in the inner link's home axes, at the place of the projection.
+    /// A motion, given in the inner link's home axes, at the place of the projection.
     pub(crate) fn twist<'g>(&self, frames: &Frames<'_, 'g>, at_home: &Twist<'g>) -> Twist<'g> {
         self.route.iter().rev().fold(*at_home, |twist, place| frames.twist_outward(*place, &twist))
     }
 }
 
-/// A quantity that can be taken inward along the mechanism, from place to place.
+/// A quantity that can be propagated inward along the mechanism from place to place.
 pub(crate) trait Propagate<'g> {
-    /// The quantity at the next place inward of `place`.
+    /// The quantity at the next place inward from `place`.
     fn inward(&self, frames: &Frames<'_, 'g>, place: Place) -> Self;
 }
 
@@ -67,7 +67,7 @@ impl<'g, T: Accumulate<'g>> Propagate<'g> for T {
     }
 }
 
-/// A quantity on its way inward, with the place that it has reached.
+/// A quantity that is being propagated inward, with the place that it has reached.
 #[derive(Clone, Debug)]
 pub(crate) struct Propagated<T> {
     place: Place,
@@ -75,12 +75,12 @@ pub(crate) struct Propagated<T> {
 }
 
 impl<T> Propagated<T> {
-    /// Starts in a link's home axes.
+    /// Creates a quantity in a link's home axes.
     pub(crate) fn from_home(link: usize, load: T) -> Propagated<T> {
         Propagated { place: Place { link, turned: false }, load }
     }
 
-    /// Propagates to a place farther inward, or stays.
+    /// Propagates the quantity to a place farther inward; does nothing if it is already there.
     pub(crate) fn propagate_to<'g>(&mut self, frames: &Frames<'_, 'g>, place: Place)
     where
         T: Propagate<'g>,

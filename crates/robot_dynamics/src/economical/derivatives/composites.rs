@@ -1,4 +1,4 @@
-//! What a link carries, itself included, summed in the forms that derivatives need.
+//! Sums over each link and everything that it carries, in the forms that derivatives need.
 
 use robot_model::robot::JointKind;
 
@@ -18,17 +18,18 @@ use crate::economical::spatial::{Twist, Wrench};
 use crate::vector::Vector;
 use robot_symbolic::Expr;
 
-/// Of every link and all that it carries, in home axes about the link's origin.
+/// The sums for every link and everything that it carries, in home axes about the link's origin.
 pub(super) struct Composites<'g> {
-    /// P.
+    /// The pseudo-inertias P.
     pub(super) inertias: Vec<PseudoInertia<'g>>,
-    /// B relative to the link, times the factor of the motions.
+    /// The momenta B relative to the link, times the factor of the motions.
     pub(super) to_links: Vec<Momentum<'g>>,
-    /// B relative to the body that carries the link's joint, times the factor.
+    /// The momenta B relative to the body that carries the link's joint, times the factor of the motions.
     pub(super) to_carriers: Vec<Momentum<'g>>,
-    /// The wrench that accelerates them.
+    /// The whole wrenches, which accelerate these bodies.
     pub(super) whole: Vec<Wrench<'g>>,
-    /// R: the wrench that accelerates them beyond A P + 2 V B, which is all of it if the carrier is at rest.
+    /// The wrenches R: the parts of the whole wrenches beyond A P + 2 V B. If the carrier is at rest, these are the
+    /// whole wrenches.
     pub(super) beyond: Vec<Wrench<'g>>,
 }
 
@@ -75,12 +76,13 @@ impl<'g> Composites<'g> {
     }
 }
 
-/// The motion of a joint: what a link and all that it carries have more of to the joint's carrier than to the link.
+/// The motion of a joint, which is the difference between the motion relative to the joint's carrier and that relative
+/// to the link.
 struct Step<'g> {
     velocity: Twist<'g>,
     /// The velocity times the factor of the motions.
     scaled: Twist<'g>,
-    /// Whether products with the velocity itself are there in any case.
+    /// Whether doubled products with the velocity itself are needed in any case.
     adds_twice: bool,
     acceleration: Twist<'g>,
 }
@@ -100,8 +102,9 @@ impl<'g> Step<'g> {
         }
     }
 
-    /// B relative to the carrier from B relative to the link, both times the factor; before it what the joint's
-    /// velocity turns, B with the velocity added once: 2 (V B + V V P / 2) with the factor 2.
+    /// Converts B relative to the link to B relative to the carrier, both times the factor. The first result is B with
+    /// the joint's velocity added only once, which the velocity of the joint turns: with the factor 2, this is 2 (V B +
+    /// V V P / 2).
     fn crossed(
         &self,
         momentum: &Momentum<'g>,
@@ -111,7 +114,7 @@ impl<'g> Step<'g> {
         let with_once = momentum.plus(&once);
         let mut crossed = momentum.plus(&Momentum::of_body(&self.scaled, inertia));
         if self.adds_twice {
-            // The wrench of a turn about z has these entries.
+            // These entries also occur in the wrench of a rotation about z.
             let twice = with_once.plus(&once);
             crossed.linear = twice.linear;
             for (row, from) in crossed.second.0.iter_mut().zip(twice.second.0) {

@@ -16,9 +16,9 @@ use crate::vector::{Matrix, Vector};
 /// The quantities of an outer joint that are propagated to the inner joints.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Load<'m, 'g> {
-    /// P Z of the outer joint.
+    /// P Z of the outer joint: the wrench for a unit acceleration.
     pub(super) unit: Wrench<'g>,
-    /// The projection of B on the outer joint, per component of the inner joint's turning.
+    /// The projection of B on the outer joint, for each component of the inner joint's angular motion.
     pub(super) projected: Vector<'g>,
     /// The wrench caused by the outer joint's own motion.
     pub(super) own: Wrench<'g>,
@@ -37,7 +37,7 @@ impl<'g> Propagate<'g> for Load<'_, 'g> {
     }
 }
 
-/// What loads are made of.
+/// The quantities from which loads are computed.
 pub(super) struct Loads<'c, 'g> {
     pub(super) frames: &'c Frames<'c, 'g>,
     pub(super) motions: &'c Motions<'g>,
@@ -46,7 +46,7 @@ pub(super) struct Loads<'c, 'g> {
 }
 
 impl<'c, 'g> Loads<'c, 'g> {
-    /// 2 V Z P + 2 Z B, with V of the body that B is relative to.
+    /// The wrench 2 V Z P + 2 Z B, in which V is the motion of the body that B is relative to.
     pub(super) fn of_velocity(&self, index: usize) -> Load<'c, 'g> {
         let motion = &self.motions.links[index];
         let inertia = &self.composites.inertias[index];
@@ -66,7 +66,7 @@ impl<'c, 'g> Loads<'c, 'g> {
             Reference::Carrier if !to_link.is_zero() => {
                 let momentum = &self.composites.to_carriers[index];
                 let mut by_momentum = momentum.wrench_of_unit_rate(motion.unit.angular);
-                // The joint's own velocity has no part in this one.
+                // The velocity of the joint itself does not affect this component.
                 by_momentum.moment.0[2] = of_links.moment.0[2];
                 turning_of_turned(inertia, motion.carrier.omega * self.motions.factor)
                     .plus(&by_momentum)
@@ -75,7 +75,7 @@ impl<'c, 'g> Loads<'c, 'g> {
         }
     }
 
-    /// The derivative of the whole wrench by the joint's position.
+    /// The derivative of the whole wrench with respect to the joint position.
     pub(super) fn of_position(&self, index: usize) -> Load<'c, 'g> {
         let load = self.common(index);
         let own = match self.form.positions {
@@ -83,7 +83,8 @@ impl<'c, 'g> Loads<'c, 'g> {
             Reference::Carrier => {
                 let mut own = self.of_moved_links(index);
                 match self.frames.chain.links[index].kind {
-                    // To the joint's own torque its turn is as if the carrier turned back.
+                    // For the joint's own torque, a rotation of the joint is equivalent to the opposite rotation of the
+                    // carrier.
                     JointKind::Revolute => {
                         own.moment.0[2] = self.motions.links[index].by_position(&load);
                     }
@@ -99,7 +100,7 @@ impl<'c, 'g> Loads<'c, 'g> {
         let (inertia, motion) = (&self.composites.inertias[index], &self.motions.links[index]);
         let unit = inertial_wrench(inertia, &motion.unit);
         let relative = self.composites.to_links[index].project(&motion.unit);
-        // Of the link's own motion: (ω × z) · Σ of a rotation, (ω × h) × z of a translation.
+        // The part of the link's own motion: (ω × z) · Σ for a revolute joint, (ω × h) × z for a prismatic joint.
         let omega = motion.omega * self.motions.factor;
         let carried = inertia.second * motion.rate.angular
             + omega.cross(inertia.first).cross(motion.unit.linear);

@@ -1,27 +1,30 @@
-//! Derivatives of the joint torques by positions and velocities, and the Coriolis matrix, by
-//! composite quantities.
+//! Derivatives of the joint torques with respect to positions and velocities, and the Coriolis matrix, by composite
+//! quantities.
 //!
-//! Write a joint's unit motion as the 4 × 4 matrix Ẑ, a link's motion as V, its pseudo-inertia as P
-//! and ⟨Ẑ, N⟩ for the power of the forces N = ∫ a rᵀ dm. With Ẏ = \[V, Ẑ\], the rate of Ẑ, and
-//! X = \[A, Ẑ\] − 2 Ẏ V, with V and A of the joint's link, a joint j shifts the accelerations of all links k that it
-//! carries by (X + 2 Ẏ V_k) dq_j and by (2 Ẏ + 2 Ẑ V_k) dq̇_j. Both X and Ẏ are twists. Summed over the links that a
-//! joint carries, P and B = Σ V P are all that is needed:
+//! Let Ẑ be a joint's unit motion as a 4 × 4 matrix, V a link's motion, P its pseudo-inertia, and ⟨Ẑ, N⟩ the power of
+//! the forces N = ∫ a rᵀ dm. Let Ẏ = \[V, Ẑ\], the time derivative of Ẑ, and X = \[A, Ẑ\] − 2 Ẏ V, with V and A of the
+//! joint's link. A joint j then changes the accelerations of every link k that it carries by (X + 2 Ẏ V_k) dq_j and by
+//! (2 Ẏ + 2 Ẑ V_k) dq̇_j. Both X and Ẏ are twists. Of the links that a joint carries, only the sums P and B = Σ V P are
+//! needed:
 //!
-//! - ∂τᵢ/∂qⱼ = ⟨Ẑᵢ, X P + 2 Ẏ B⟩ and ∂τᵢ/∂q̇ⱼ = ⟨Ẑᵢ, 2 Ẏ P + 2 Ẑⱼ B⟩ with the composites of the
-//!   outer of both joints;
-//! - if j is the outer one, its whole wrench W turns along as well: + Ẑⱼ ×* W.
+//! - ∂τᵢ/∂qⱼ = ⟨Ẑᵢ, X P + 2 Ẏ B⟩ and ∂τᵢ/∂q̇ⱼ = ⟨Ẑᵢ, 2 Ẏ P + 2 Ẑⱼ B⟩ with the composites of the outer of the two
+//!   joints;
+//! - if j is the outer joint, its whole wrench W also turns with the joint, which adds Ẑⱼ ×* W.
 //!
 //! The Christoffel form of the Coriolis matrix is half of ∂τ/∂q̇.
 //!
-//! B is taken relative to the link whose composite it is, B = V P + B': the last link then has none, a parent's is that
-//! of its children and of their joints' motions, and no link's own inertia is multiplied by its motion. Thus
-//! X P + 2 Ẏ B = \[A, Ẑ\] P + 2 Ẏ B' and Ẏ P + Ẑ B = V Ẑ P + Ẑ B'. The velocity of the link's origin drops out.
+//! In the first form, B is taken relative to the link whose composite it is: B = V P + B'. Then B' of a last link is
+//! zero, B' of a parent is computed from those of its children and the motions of their joints, and no link's own
+//! inertia is multiplied by its motion. Thus X P + 2 Ẏ B = \[A, Ẑ\] P + 2 Ẏ B' and Ẏ P + Ẑ B = V Ẑ P + Ẑ B'. The
+//! velocity of the link's origin cancels.
 //!
-//! Or B, and with it the accelerations, are taken relative to the body that carries the joint, its parent, with V and A: then
-//! the whole wrench is that of A P + 2 V B'' and R, the wrench if the carrier were at rest. R is summed like B'', and no
-//! link's own inertia is multiplied by its acceleration. P, B'' and R turn with the joint while V and A do not, so that
-//! the whole wrench's derivative by qⱼ is the wrench of A P' + 2 V B''', and R', with P' = Ẑ P + P Ẑᵀ and likewise B'''
-//! and R' = Ẑ ×* R. Which form needs fewer operations depends on the robot: the first one if links have few moments.
+//! In the second form, B and the accelerations are taken relative to the parent, the body that carries the joint, with
+//! its V and A. The whole wrench is then that of A P + 2 V B'' plus R, the wrench for a carrier at rest. R is summed
+//! like B'', and no link's own inertia is multiplied by its acceleration. P, B'' and R turn with the joint while V and
+//! A do not, so the derivative of the whole wrench with respect to qⱼ is the wrench of A P' + 2 V B''' plus R', with P'
+//! = Ẑ P + P Ẑᵀ, B''' likewise, and R' = Ẑ ×* R.
+//!
+//! Which form needs fewer operations depends on the robot: it is the first one if the links have few nonzero moments.
 
 mod composites;
 mod loads;
@@ -41,7 +44,7 @@ use composites::Composites;
 use loads::{Load, Loads};
 use motions::Motions;
 
-/// The body to whose motion others are relative.
+/// The body relative to which quantities are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Reference {
     /// The joint's own link.
@@ -50,7 +53,7 @@ enum Reference {
     Carrier,
 }
 
-/// A form of the wrenches that joints' motions cause: they have the same values.
+/// A choice between the forms of the wrenches that joint motions cause; all forms have the same values.
 #[derive(Clone, Copy, Debug)]
 struct Form {
     velocities: Reference,
@@ -65,7 +68,7 @@ impl Form {
     ];
 }
 
-/// ∂τ/∂q and ∂τ/∂q̇.
+/// The derivatives ∂τ/∂q and ∂τ/∂q̇.
 #[derive(Clone, Debug)]
 pub struct TorqueDerivatives<'g> {
     /// ∂τᵢ/∂qⱼ in row i and column j.
@@ -75,15 +78,15 @@ pub struct TorqueDerivatives<'g> {
 }
 
 impl<'g> Recursion<'g> {
-    /// The derivatives of the joint torques at the accelerations q̈, in several forms; none if a drive is
-    /// gyroscopic: composites do not include its momentum.
+    /// The derivatives of the joint torques at the accelerations q̈, in several forms. The result is empty if a drive
+    /// is gyroscopic, because composites do not contain the momentum of its rotor.
     #[must_use]
     pub fn torque_derivatives(&self) -> Vec<TorqueDerivatives<'g>> {
         self.torque_derivatives_of(&self.chain)
     }
 
-    /// The derivatives at accelerations other than the symbols q̈, one per coordinate; none under the condition of
-    /// [`Recursion::torque_derivatives`].
+    /// The derivatives at the given accelerations, one for each coordinate, instead of the symbols q̈. The result is
+    /// empty in the same case as that of [`Recursion::torque_derivatives`].
     #[must_use]
     pub fn torque_derivatives_at(&self, accelerations: &[Expr<'g>]) -> Vec<TorqueDerivatives<'g>> {
         let mut chain = self.chain.clone();
@@ -119,7 +122,7 @@ impl<'g> Recursion<'g> {
     }
 
     /// C(q, q̇) by Christoffel symbols, in several forms: C q̇ are the Coriolis and centrifugal terms, and Ṁ − 2 C is
-    /// skew-symmetric. None under the condition of [`Recursion::torque_derivatives`].
+    /// skew-symmetric. The result is empty in the same case as that of [`Recursion::torque_derivatives`].
     #[must_use]
     pub fn coriolis_matrix(&self) -> Vec<SquareMatrix<'g>> {
         let mut chain = self.chain.without_idle_turns(&[]);
@@ -138,7 +141,7 @@ impl<'g> Recursion<'g> {
     }
 }
 
-/// ∂τ/∂q̇, or half of it if the factor of the motions is 1.
+/// The matrix ∂τ/∂q̇, or half of it if the factor of the motions is 1.
 fn velocities<'g>(loads: &Loads<'_, 'g>) -> SquareMatrix<'g> {
     matrix(
         loads.frames,
@@ -147,8 +150,9 @@ fn velocities<'g>(loads: &Loads<'_, 'g>) -> SquareMatrix<'g> {
     )
 }
 
-/// The matrix over the coordinates of an outer joint's loads on inner joints, in the rows of the inner ones, and of
-/// what inner joints cause at the outer one, `outward` of an inner joint and the load in its link's home axes.
+/// The matrix over the coordinates. The entries in the rows of inner joints are the projections of an outer joint's
+/// load on these joints. The entries in the outer joint's row are computed by `outward` from an inner joint and the
+/// load in the home axes of its link.
 fn matrix<'m, 'g: 'm>(
     frames: &Frames<'_, 'g>,
     load: impl Fn(usize) -> Load<'m, 'g>,

@@ -1,4 +1,4 @@
-//! The motions of joints that derivatives are made of.
+//! The motions of joints from which derivatives are computed.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
@@ -10,32 +10,32 @@ use crate::economical::recursion::outward::{self, LinkState};
 use crate::economical::spatial::Twist;
 use crate::vector::{Matrix, Vector};
 
-/// The motions of a joint in its link's home axes, about the link's origin, which is at rest: wrenches do not change if
-/// all velocities change by the same one (Galileo).
+/// The motion of a joint in its link's home axes, about the link's origin. The origin is taken as being at rest,
+/// because wrenches do not change if the same velocity is added to all velocities (Galilean invariance).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct JointMotion<'g> {
-    /// Z: the motion for a unit rate.
+    /// Z: the motion at unit velocity.
     pub(super) unit: Twist<'g>,
     /// Y = \[V, Z\], times the factor of the motions.
     pub(super) rate: Twist<'g>,
-    /// The angular part of Y itself.
+    /// The angular part of Y, without the factor.
     pub(super) turning: Vector<'g>,
     /// X = \[A, Z\] − 2 Y V, the shift of the accelerations.
     pub(super) shift: Twist<'g>,
-    /// ω of the link.
+    /// The angular velocity ω of the link.
     pub(super) omega: Vector<'g>,
     /// The motion of the body that carries the joint.
     pub(super) carrier: Carrier<'g>,
-    /// The velocity of the link's origin relative to the parent's times the factor, in the parent's own axes or, within
-    /// a group, its home axes.
+    /// The velocity of the link's origin relative to the parent's, times the factor, in the parent's own axes or,
+    /// within a group, in its home axes.
     pub(super) passed: Vector<'g>,
 }
 
 /// The motions of all joints.
 pub(super) struct Motions<'g> {
     pub(super) links: Vec<JointMotion<'g>>,
-    /// 1 or 2: V and Y come in pairs of equal terms in the derivatives, and doubling them once is cheaper than
-    /// doubling the products.
+    /// The factor 1 or 2. V and Y occur in pairs of equal terms in the derivatives; doubling V and Y once takes fewer
+    /// operations than doubling the products.
     pub(super) factor: Expr<'g>,
 }
 
@@ -52,13 +52,13 @@ impl<'g> Motions<'g> {
 }
 
 impl<'g> JointMotion<'g> {
-    /// The derivative by this joint's velocity of the torque of a joint that it carries, whose load is given at this
-    /// joint's link.
+    /// The derivative, with respect to this joint's velocity, of the torque of a joint that it carries; that joint's
+    /// load is given at this joint's link.
     pub(super) fn by_velocity(&self, load: &Load<'_, 'g>) -> Expr<'g> {
         self.rate.dot(&load.unit) + self.unit.angular.dot(load.projected)
     }
 
-    /// The same by this joint's position.
+    /// The derivative like that of [`JointMotion::by_velocity`], with respect to this joint's position.
     pub(super) fn by_position(&self, load: &Load<'_, 'g>) -> Expr<'g> {
         self.shift.dot(&load.unit) + self.turning.dot(load.projected)
     }
@@ -77,7 +77,7 @@ impl<'g> JointMotion<'g> {
         let turning = carrier.omega.cross(unit.angular);
         let linear = carrier.omega.cross(unit.linear);
         let rate = Twist { angular: turning * factor, linear: linear * factor };
-        // Of a rotation (U z, a × z), of a translation (0, U z).
+        // (U z, a × z) for a revolute joint, (0, U z) for a prismatic joint.
         let column = carrier.tensor.column(2);
         let shift = match link.kind {
             JointKind::Revolute => {
@@ -100,9 +100,9 @@ impl<'g> JointMotion<'g> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Carrier<'g> {
     pub(super) omega: Vector<'g>,
-    /// U.
+    /// The tensor U.
     pub(super) tensor: Matrix<'g>,
-    /// At the link's origin.
+    /// The acceleration at the link's origin.
     pub(super) acceleration: Vector<'g>,
 }
 
@@ -129,7 +129,7 @@ impl<'g> Carrier<'g> {
                 .flatten()
                 .all(|entry| entry.is_zero() || entry.is_one() || (-*entry).is_one());
         let tensor = match exchanges_axes {
-            // The entries are those of the carrier's own axes.
+            // These are the entries in the carrier's own axes.
             true => turned(turned(state.tensor.transpose()).transpose()),
             false => outward::tensor(omega, home(state.angular_acceleration), Some(column), true),
         };

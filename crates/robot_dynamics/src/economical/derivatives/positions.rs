@@ -1,4 +1,4 @@
-//! The derivatives of wrenches by the positions of the joints that transmit them.
+//! The derivatives of wrenches with respect to the positions of the joints that transmit them.
 
 use robot_model::robot::JointKind;
 
@@ -10,7 +10,8 @@ use crate::economical::spatial::inertia::PseudoInertia;
 use crate::vector::{Matrix, Vector};
 
 impl<'g> Loads<'_, 'g> {
-    /// \[A, Z\] P + 2 Y B of the link, and the whole wrench turning along with the joint.
+    /// The wrench of \[A, Z\] P + 2 Y B of the link, plus the change of the whole wrench because it turns with the
+    /// joint.
     pub(super) fn of_shifted_links(&self, index: usize) -> Wrench<'g> {
         let motion = &self.motions.links[index];
         let inertia = &self.composites.inertias[index];
@@ -23,7 +24,7 @@ impl<'g> Loads<'_, 'g> {
         along.plus(&shifted.plus(&by_turning))
     }
 
-    /// A P + 2 V B + R with A and V of the carrier, while P, B and R move with the joint.
+    /// The derivative of A P + 2 V B + R, in which A and V belong to the carrier and P, B and R move with the joint.
     pub(super) fn of_moved_links(&self, index: usize) -> Wrench<'g> {
         let motion = &self.motions.links[index];
         let inertia = self.composites.inertias[index].rate(&motion.unit);
@@ -36,13 +37,13 @@ impl<'g> Loads<'_, 'g> {
     }
 }
 
-/// The wrench of \[A, Z\] P of a rotation, with A of the link.
+/// The wrench of \[A, Z\] P of a revolute joint, with A of the link.
 fn shifted_about_z<'g>(inertia: &PseudoInertia<'g>, motion: &JointMotion<'g>) -> Wrench<'g> {
     let Vector([x, y, z]) = motion.omega;
     let Vector([u, v, _]) = motion.shift.angular;
     let linear = motion.shift.linear;
-    // U \[z\]× − \[z\]× U: with U₁₂ + U₂₁ and U₂₂ − U₁₁ in the plane, U's third column, and its third row, which is
-    // the third column's mirror image but for twice the products of velocities.
+    // U \[z\]× − \[z\]× U. It consists of U₁₂ + U₂₁ and U₂₂ − U₁₁, of U's third column, and of U's third row, which
+    // equals the third column except for signs and twice the products of velocities.
     let (mixed, difference) = ((x * y) * 2, y * y - x * x);
     let (u31, u32) = ((x * 2) * z - u, (y * 2) * z - v);
     let Matrix([[xx, xy, xz], [_, yy, yz], [_, _, zz]]) = inertia.second;
@@ -60,7 +61,7 @@ fn shifted_about_z<'g>(inertia: &PseudoInertia<'g>, motion: &JointMotion<'g>) ->
     Wrench { force: force + linear * inertia.mass, moment: moment + inertia.first.cross(linear) }
 }
 
-/// The wrench of masses with the pseudo-inertia `inertia` if the point at r has the acceleration a + U r.
+/// The wrench on masses with the pseudo-inertia `inertia` if the point at r has the acceleration a + U r.
 fn wrench_of_field<'g>(
     inertia: &PseudoInertia<'g>,
     tensor: &Matrix<'g>,

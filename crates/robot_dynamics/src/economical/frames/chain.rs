@@ -11,29 +11,29 @@ use crate::economical::spatial::rotation::ConstantRotation;
 use crate::mechanism::{BaseMotion, Mechanism};
 use crate::vector::{Matrix, Vector};
 
-/// Residuals may exceed the robot's own mass, first and second moment by no more than this factor,
-/// and working frames lie no farther off than this many of its reaches: beyond, differences of large
-/// numbers would lose digits.
+/// The factor that limits residuals and shifts, because differences of large numbers would lose digits. A residual may
+/// be at most this many times the robot's own mass, first moment or second moment, and the origin of a working frame
+/// may be at most this many times the robot's reach away.
 const GROWTH_CAP: f64 = 3.0;
 
 /// A mechanism in working frames.
 #[derive(Clone, Debug)]
 pub(crate) struct Chain<'g> {
     pub(crate) graph: &'g Graph,
-    /// Acceleration of gravity in the base frame, in the plan's unit of length.
+    /// The acceleration of gravity in the base frame, in the plan's unit of length.
     pub(crate) gravity: Vector<'g>,
     pub(crate) links: Vec<ChainLink<'g>>,
     pub(crate) frames: Vec<WorkingFrame<'g>>,
     pub(crate) degrees_of_freedom: usize,
-    /// First moment that regrouping moved to the base, in the base frame.
+    /// The first moment that regrouping moved to the base, in the base frame.
     pub(crate) fixed_moment: Vector<'g>,
     /// The unit of length, m.
     pub(crate) unit: Expr<'g>,
-    /// The motion of the base if it is not at rest.
+    /// The motion of the base; `None` if it is at rest.
     pub(crate) base: Option<BaseMotion<'g>>,
 }
 
-/// The motion of a joint along or about z; of a prismatic one in the plan's unit of length.
+/// The motion of a joint about or along z. For a prismatic joint, it is in the plan's unit of length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JointMotion<'g> {
     pub(crate) position: Expr<'g>,
@@ -51,31 +51,31 @@ impl<'g> JointMotion<'g> {
     }
 }
 
-/// A link in its working frame; lengths in the plan's unit.
+/// A link in its working frame. Lengths are in the plan's unit.
 #[derive(Clone, Debug)]
 pub(crate) struct ChainLink<'g> {
     pub(crate) parent: Option<usize>,
     pub(crate) kind: JointKind,
     pub(crate) coordinate: usize,
-    /// The joint's motion along or about z per unit of the coordinate, sign included.
+    /// The joint's motion about or along z for a unit of the coordinate, including its sign.
     pub(crate) ratio: Expr<'g>,
     pub(crate) motion: JointMotion<'g>,
-    /// From the parent's working frame to this one at joint position 0.
+    /// The rotation from the parent's working frame to this one at joint position 0.
     pub(crate) rotation: ConstantRotation<'g>,
-    /// Origin at joint position 0 in the parent's working frame.
+    /// The origin at joint position 0, in the parent's working frame.
     pub(crate) translation: Vector<'g>,
     /// The joint axis in the parent's working frame.
     pub(crate) axis: Vector<'g>,
-    /// Regrouped pseudo-inertia.
+    /// The regrouped pseudo-inertia.
     pub(crate) inertia: PseudoInertia<'g>,
-    /// Reflected inertia of the drive, kg m² or kg.
+    /// The reflected inertia of the drive, kg m² or kg.
     pub(crate) reflected_inertia: Expr<'g>,
-    /// Angular momentum of a gyroscopic rotor per joint velocity, kg m² or kg m.
+    /// The angular momentum of a gyroscopic rotor at unit joint velocity, kg m² or kg m.
     pub(crate) rotor_coupling: Expr<'g>,
 }
 
 impl<'g> ChainLink<'g> {
-    /// Whether the joint turns the link about an axis of symmetry of its mass, which has no effect.
+    /// Whether the joint turns the link about an axis of symmetry of its mass, so that the rotation has no effect.
     fn turns_idly(&self) -> bool {
         match self.kind {
             JointKind::Revolute => self.is_symmetric(),
@@ -91,29 +91,29 @@ impl<'g> ChainLink<'g> {
         even && [second[0][1], second[0][2], second[1][2], x, y].iter().all(|entry| entry.is_zero())
     }
 
-    /// Whether the axis is parallel to the parent's.
+    /// Whether the joint axis is parallel to the parent's.
     pub(crate) fn is_parallel(&self) -> bool {
         self.axis.0[0].is_zero() && self.axis.0[1].is_zero() && self.axis.0[2].is_one()
     }
 }
 
-/// The part that does not depend on a plan: frames at the links' own origins, and the links' inertias there,
-/// as they are and regrouped.
+/// The part that does not depend on a plan: frames at the links' own origins, and the inertias of the links in them,
+/// both original and regrouped.
 #[derive(Clone, Debug)]
 pub(crate) struct Base<'g> {
     file: Vec<WorkingFrame<'g>>,
-    /// The inertias of the links, then of the base, which starts with none.
+    /// The inertias of the links, followed by that of the base, which is initially zero.
     inertias: Vec<PseudoInertia<'g>>,
     regrouped: Vec<PseudoInertia<'g>>,
     limits: Limits,
 }
 
-/// Limits of a plan, from the robot's own size.
+/// Limits on a plan, derived from the size of the robot.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
-    /// The farthest shift of an origin along its axis, m.
+    /// The maximum shift of an origin along its joint axis, m.
     pub(super) shift: f64,
-    /// Mass, first and second moment of a residual.
+    /// The maximum mass, first moment and second moment of a residual.
     residual: [f64; 3],
 }
 
@@ -132,7 +132,7 @@ impl Limits {
 }
 
 impl<'g> Base<'g> {
-    /// `None` if a joint axis is not constant.
+    /// Creates the base; `None` if a joint axis is not constant.
     pub(crate) fn new(mechanism: &Mechanism<'g>) -> Option<Base<'g>> {
         let file = working::file_frames(mechanism)?;
         let links = mechanism.links.iter().zip(&file);
@@ -146,7 +146,7 @@ impl<'g> Base<'g> {
     }
 }
 
-/// The mechanism under a plan.
+/// Prepares the mechanism for a plan.
 pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Plan) -> Chain<'g> {
     let placed =
         working::place(mechanism, &plan.links, &base.file, &base.regrouped, base.limits.shift);
@@ -167,10 +167,9 @@ pub(crate) fn prepare<'g>(mechanism: &Mechanism<'g>, base: &Base<'g>, plan: &Pla
 }
 
 impl<'g> Chain<'g> {
-    /// The chain without the turns that no joint torque depends on: those of the last links that are axisymmetric
-    /// about their joint axes, unless a wrench acts on them. The working frame of such a link may
-    /// stay behind while the link turns in it: its velocities are the same vectors, and its inertia has the
-    /// same entries.
+    /// The chain without rotations that do not affect any joint torque: those of last links that are axisymmetric about
+    /// their joint axes and on which no wrench acts. The working frame of such a link need not turn with it, because
+    /// velocities are the same vectors and the inertia has the same entries.
     pub(crate) fn without_idle_turns(&self, tips: &[TipWrench<'g>]) -> Chain<'g> {
         let mut chain = self.clone();
         let (zero, one) = (self.graph.zero(), self.graph.one());
@@ -198,8 +197,8 @@ fn displacements<'g>(
         .collect()
 }
 
-/// Moves to each parent the inertia that the joint cannot distinguish from the parent's own: for a rotation about z
-/// the mass and the moments along z, for a translation all second moments.
+/// Moves to each parent the inertia that the joint cannot distinguish from the parent's: for a rotation about z, the
+/// mass and the moments along z; for a translation, all second moments.
 fn regroup<'g>(
     mechanism: &Mechanism<'g>,
     displacements: &[Displacement<'g>],
@@ -232,13 +231,13 @@ fn move_inward<'g>(
         }
     };
     inertias[index] = kept;
-    // The base comes after the links.
+    // The base follows the links.
     let parent = link.parent.unwrap_or(mechanism.links.len());
     let (rotation, origin) = displacements[index];
     inertias[parent] = inertias[parent].plus(moved.seen_from(rotation, origin));
 }
 
-/// Returns inertia to links, from the tips to the base, so that an entry of the parent vanishes.
+/// Moves some inertia back to the links, from the tips to the base, so that chosen entries of the parents vanish.
 fn leave_residuals<'g>(
     mechanism: &Mechanism<'g>,
     plans: &[LinkPlan],
@@ -248,7 +247,7 @@ fn leave_residuals<'g>(
 ) {
     for index in (0..mechanism.links.len()).rev() {
         let link = &mechanism.links[index];
-        // Residuals of the children may have left something along this link's own axis.
+        // The residuals of the children may have added inertia along this link's own axis.
         move_inward(mechanism, displacements, inertias, index);
         let parent = match link.kind {
             JointKind::Revolute => link.parent,
@@ -274,13 +273,13 @@ fn leave_residuals<'g>(
     }
 }
 
-/// The rod of a child in its parent's working frame.
+/// The inertia of a child along its joint axis, in the parent's working frame.
 fn rod_at<'g>(rod: [Expr<'g>; 3], (rotation, origin): Displacement<'g>) -> PseudoInertia<'g> {
     PseudoInertia::rod(rod, Matrix::identity(rod[0].graph()).column(2)).seen_from(rotation, origin)
 }
 
-/// The amount of a kind (0 mass, 1 first, 2 second moment along the axis) that makes the parent's entry
-/// vanish; `None` if there is none, or if it exceeds `limit`.
+/// The amount of a kind (0: mass, 1: first moment, 2: second moment along the axis) that makes the parent's entry
+/// vanish. `None` if no amount does, if the entry is already zero, or if the amount exceeds `limit`.
 fn solve<'g>(
     parent: &PseudoInertia<'g>,
     place: Displacement<'g>,
@@ -352,7 +351,7 @@ impl<'g> Chain<'g> {
         (link + 1..self.links.len()).filter(move |child| self.links[*child].parent == Some(link))
     }
 
-    /// Converts a joint's position, velocity or acceleration from the unit of length to rad or m.
+    /// Converts a joint's position, velocity or acceleration from the plan's unit of length to rad or m.
     pub(crate) fn in_meters(&self, link: &ChainLink<'g>, motion: Expr<'g>) -> Expr<'g> {
         match link.kind {
             JointKind::Revolute => motion,
@@ -365,15 +364,15 @@ impl<'g> Chain<'g> {
         self.links.iter().any(|link| !link.rotor_coupling.is_zero())
     }
 
-    /// Whether a coordinate moves this joint and no other.
+    /// Whether the coordinate of this joint moves no other joint.
     pub(crate) fn drives_alone(&self, link: usize) -> bool {
         let coordinate = self.links[link].coordinate;
         self.links.iter().filter(|other| other.coordinate == coordinate).count() == 1
             && self.links[link].ratio.as_number().is_some_and(|ratio| !ratio.is_zero())
     }
 
-    /// Makes a component of a link's position the unit of length. Second moments and torques
-    /// keep the meter: r and a shrink by the unit, h grows by it, and m by its square.
+    /// Makes a component of a link's position the unit of length. Second moments and torques remain in meters: r and a
+    /// are divided by the unit, h is multiplied by it, and m by its square.
     fn rescale(&mut self, link: usize, component: usize) {
         let Some(length) = self.links.get(link).map(|link| link.translation.0[component]) else {
             return;

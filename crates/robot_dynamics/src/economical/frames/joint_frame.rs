@@ -1,4 +1,4 @@
-//! The links' working frames relative to each other: turns, origins, parallel groups.
+//! The links' working frames relative to each other: rotations, origins and groups of parallel joints.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::{Expr, Number};
@@ -9,22 +9,22 @@ use crate::vector::Vector;
 
 /// The pose of a link's working frame relative to its parent's.
 ///
-/// Links whose joint axes are parallel may form a group: the *home axes* of a group are the axes
-/// before any of its joints turns, shared by its links. A link in no group is a group of its own.
+/// Links whose joint axes are parallel may form a group. The *home axes* of a group are the axes before any of its
+/// joints has turned; all links of the group share them. Every other link forms a group by itself.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JointFrame<'g> {
     /// The first link of the group.
     pub(crate) group: usize,
-    /// The turn about z from the home axes to the link's.
+    /// The rotation about z from the home axes to the link's axes.
     pub(crate) group_turn: Plane<'g>,
-    /// The joint's own turn about z, the constant turn before it included.
+    /// The joint's own rotation about z, including the constant rotation before it.
     pub(crate) turn: Plane<'g>,
     /// The origin in the parent's working frame.
     pub(crate) origin: Vector<'g>,
 }
 
-/// The joint frames of all links; a link whose axis is parallel to its parent's belongs to the parent's
-/// group if `joins` says so.
+/// The joint frames of all links. A link whose axis is parallel to its parent's belongs to the parent's group if
+/// `joins` is true for it.
 pub(crate) fn joint_frames<'g>(
     chain: &Chain<'g>,
     joins: impl Fn(usize) -> bool,
@@ -55,7 +55,7 @@ pub(crate) fn joint_frames<'g>(
     joint_frames
 }
 
-/// Sine and cosine of the joint's turn about z, the constant turn before it included.
+/// The sine and cosine of the joint's rotation about z, including the constant rotation before it.
 fn joint_angle<'g>(link: &ChainLink<'g>) -> (Expr<'g>, Expr<'g>) {
     let (sine, cosine) = link.rotation.turn;
     match link.kind {
@@ -80,7 +80,7 @@ fn joint_angle<'g>(link: &ChainLink<'g>) -> (Expr<'g>, Expr<'g>) {
             let angle = position + offset;
             (angle.sin(), angle.cos())
         }
-        // The constant turn depends on parameters: addition formulas.
+        // The constant rotation depends on parameters, so addition formulas are used.
         _ => {
             let (s, c) = (position.sin(), position.cos());
             (s * cosine + c * sine, c * cosine - s * sine)

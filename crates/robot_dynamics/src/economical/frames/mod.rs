@@ -1,4 +1,4 @@
-//! The frames that the recursion works in, and the mechanism in them.
+//! The frames in which the recursion works, and the mechanism in these frames.
 
 pub(crate) mod chain;
 pub(crate) mod joint_frame;
@@ -12,9 +12,8 @@ use chain::Chain;
 use joint_frame::{JointFrame, joint_frames};
 use robot_model::robot::JointKind;
 
-/// The frames that a quantity passes on its way along the mechanism: each link has its
-/// home axes (before the joints of its parallel group turn) and its own axes, both about the
-/// link's origin.
+/// The frames through which a quantity is transformed along the mechanism. Each link has home axes (before the joints
+/// of its parallel group turn) and its own axes, both at the link's origin.
 #[derive(Clone, Debug)]
 pub(crate) struct Frames<'c, 'g> {
     pub(crate) chain: &'c Chain<'g>,
@@ -22,7 +21,7 @@ pub(crate) struct Frames<'c, 'g> {
 }
 
 impl<'c, 'g> Frames<'c, 'g> {
-    /// `joins` says which links join the parallel group of their parent.
+    /// Creates the frames; `joins` determines which links join the parallel group of their parent.
     pub(crate) fn new(chain: &'c Chain<'g>, joins: impl Fn(usize) -> bool) -> Frames<'c, 'g> {
         Frames { chain, joint_frames: joint_frames(chain, joins) }
     }
@@ -32,7 +31,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         self.joint_frames[link].group != link
     }
 
-    /// Converts components in the parent's own axes (the base's) to components in the link's home axes.
+    /// Converts components in the own axes of the parent (or the base) to components in the link's home axes.
     pub(crate) fn parent_to_home(&self, link: usize, vector: Vector<'g>) -> Vector<'g> {
         match self.chain.links[link].parent {
             Some(parent) if self.is_joined(link) => {
@@ -42,7 +41,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         }
     }
 
-    /// The origin of a joined link from its parent's, in their home axes.
+    /// The position of a joined link's origin relative to its parent's, in their home axes.
     pub(crate) fn arm_at_home(&self, link: usize) -> Vector<'g> {
         let origin = self.joint_frames[link].origin;
         match self.chain.links[link].parent {
@@ -60,7 +59,7 @@ impl<'c, 'g> Frames<'c, 'g> {
         Some(Place { link: parent, turned: !self.is_joined(place.link) })
     }
 
-    /// A twist given at the place inward of `place`, at `place`.
+    /// Converts a twist from the next place inward of `place` to `place`.
     pub(crate) fn twist_outward(&self, place: Place, twist: &Twist<'g>) -> Twist<'g> {
         let (link, joint_frame) = (&self.chain.links[place.link], &self.joint_frames[place.link]);
         if place.turned {
@@ -76,11 +75,11 @@ impl<'c, 'g> Frames<'c, 'g> {
         }
     }
 
-    /// The motion for a unit rate of the joint; it is the same in home axes and in the link's own axes.
+    /// The twist of the joint at unit velocity, which is the same in home axes and in the link's own axes.
     pub(crate) fn joint_twist(&self, link: usize) -> Twist<'g> {
         let (zero, one) = (self.chain.graph.zero(), self.chain.graph.one());
         let link = &self.chain.links[link];
-        // In the chain's unit of length a translation of one meter is 1/unit.
+        // In the chain's unit of length, a translation of one meter is 1/unit.
         let (angular, linear) = match link.kind {
             JointKind::Revolute => (one, zero),
             JointKind::Prismatic => (zero, one / self.chain.unit),

@@ -1,4 +1,4 @@
-//! A mechanism with other link frames than the file's.
+//! Mechanisms with link frames other than those of the robot file.
 
 use crate::economical::frames::chain::Limits;
 use crate::economical::frames::working::{WorkingFrame, axes_about, between, normal_with_parent};
@@ -6,21 +6,21 @@ use crate::mechanism::Mechanism;
 use crate::vector::{Matrix, Vector};
 use robot_model::robot::JointKind;
 
-/// A mechanism with other link frames than the file's and the same motions.
+/// A mechanism with other link frames than the file's but the same motions.
 #[derive(Clone, Debug)]
 pub(crate) struct Reframed<'g> {
     /// The mechanism in those frames.
     pub(crate) mechanism: Mechanism<'g>,
-    /// The frames, each in the file's frame of its link.
+    /// The frames, each relative to the file's frame of its link.
     pub(crate) frames: Vec<WorkingFrame<'g>>,
 }
 
 impl<'g> Reframed<'g> {
-    /// Frames of Denavit and Hartenberg, by the geometry alone: z is the joint axis, the origin lies
-    /// where the common normal with the axis of the parent's joint meets it; x is as near to the file's as
-    /// that allows.
+    /// Denavit–Hartenberg frames, which only depend on the geometry. Axis z is the joint axis; the origin is the point
+    /// at which the common normal with the axis of the parent's joint meets it; x is as close to the file's as this
+    /// allows.
     ///
-    /// If no normal has a well-defined place, and for translations and first joints, the origin is the
+    /// For prismatic joints and first joints, and if the position of the normal is not well defined, the origin is the
     /// file's. `None` if a joint axis depends on parameters.
     pub(crate) fn denavit_hartenberg(mechanism: &Mechanism<'g>) -> Option<Reframed<'g>> {
         let farthest = Limits::of(mechanism).shift;

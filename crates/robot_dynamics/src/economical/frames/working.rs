@@ -1,4 +1,4 @@
-//! Working frames: z along the joint axis, origin and turn as the plan says.
+//! Working frames: z is the joint axis; the plan determines the origin and the rotation about z.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
@@ -9,25 +9,26 @@ use crate::economical::spatial::rotation::{ConstantRotation, constant_root};
 use crate::mechanism::{Mechanism, MechanismLink};
 use crate::vector::{Matrix, Vector};
 
-/// Axes closer to parallel than this sine squared have no common normal worth dividing by.
+/// If the squared sine of the angle between two axes is below this, their common normal is not well defined
+/// numerically.
 const NEARLY_PARALLEL: f64 = 1e-4;
 
-/// Axes with a sine squared of at most this are parallel up to rounding.
+/// Axes whose squared sine is at most this are parallel to within rounding errors.
 const PARALLEL: f64 = 1e-24;
 
 /// A frame fixed to a link.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WorkingFrame<'g> {
-    /// Columns: the frame's axes in components of the link's frame.
+    /// The frame's axes in components of the link's frame, as columns.
     pub(crate) axes: Matrix<'g>,
-    /// The origin in the link's frame, m.
+    /// The origin relative to the link's frame, m.
     pub(crate) origin: Vector<'g>,
-    /// Whether z runs against the joint axis, which makes antiparallel joints parallel.
+    /// Whether z is opposite to the joint axis, which makes antiparallel joints parallel.
     pub(crate) flipped: bool,
 }
 
-/// Frames at the links' own origins, z along the joint axis, x as near to the file's as that
-/// allows. `None` if a joint axis is not constant.
+/// Frames at the links' own origins, with z along the joint axis and x as close to the file's as this allows. `None` if
+/// a joint axis is not constant.
 pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFrame<'g>>> {
     let mut frames: Vec<WorkingFrame<'g>> = vec![];
     for link in &mechanism.links {
@@ -42,16 +43,16 @@ pub(crate) fn file_frames<'g>(mechanism: &Mechanism<'g>) -> Option<Vec<WorkingFr
     Some(frames)
 }
 
-/// A right-handed triad with the given z axis; a permutation of the coordinate axes if z is a coordinate axis.
+/// A right-handed set of axes with the given z axis; a permutation of the coordinate axes if z is a coordinate axis.
 ///
-/// `None` if it depends on parameters.
+/// `None` if the axis depends on parameters.
 pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     let graph = z.0[0].graph();
     let [Some(a), Some(b), Some(c)] = z.0.map(coefficient) else {
         return None;
     };
     let unit = Matrix::identity(graph);
-    // The coordinate axis most nearly normal to z lends its direction to x.
+    // Axis x is derived from the coordinate axis that is most nearly perpendicular to z.
     let x = if z.0[0].is_zero() && z.0[1].is_zero() {
         unit.column(0)
     } else if z.0[1].is_zero() && z.0[2].is_zero() {
@@ -74,18 +75,18 @@ pub(crate) fn axes_about(z: Vector<'_>) -> Option<Matrix<'_>> {
     Some(Matrix([x, y, z].map(|axis| axis.0)).transpose())
 }
 
-/// The value of a constant.
+/// The value of a constant; `None` if the expression is not constant.
 fn coefficient(expr: Expr<'_>) -> Option<f64> {
     let value = expr.evaluate(|_| f64::NAN);
     value.is_finite().then_some(value)
 }
 
-/// The distance from a link's origin, along its joint axis, to the foot of the common normal with the axis of its
-/// parent's joint: the normal through the parent's origin if the axes are parallel. All in frames of the
-/// file with z along the joint axes, but for the parent's origin, which is in its frame in the file.
+/// The distance along the joint axis from a link's origin to the foot of the common normal with the axis of its
+/// parent's joint. If the axes are parallel, this is the normal through the parent's origin. `axes` and `parent_axes`
+/// are in the file's frames, with z along the joint axes; `parent_origin` is in the parent's frame of the file.
 ///
-/// `None` if that depends on parameters, is farther than `farthest`, or the axes are so close to
-/// parallel that the foot is not well defined.
+/// `None` if the distance exceeds `farthest`, if the angle between the axes depends on parameters, or if the axes are
+/// so close to parallel that the foot is not well defined.
 pub(crate) fn normal_with_parent<'g>(
     link: &MechanismLink<'g>,
     axes: Matrix<'g>,
@@ -106,8 +107,8 @@ pub(crate) fn normal_with_parent<'g>(
     foot.filter(|foot| coefficient(*foot).is_none_or(|foot| foot.abs() <= farthest))
 }
 
-/// Places the working frames as the plan says, from the base outward; origins that would lie farther
-/// along their axes than `farthest`, in m, stay at the file's origins.
+/// Places the working frames according to the plan, from the base outward. An origin that would be farther than
+/// `farthest` (m) along its axis remains at the file's origin.
 pub(crate) fn place<'g>(
     mechanism: &Mechanism<'g>,
     plans: &[LinkPlan],
@@ -155,7 +156,7 @@ pub(crate) fn place<'g>(
     placed
 }
 
-/// The position along the joint axis of the origin of a rotating link's working frame.
+/// The position, along the joint axis, of the origin of the working frame of a link on a revolute joint.
 fn origin_along<'g>(
     origin: Origin,
     link: &MechanismLink<'g>,
@@ -174,16 +175,16 @@ fn origin_along<'g>(
             let direction = back * parent_file.axes.column(2);
             let point = back * (parent.origin - link.translation);
             let axis = Axis { direction, point, has_place: true };
-            // Parallel axes have normals everywhere: take the one through the parent's origin.
+            // Parallel axes have common normals everywhere; the one through the parent's origin is chosen.
             axis.foot_on_z().or_else(|| axis.is_parallel().then_some(point.0[2]))
         }
-        // Moving the origin by t takes t h from Σ's third column.
+        // Moving the origin by t subtracts t h from the third column of Σ.
         Origin::ZeroXz => safe_quotient(s[0][2], h[0]),
         Origin::ZeroYz => safe_quotient(s[1][2], h[1]),
     }
 }
 
-/// The origin of a translating link's working frame, which may lie anywhere.
+/// The origin of the working frame of a link on a prismatic joint, which can be anywhere.
 fn free_origin<'g>(
     origin: Origin,
     link: &MechanismLink<'g>,
@@ -200,13 +201,13 @@ fn free_origin<'g>(
     }
 }
 
-/// `numerator / denominator` if the denominator is a number that is not small.
+/// The quotient, if the denominator is a number that is not small and the numerator is not 0.
 fn safe_quotient<'g>(numerator: Expr<'g>, denominator: Expr<'g>) -> Option<Expr<'g>> {
     let size = denominator.as_number()?.to_f64().abs();
     (size > 1e-3 && !numerator.is_zero()).then(|| numerator / denominator)
 }
 
-/// Sine and cosine of the direction of the first two components.
+/// The sine and cosine of the direction of the first two components.
 fn direction<'g>([x, y, _]: [Expr<'g>; 3]) -> Option<(Expr<'g>, Expr<'g>)> {
     if y.is_zero() {
         return None;
@@ -224,11 +225,11 @@ fn direction<'g>([x, y, _]: [Expr<'g>; 3]) -> Option<(Expr<'g>, Expr<'g>)> {
     Some((y / length, x / length))
 }
 
-/// A joint axis seen from another link's file frame.
+/// A joint axis in another link's file frame.
 struct Axis<'g> {
     direction: Vector<'g>,
     point: Vector<'g>,
-    /// Whether the axis has a position; the axis of a translation has a direction only.
+    /// Whether the axis has a position; the axis of a prismatic joint only has a direction.
     has_place: bool,
 }
 
@@ -250,7 +251,7 @@ impl<'g> Axis<'g> {
         self.direction.0[0].is_zero() && self.direction.0[1].is_zero()
     }
 
-    /// The position on the z axis of the foot of the common normal with it.
+    /// The position, along the z axis, of the foot of the common normal of the two axes.
     fn foot_on_z(&self) -> Option<Expr<'g>> {
         let size = self.sine_squared().as_number()?.to_f64();
         (size > NEARLY_PARALLEL).then(|| self.foot())
@@ -261,13 +262,13 @@ impl<'g> Axis<'g> {
         x * x + y * y
     }
 
-    /// [`Axis::foot_on_z`] if the axes are known not to be parallel.
+    /// The position like that of [`Axis::foot_on_z`], for axes that are known not to be parallel.
     fn foot(&self) -> Expr<'g> {
         let along = self.direction.0[2] * self.point.dot(self.direction);
         (self.point.0[2] - along) / self.sine_squared()
     }
 
-    /// Sine and cosine of the turn about z that puts x along the common normal.
+    /// The sine and cosine of the rotation about z that makes x parallel to the common normal.
     fn normal_turn(&self) -> Option<(Expr<'g>, Expr<'g>)> {
         let Vector([ex, ey, _]) = self.direction;
         if self.is_parallel() {
@@ -294,7 +295,7 @@ pub(crate) fn between<'g>(
     }
 }
 
-/// Sets rounded entries next to 0 to 0: they come from turning by an angle and back.
+/// Sets entries to 0 that differ from it only by rounding, because of a rotation by an angle and back.
 fn clean(matrix: Matrix<'_>) -> Matrix<'_> {
     matrix.map(|entry| match entry.as_number() {
         Some(number) if number.as_rational().is_none() && number.to_f64().abs() < 1e-15 => {
@@ -325,7 +326,7 @@ mod tests {
         };
         assert_eq!(quotient(3.0, -2.0), Some(-1.5));
         assert_eq!((quotient(3.0, 1e-4), quotient(3.0, 0.0)), (None, None));
-        // A shift by 0 changes nothing.
+        // A shift by 0 has no effect.
         assert_eq!(safe_quotient(graph.zero(), number(2.0)), None);
         assert_eq!(safe_quotient(number(3.0), graph.symbol("h")), None);
     }
@@ -338,7 +339,7 @@ mod tests {
         let found =
             found.map(|(sine, cosine)| [sine, cosine].map(|one| one.evaluate(|_| f64::NAN)));
         assert_eq!(found, Some([-0.6, 0.8]));
-        // Rounding points anywhere.
+        // The direction of rounding errors is arbitrary.
         assert_eq!(direction([number(6e-10), number(-3e-10), graph.one()]), None);
         assert_eq!(direction([graph.symbol("x"), number(1.0), graph.one()]), None);
     }

@@ -1,28 +1,28 @@
-//! What a plan depends on: the text whose hash is a pin's fingerprint.
+//! The properties of a robot on which a plan depends, as text; the hash of this text is the fingerprint of a pin.
 //!
-//! A [search](crate::economical::search) generates inverse dynamics without wrench and friction under each
-//! candidate, counts its operations, holds its torques against the paper's iterations, and leaves the robot's
-//! parameters free. So its result depends on
+//! A [search](crate::economical::search) derives inverse dynamics without wrench and friction for each candidate,
+//! counts its operations, and compares its torques with those of the paper's iterations. The robot's parameters remain
+//! symbols. The result therefore depends on
 //!
-//! - the tree of links, the kinds of joints and which coordinate moves each;
-//! - gravity, placements, axes, ratios and offsets, bodies and drives as expressions, constant angles snapped as
-//!   the file says: forms differ by which entries are zero, equal or constant.
+//! - the tree of links, the kinds of the joints, and the coordinate that moves each joint;
+//! - gravity, placements, axes, ratios and offsets, bodies and drives as expressions, in which constant angles are
+//!   snapped as the file specifies: forms differ by which entries are zero, equal or constant.
 //!
-//! It does not depend on, and the text leaves out,
+//! It does not depend on the following properties, and the text does not contain them:
 //!
-//! - remarks, docs, units, LaTeX, the order of keys: no expression contains them;
-//! - names of the robot, of links, joints and frames, and limits: no expression contains these either;
-//! - nominal values of parameters: a search sees symbols;
-//! - names of parameters and their order in the file: symbols are numbered in the order of their first use in
-//!   the mechanism, so that merging two parameters gives another mechanism, and renaming one does not;
-//! - friction, named frames and tips: they are added to the searched torques.
+//! - remarks, documentation, units, LaTeX and the order of keys: they do not occur in expressions;
+//! - the names of the robot, of links, joints and frames, and limits: they do not occur in expressions either;
+//! - nominal values of parameters: a search only uses symbols;
+//! - the names of parameters and their order in the file: symbols are numbered in the order of their first use in the
+//!   mechanism, so that merging two parameters gives another mechanism, but renaming one does not;
+//! - friction, named frames and tips: they are added to the torques whose operations the search counts.
 //!
-//! Numbers in the place of a parameter count to the last digit, a mass of 2 or 3 as well. Most digits
-//! change no form, but 0 and 1 do, numbers that are equal or cancel do, and the comparison of the torques was one
-//! at those numbers. For values that change without changing the form, use parameters.
+//! A number that is used instead of a parameter is significant to its last digit, even if it is a mass of 2 or 3. Most
+//! digits do not change the form, but 0 and 1, equal numbers and numbers that cancel do, and the torques were compared
+//! at these numbers. For values that change without changing the form, use parameters.
 //!
-//! Irrational constants stay symbols here ([`MechanismOptions::EXACT`]): the sine of an angle in floating point
-//! may differ in a bit between platforms.
+//! Irrational constants remain symbolic here ([`MechanismOptions::EXACT`]), because the sine of an angle in floating
+//! point may differ by a bit between platforms.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -32,12 +32,13 @@ use robot_symbolic::{Expr, Graph, Id, Number, View, walk};
 
 use crate::mechanism::{Mechanism, MechanismLink, MechanismOptions};
 
-/// Mechanisms with more expressions than this cannot become code.
+/// The maximum number of expressions of a mechanism; larger mechanisms cannot be converted to code.
 const MAX_NODES: usize = 500_000;
 
-/// All that a plan for the robot depends on, as text: equal texts mean equal plans.
+/// The text of everything on which a plan for the robot depends: robots with equal texts have equal plans.
 ///
-/// A line for each expression, by the numbers of its operands, then a line for gravity and one for each link.
+/// There is one line for each expression, which refers to its operands by number, then one line for gravity and one for
+/// each link.
 #[must_use]
 pub fn mechanics(robot: &Robot) -> String {
     let graph = Graph::limited(MAX_NODES);
@@ -61,14 +62,14 @@ pub fn mechanics(robot: &Robot) -> String {
     text
 }
 
-/// The robot without the properties that no plan depends on but expressions might contain.
+/// The robot without properties that may occur in expressions but do not affect a plan.
 fn bare(robot: &Robot) -> Robot {
     let links = robot.links.iter().map(|link| Link { friction: Friction::none(), ..link.clone() });
-    // Parameters that are not listed become symbols in the order of their first use.
+    // Parameters that are not declared become symbols in the order of their first use.
     Robot { parameters: vec![], frames: vec![], links: links.collect(), ..robot.clone() }
 }
 
-/// `link 0 revolute q2`, with the parent's number; `base` for none.
+/// The text for a joint, such as `link 0 revolute q2`, which begins with its parent, or with `base`.
 fn joint(link: &MechanismLink<'_>) -> String {
     let parent = link.parent.map_or("base".to_owned(), |parent| format!("link {parent}"));
     let kind = match link.kind {
@@ -87,7 +88,7 @@ fn expressions<'g>(link: &MechanismLink<'g>) -> Vec<Expr<'g>> {
     [matrices, vectors.concat(), scalars.to_vec()].concat()
 }
 
-/// An expression by the numbers of its operands.
+/// An expression as text, in which operands are given by their numbers.
 fn line(expr: Expr<'_>, numbers: &BTreeMap<Id, usize>) -> String {
     let at = |operand: Expr<'_>| numbers[&operand.id()];
     match expr.view() {

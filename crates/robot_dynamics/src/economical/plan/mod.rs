@@ -1,7 +1,7 @@
 //! The options of the economical recursion, as data.
 //!
-//! Every option yields the same torques; they differ in operations. Letters in brackets are those
-//! of the ablation tables in `docs/performance.md`.
+//! All options give the same torques but different numbers of operations. The letters in brackets are those of the
+//! ablation tables in `docs/performance.md`.
 
 pub(super) mod mechanics;
 pub mod pin;
@@ -12,63 +12,62 @@ use robot_model::robot::Robot;
 /// The options for a whole mechanism.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Plan {
-    /// Per link, in the mechanism's order.
+    /// The options for each link, in the order of the mechanism.
     pub links: Vec<LinkPlan>,
-    /// \[l\] The unit of length in which the recursion works: that of the component (0, 1, 2) of
-    /// this link's position in its parent, which thereby becomes ±1.
+    /// \[l\] The unit of length in which the recursion works: the component (0, 1, 2) of this link's position relative
+    /// to its parent, which thereby becomes ±1.
     pub unit_length: Option<(usize, usize)>,
 }
 
 /// The options for one link.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LinkPlan {
-    /// \[t\] Where the working frame's origin lies on the joint axis.
+    /// \[t\] The position of the working frame's origin on the joint axis.
     pub origin: Origin,
-    /// \[t, φ\] How the working frame is turned about the joint axis.
+    /// \[t, φ\] The rotation of the working frame about the joint axis.
     pub turn: Turn,
-    /// \[a\] Whether the joint joins the parallel group of its parent's joint: rotations then use the sum of the
+    /// \[a\] Whether the joint joins the parallel group of its parent's joint; rotations then use the sum of the
     /// group's angles. This has no effect if the axes are not parallel.
     pub angle_sum: bool,
-    /// \[c\] Whether the third column of U comes from the parent's U.
+    /// \[c\] Whether the third column of U is computed from the parent's U.
     pub column: bool,
-    /// \[u\] Whether the third row of U then comes from doubled products, U₃₁ = ω_x 2ω_z − U₁₃, which
-    /// saves an addition if the angular acceleration across the axis is not needed itself.
+    /// \[u\] Whether, in that case, the third row of U is computed from doubled products, U₃₁ = ω_x 2ω_z − U₁₃. This
+    /// saves an addition if the angular acceleration across the axis is not needed otherwise.
     pub doubled: bool,
-    /// \[b\] Per component of the moment: whether products of angular velocities and accelerations replace entries of
-    /// U.
+    /// \[b\] For each component of the moment, whether products of angular velocities and accelerations are used
+    /// instead of entries of U.
     pub moment: [bool; 3],
-    /// \[d\] Whether differences of squared angular velocities come from the diagonal of U, which
-    /// saves a square if U's third column is known.
+    /// \[d\] Whether differences of squared angular velocities are computed from the diagonal of U, which saves a
+    /// square if the third column of U is known.
     pub diagonal: bool,
-    /// \[m, z\] The parts of the link's mass, first moment and second moment along its joint axis that stay
-    /// with the link so that an entry of the parent's inertia vanishes; in that order.
+    /// \[m, z\] The entries of the parent's inertia that are made to vanish because a part of the link's mass, first
+    /// moment and second moment along its joint axis, in this order, remains with the link.
     pub residual: [Option<Entry>; 3],
-    /// The acceleration assumed for the joint if it is free to choose.
+    /// The acceleration that is assumed for the joint if it can be chosen freely.
     pub free: FreeRate,
-    /// Whether composite inertias use the home axes of the parallel group, as motions do with
-    /// `angle_sum`.
+    /// Whether composite inertias use the home axes of the parallel group, as motions do with `angle_sum`.
     pub composite_sum: bool,
-    /// The place, on the way to the base, where this link's wrench for a unit acceleration of its joint is
-    /// projected on the motions of the joints farther inward; `None` for each joint's own.
+    /// The place, on the way to the base, at which this link's wrench for a unit acceleration of its joint is projected
+    /// on the motions of the joints farther inward. `None` if it is projected at each of these joints.
     pub projected_at: Option<Place>,
 }
 
-/// The acceleration assumed for a joint in forward dynamics, where the bias may be that of any
-/// accelerations q̈*, since q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
+/// The acceleration that is assumed for a joint in forward dynamics. The bias torques may be computed at any
+/// accelerations q̈*, because q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FreeRate {
-    /// 0.
+    /// The acceleration 0.
     Zero,
-    /// Makes the link's own acceleration along the joint axis vanish: ε_z of a rotation, a_z of
-    /// a translation.
+    /// The acceleration for which the link's own acceleration along the joint axis vanishes: ε_z for a revolute joint,
+    /// a_z for a prismatic joint.
     Still,
-    /// Makes U₁₂ vanish.
+    /// The acceleration for which U₁₂ vanishes.
     Upper,
-    /// Makes U₂₁ vanish.
+    /// The acceleration for which U₂₁ vanishes.
     Lower,
-    /// Makes the acceleration of the next link's origin vanish along x.
+    /// The acceleration for which the acceleration of the next link's origin vanishes along x.
     NextX,
-    /// Makes the acceleration of the next link's origin vanish along y.
+    /// The acceleration for which the acceleration of the next link's origin vanishes along y.
     NextY,
 }
 
@@ -84,47 +83,47 @@ impl FreeRate {
     ];
 }
 
-/// Axes about the origin of a link's working frame.
+/// A set of axes at the origin of a link's working frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Place {
-    /// The link.
+    /// The index of the link.
     pub link: usize,
-    /// The axes of the working frame; otherwise those before the joints of the link's parallel
-    /// group turn it.
+    /// Whether these are the axes of the working frame; otherwise, they are the home axes, before the joints of the
+    /// link's parallel group turn.
     pub turned: bool,
 }
 
 /// The position of a working frame's origin on its joint axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Origin {
-    /// At the robot file's origin.
+    /// The origin of the robot file.
     File,
-    /// At the foot of the common normal with the next joint's axis (modified Denavit–Hartenberg).
+    /// The foot of the common normal with the next joint's axis (modified Denavit–Hartenberg).
     NextNormal,
-    /// At the foot of the common normal with the previous joint's axis (Denavit–Hartenberg).
+    /// The foot of the common normal with the previous joint's axis (Denavit–Hartenberg).
     PreviousNormal,
-    /// Where the regrouped Σxz vanishes.
+    /// The point at which the regrouped Σxz vanishes.
     ZeroXz,
-    /// Where the regrouped Σyz vanishes.
+    /// The point at which the regrouped Σyz vanishes.
     ZeroYz,
-    /// At the link's center of mass: for prismatic joints, whose axis has a direction only.
+    /// The link's center of mass. For prismatic joints, whose axis only has a direction.
     CenterOfMass,
-    /// At the parent's origin at joint position 0: for prismatic joints.
+    /// The parent's origin at joint position 0. For prismatic joints.
     Parent,
 }
 
-/// The turn of a working frame about its joint axis.
+/// The rotation of a working frame about its joint axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Turn {
-    /// The x axis as close to the file's as the joint axis allows.
+    /// The x axis is as close to the file's as the joint axis allows.
     File,
-    /// The x axis along the common normal with the next joint's axis.
+    /// The x axis is parallel to the common normal with the next joint's axis.
     NextNormal,
-    /// The x axis along the regrouped first moment, so that its y component vanishes.
+    /// The x axis is in the direction of the regrouped first moment across the axis, so that its y component vanishes.
     FirstMoment,
 }
 
-/// An entry of a link's regrouped inertia that can be made to vanish, or a difference of two.
+/// An entry of a link's regrouped inertia, or a difference of two entries, that can be made to vanish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Entry {
     /// First moment, x.
@@ -152,7 +151,7 @@ impl Entry {
 }
 
 impl LinkPlan {
-    /// Modified Denavit–Hartenberg frames and full regrouping, without other options.
+    /// Modified Denavit–Hartenberg frames with full regrouping and no other options.
     pub const BASIC: LinkPlan = LinkPlan {
         origin: Origin::NextNormal,
         turn: Turn::NextNormal,
@@ -169,7 +168,7 @@ impl LinkPlan {
 }
 
 impl LinkPlan {
-    /// Options that suit most links, without a search: most links of searched plans have them.
+    /// Options that suit most links without a search: most links of searched plans have them.
     pub const DEFAULT: LinkPlan = LinkPlan {
         angle_sum: true,
         column: true,
@@ -181,7 +180,7 @@ impl LinkPlan {
 }
 
 impl Plan {
-    /// Whether the plan is for that many links and names no others.
+    /// Whether the plan is for the given number of links and only refers to existing links.
     #[must_use]
     pub fn fits(&self, links: usize) -> bool {
         let projected_at = self.links.iter().filter_map(|link| link.projected_at);
@@ -190,7 +189,7 @@ impl Plan {
             && projected_at.into_iter().all(|place| place.link < links)
     }
 
-    /// Options that suit most arms, without a search: those of most links in the plans with the fewest operations.
+    /// Options that suit most arms without a search: most links of the plans with the fewest operations have them.
     #[must_use]
     pub fn default_for(robot: &Robot) -> Plan {
         Plan::uniform(robot.links.len(), &LinkPlan::DEFAULT)

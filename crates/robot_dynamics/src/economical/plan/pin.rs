@@ -1,4 +1,4 @@
-//! Pinned plans: the result of a search, as text beside the robot file, so that builds need not search.
+//! Pinned plans: the result of a search is kept as text beside the robot file, so that builds need not search.
 
 use std::fmt::Write as _;
 
@@ -10,31 +10,31 @@ use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Tu
 /// A plan and the mechanics for which it was searched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
-    /// Identifies the [mechanics](crate::economical::mechanics()) for which the plan was searched; for any other, the
-    /// pin is stale.
+    /// Identifies the [mechanics](crate::economical::mechanics()) for which the plan was searched. If a robot has
+    /// another fingerprint, the pin is stale.
     pub fingerprint: String,
-    /// Identifies the rest of the pin, [`Pin::content`]; with any other, the pin was edited.
+    /// Identifies the rest of the pin, [`Pin::content`]. If the content has another digest, the pin was edited.
     pub digest: String,
     /// The measure that the search minimized.
     pub measure: Measure,
-    /// The multiplications and additions of inverse dynamics under the plan.
+    /// The number of multiplications and additions of inverse dynamics with the plan.
     pub operations: usize,
-    /// Whether the plan was chosen among several by the time of its code on the machine of the search: another
-    /// machine, or another run, may choose another.
+    /// Whether the plan was chosen among several by the run time of its code on the machine of the search. Another
+    /// machine or another run may choose another plan.
     pub tuned: bool,
     /// The plan.
     pub plan: Plan,
 }
 
-/// A text that is not a pin: what is wrong and what was expected.
+/// The error for a text that is not a pin; it describes the problem and what was expected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct PinError(String);
 
-/// The format that is written and read.
+/// The version of the format that is written and read.
 const FORMAT: usize = 3;
 
-/// The names of options that are on or off, with access to each.
+/// The name of an option that is on or off, with access to it.
 type Flag = (&'static str, fn(&mut LinkPlan) -> &mut bool);
 
 const FLAGS: [Flag; 8] = [
@@ -86,7 +86,7 @@ const MEASURES: [(&str, Measure); 2] =
     [("operations", Measure::Operations), ("instructions", Measure::Instructions)];
 
 impl Pin {
-    /// The text, TOML.
+    /// The pin as TOML text.
     #[must_use]
     pub fn to_text(&self) -> String {
         let mut text = String::from(
@@ -99,8 +99,8 @@ impl Pin {
         text
     }
 
-    /// The result of the search and the mechanics it is for, as [`Pin::to_text`] writes them: all but the remarks,
-    /// the format and the digest.
+    /// The result of the search and the mechanics for which it holds, as [`Pin::to_text`] writes them: without remarks,
+    /// format and digest.
     #[must_use]
     pub fn content(&self) -> String {
         let mut text = format!("fingerprint = \"{}\"\n", self.fingerprint);
@@ -121,18 +121,18 @@ impl Pin {
         text
     }
 
-    /// Reads the text that [`Pin::to_text`] wrote.
+    /// Reads text that [`Pin::to_text`] wrote.
     ///
     /// # Errors
     ///
-    /// A text that is not a pin, or is one of another version.
+    /// An error if the text is not a pin, or is a pin of another version.
     pub fn from_text(text: &str) -> Result<Pin, PinError> {
         let (table, faults) = DeTable::parse_recoverable(text);
         if let Some(fault) = faults.first() {
             return Err(PinError(fault.to_string().trim().to_owned()));
         }
         let mut keys = Keys::new(table.get_ref());
-        // The format first: others may have other keys.
+        // The format is checked first, because other formats may have other keys.
         let format = keys.required("format", number)?;
         match format {
             FORMAT => {}
@@ -230,7 +230,7 @@ fn place_of(value: &DeValue<'_>) -> Result<Place, PinError> {
     Ok(Place { link, turned })
 }
 
-/// The keys of a table; each that is read is known.
+/// The keys of a table, and those that have been read so far.
 struct Keys<'a> {
     table: &'a DeTable<'a>,
     known: Vec<&'static str>,
@@ -263,7 +263,7 @@ impl<'a> Keys<'a> {
         self.optional(key, read)?.ok_or_else(|| PinError(format!("`{key}` is missing")))
     }
 
-    /// Refuses keys that are not known.
+    /// Returns an error if the table has other keys than those that have been read.
     fn end(self) -> Result<(), PinError> {
         let mut names = self.table.keys().map(|key| key.get_ref().as_ref());
         match names.find(|name| !self.known.contains(name)) {
@@ -364,7 +364,7 @@ mod tests {
             let error = Pin::from_text(&text.replacen(good, bad, 1)).unwrap_err();
             assert!(error.to_string().len() > 10, "{bad}: {error}");
         }
-        // Another format may have other keys; its number is what is wrong with it.
+        // Another format may have other keys, so the error must be about the format.
         let other = Pin::from_text("format = 4\nplan = \"cheap\"").unwrap_err().to_string();
         assert!(other.contains("format 4") && other.contains("expected 3"), "{other}");
         for format in ["format = 1", "format = 2"] {

@@ -9,13 +9,13 @@ use crate::economical::frames::Frames;
 use crate::vector::{Matrix, Vector};
 
 impl<'g> Recursion<'g> {
-    /// Kinetic energy, drives included, J. Regrouping does not change it: inertia is moved between links
-    /// only if it moves with both.
+    /// The kinetic energy, including drives, J. Regrouping does not change it, because inertia is only moved between
+    /// links if it moves with both of them.
     #[must_use]
     pub fn kinetic_energy(&self) -> Expr<'g> {
         let chain = &self.chain.without_idle_turns(&[]);
         let frames = Frames::new(chain, |index| self.plans[index].angle_sum);
-        // Angular velocity, in home and own axes, and velocity of the origin in own axes.
+        // The angular velocity in home axes and own axes, and the velocity of the origin in own axes.
         let (mut home, mut own): (Vec<Vector<'g>>, Vec<Vector<'g>>) = (vec![], vec![]);
         let mut velocities: Vec<Vector<'g>> = vec![];
         let mut twice = chain.graph.zero();
@@ -54,21 +54,21 @@ impl<'g> Recursion<'g> {
             let rate = chain.in_meters(link, link.motion.velocity);
             twice += link.reflected_inertia * (rate * rate);
             if let Some(parent) = link.parent {
-                // J N q̇ a · ω of the carrier
+                // J N q̇ a · ω, with ω of the carrier.
                 twice += link.rotor_coupling * rate * own[parent].dot(link.axis) * 2;
             }
         }
         twice / 2
     }
 
-    /// Gravitational potential energy, J; 0 if all mass is at the base frame's origin.
+    /// The gravitational potential energy, J; it is 0 if all mass is at the origin of the base frame.
     #[must_use]
     pub fn potential_energy(&self) -> Expr<'g> {
         weight_in_base(&self.chain.without_idle_turns(&[]), &self.plans)
     }
 }
 
-/// ωᵀ (tr(Σ) 1 − Σ) ω.
+/// The quadratic form ωᵀ (tr(Σ) 1 − Σ) ω.
 fn of_second<'g>(Matrix(s): Matrix<'g>, Vector([x, y, z]): Vector<'g>) -> Expr<'g> {
     let squares =
         x * x * (s[1][1] + s[2][2]) + y * y * (s[0][0] + s[2][2]) + z * z * (s[0][0] + s[1][1]);

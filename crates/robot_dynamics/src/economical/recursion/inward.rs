@@ -1,7 +1,7 @@
-//! Inward: forces and moments on regrouped inertias, from the tips to the base, and the torques.
+//! The inward recursion: forces and moments on regrouped inertias from the tips to the base, and the joint torques.
 //!
-//! Regrouping moves inertia between links, so that the forces between links here are not those of
-//! the robot: only their projections on the joint axes are.
+//! Regrouping moves inertia between links, so the forces between links are not those of the robot. Only their
+//! projections on the joint axes are.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
@@ -11,7 +11,7 @@ use crate::economical::plan::LinkPlan;
 use crate::economical::recursion::outward::LinkState;
 use crate::vector::{Matrix, Vector};
 
-/// A wrench applied by a tip, in the working frame of its link and the chain's unit of length.
+/// A wrench that a tip exerts, in the working frame of its link and in the chain's unit of length.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TipWrench<'g> {
     pub(crate) link: usize,
@@ -19,7 +19,7 @@ pub(crate) struct TipWrench<'g> {
     pub(crate) moment: Vector<'g>,
 }
 
-/// The generalized forces.
+/// The joint torques, in the order of the coordinates.
 pub(crate) fn inward<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],
@@ -29,9 +29,9 @@ pub(crate) fn inward<'g>(
     let zero = Vector::zero(chain.graph);
     let count = chain.links.len();
     let mut forces = vec![zero; count];
-    // Moments about each link's origin; in z they accumulate along a parallel group.
+    // Moments about each link's origin; their z components accumulate along a parallel group.
     let mut moments = vec![zero; count];
-    // Per group, by its first link: the sum of its links' moments across the axis.
+    // For each group, at the index of its first link: the sum of its links' moments across the axis.
     let mut across = vec![zero; count];
     for tip in tips {
         forces[tip.link] = forces[tip.link] + tip.force;
@@ -73,8 +73,8 @@ pub(crate) fn inward<'g>(
     torques
 }
 
-/// The torque that a gyroscopic rotor requires of its joint, J N a · ε, and the moment it requires of the link
-/// that carries it, J N (q̈ a + q̇ ω × a), with ω and ε of the carrier.
+/// The torque J N a · ε that a gyroscopic rotor requires at its joint, and the moment J N (q̈ a + q̇ ω × a) that it
+/// requires from the link that carries it. ω and ε are those of the carrier.
 fn rotor<'g>(
     chain: &Chain<'g>,
     link: &ChainLink<'g>,
@@ -91,7 +91,7 @@ fn rotor<'g>(
     (torque, link.axis * momentum(rate) + turning)
 }
 
-/// The wrench that a link's own inertia requires: F = m a + U h, and the moment about its origin.
+/// The wrench that a link's own inertia requires: the force F = m a + U h and the moment about the origin.
 pub(crate) fn own_wrench<'g>(
     chain: &Chain<'g>,
     index: usize,
@@ -104,7 +104,7 @@ pub(crate) fn own_wrench<'g>(
     (force, from_second + inertia.first.cross(state.acceleration))
 }
 
-/// Component k of ∫ r × U r dm, with p, q the components after k:
+/// Component k of ∫ r × U r dm. With the cyclically following components p and q, it is
 /// U_qk Σ_kp − U_pk Σ_kq + (U_qp Σ_pp − U_pq Σ_qq) + (U_qq − U_pp) Σ_pq.
 fn moment_of_second<'g>(
     state: &LinkState<'g>,

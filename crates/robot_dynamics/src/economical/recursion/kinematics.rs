@@ -1,4 +1,4 @@
-//! Poses, Jacobians and velocity-product accelerations in base axes.
+//! Poses, Jacobians and J̇ q̇ in base axes.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
@@ -12,23 +12,23 @@ use crate::vector::{Matrix, Vector};
 /// The pose of a frame in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pose<'g> {
-    /// Frame components to base components.
+    /// The rotation from frame components to base components.
     pub rotation: Matrix<'g>,
     /// The origin, m.
     pub position: Vector<'g>,
 }
 
-/// A point with axes that a link carries, in the link's working frame and the chain's unit.
+/// A point with axes that a link carries, in the link's working frame and in the chain's unit of length.
 #[derive(Clone, Copy, Debug)]
 struct Carried<'g> {
     link: usize,
-    /// Frame components to components of the working frame.
+    /// The rotation from frame components to components of the working frame.
     rotation: Matrix<'g>,
     point: Vector<'g>,
 }
 
 impl<'g> Recursion<'g> {
-    /// The poses of the links' frames as the robot file has them.
+    /// The poses of the links' frames of the robot file.
     #[must_use]
     pub fn link_poses(&self) -> Vec<Pose<'g>> {
         let zero = Vector::zero(self.chain.graph);
@@ -38,7 +38,7 @@ impl<'g> Recursion<'g> {
         self.poses_of(&carried)
     }
 
-    /// The poses of named frames; those of the base are constant.
+    /// The poses of named frames. Those of frames on the base are constant.
     #[must_use]
     pub fn frame_poses(&self, frames: &[MechanismFrame<'g>]) -> Vec<Pose<'g>> {
         let carried: Vec<Carried<'g>> =
@@ -85,8 +85,8 @@ impl<'g> Recursion<'g> {
         carried.iter().map(pose).collect()
     }
 
-    /// The geometric Jacobian of a frame, 6 × n: the velocity of the frame's origin (rows 0–2) and
-    /// the frame's angular velocity (rows 3–5) per unit rate of each coordinate, in base axes.
+    /// The geometric Jacobian of a frame, 6 × n, in base axes: the velocity of the frame's origin (rows 0–2) and the
+    /// angular velocity of the frame (rows 3–5) at unit velocity of each coordinate.
     #[must_use]
     pub fn jacobian(&self, frame: &MechanismFrame<'g>) -> Vec<Vec<Expr<'g>>> {
         let zero = self.chain.graph.zero();
@@ -96,7 +96,7 @@ impl<'g> Recursion<'g> {
         };
         let frames = self.frames();
         let axes = own_axes(&frames);
-        // From the joint's origin to the frame's, in base axes.
+        // The vector from the joint's origin to the frame's origin, in base axes.
         let mut arm = axes[carried.link] * carried.point;
         let mut next = Some(carried.link);
         while let Some(index) = next {
@@ -117,8 +117,8 @@ impl<'g> Recursion<'g> {
         rows
     }
 
-    /// J̇ q̇ of a frame: the acceleration of its origin (0–2) and its angular acceleration (3–5) at
-    /// zero accelerations of the coordinates, in base axes.
+    /// J̇ q̇ of a frame, in base axes: the acceleration of its origin (0–2) and its angular acceleration (3–5) if the
+    /// accelerations of the coordinates are zero.
     #[must_use]
     pub fn jacobian_dot_qd(&self, frame: &MechanismFrame<'g>) -> Vec<Expr<'g>> {
         let graph = self.chain.graph;
@@ -136,7 +136,7 @@ impl<'g> Recursion<'g> {
         let mut vectors = [linear, state.angular_acceleration];
         let mut next = Some(carried.link);
         while let Some(index) = next {
-            // Through the home axes of the link's parallel group to the axes of the group's parent.
+            // Transforms through the home axes of the link's parallel group to the axes of the group's parent.
             let joint_frame = &states[index].joint_frame;
             let first = &chain.links[joint_frame.group];
             vectors = vectors.map(|v| first.rotation.forward(joint_frame.group_turn.forward(v)));
@@ -145,13 +145,13 @@ impl<'g> Recursion<'g> {
         vectors.into_iter().flat_map(|vector| vector.0).collect()
     }
 
-    /// The frames along the mechanism, with parallel groups as `angle_sum` chooses them for motions.
+    /// The frames along the mechanism, with the parallel groups that `angle_sum` selects for motions.
     pub(in crate::economical) fn frames(&self) -> Frames<'_, 'g> {
         Frames::new(&self.chain, |index| self.plans[index].angle_sum)
     }
 }
 
-/// The links' own axes in base axes, as rotation matrices.
+/// The links' own axes relative to the base axes, as rotation matrices.
 fn own_axes<'g>(frames: &Frames<'_, 'g>) -> Vec<Matrix<'g>> {
     let (mut home, mut own): (Vec<Matrix<'g>>, Vec<Matrix<'g>>) = (vec![], vec![]);
     for (index, link) in frames.chain.links.iter().enumerate() {
@@ -166,8 +166,8 @@ fn own_axes<'g>(frames: &Frames<'_, 'g>) -> Vec<Matrix<'g>> {
     own
 }
 
-/// Applies a function to each row: the product with a rotation from the right, whose transpose turns
-/// the rows.
+/// Applies a function to each row. This is a multiplication by a rotation from the right, whose transpose turns the
+/// rows.
 fn rows<'g>(Matrix(matrix): Matrix<'g>, turn: impl Fn(Vector<'g>) -> Vector<'g>) -> Matrix<'g> {
     Matrix(matrix.map(|row| turn(Vector(row)).0))
 }

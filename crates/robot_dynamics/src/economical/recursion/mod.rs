@@ -1,5 +1,5 @@
-//! The recursion itself: motions from the base outward, forces from the tips inward, and the quantities
-//! that come from the outward part alone.
+//! The recursion itself: motions from the base outward, forces from the tips inward, and the quantities that only need
+//! the outward part.
 
 mod energy;
 pub(crate) mod inward;

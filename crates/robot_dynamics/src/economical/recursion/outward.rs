@@ -1,8 +1,8 @@
-//! Outward: angular velocities, the tensors U and accelerations, from the base to the tips.
+//! The outward recursion: angular velocities, the tensors U and accelerations, from the base to the tips.
 //!
-//! With ω the angular velocity of a link and ε its angular acceleration, the acceleration of a
-//! point fixed to the link at r from its origin is a + U r, U = \[ε\]× + \[ω\]×². All in the link's
-//! working frame, z along its joint axis.
+//! Let ω be the angular velocity of a link, ε its angular acceleration and a the acceleration of its origin. A point
+//! fixed to the link at r from the origin has the acceleration a + U r, with U = \[ε\]× + \[ω\]×². All quantities are
+//! in the link's working frame, whose z axis is the joint axis.
 
 use robot_model::robot::JointKind;
 use robot_symbolic::Expr;
@@ -14,17 +14,16 @@ use crate::economical::spatial::rotation::Plane;
 use crate::mechanism::BaseMotion;
 use crate::vector::{Matrix, Vector};
 
-/// Levers shorter than this, in the chain's unit of length, are not used to cancel an acceleration: the joint
-/// accelerations needed would lose digits.
+/// The minimum lever, in the chain's unit of length, for canceling an acceleration. With shorter levers, the required
+/// joint accelerations would lose digits.
 const MIN_REACH: f64 = 5e-2;
 
-/// The frame shared by a group of links whose joint axes are parallel: before any of their joints
-/// turns it.
+/// The motion of the frame that a group of links with parallel joint axes shares, before any of their joints turns it.
 #[derive(Clone, Copy, Debug)]
 struct Group<'g> {
     angular_velocity: Vector<'g>,
     angular_acceleration: Vector<'g>,
-    /// The third column of the parent's U: U z is the same before and after a rotation about z.
+    /// The third column of the parent's U; U z is the same before and after a rotation about z.
     column: Vector<'g>,
 }
 
@@ -34,24 +33,24 @@ pub(crate) struct LinkState<'g> {
     pub(crate) joint_frame: JointFrame<'g>,
     pub(crate) angular_velocity: Vector<'g>,
     pub(crate) angular_acceleration: Vector<'g>,
-    /// U.
+    /// The tensor U.
     pub(crate) tensor: Matrix<'g>,
-    /// Acceleration of the origin, gravity included as an acceleration of the base.
+    /// The acceleration of the origin, including gravity as an acceleration of the base.
     pub(crate) acceleration: Vector<'g>,
-    /// Acceleration of the joint along or about z.
+    /// The acceleration of the joint about or along z.
     pub(crate) rate: Expr<'g>,
-    /// The component along which the next link's origin has no acceleration.
+    /// The component along which the acceleration of the next link's origin is zero.
     at_rest: Option<Rest>,
 }
 
-/// The child whose origin has no acceleration along a component of the link's frame.
+/// A child whose origin has no acceleration along a component of the link's frame.
 #[derive(Clone, Copy, Debug)]
 struct Rest {
     child: usize,
     component: usize,
 }
 
-/// The accelerations that the joints have.
+/// The choice of the joint accelerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Accelerations {
     /// The accelerations of the chain's links.
@@ -60,7 +59,7 @@ pub(crate) enum Accelerations {
     Free,
 }
 
-/// Runs over the links from the base.
+/// Runs the recursion from the base outward.
 pub(crate) fn outward<'g>(
     chain: &Chain<'g>,
     plans: &[LinkPlan],
@@ -91,7 +90,7 @@ pub(crate) fn outward<'g>(
     states
 }
 
-/// The acceleration of a link's origin due to its parent, in the link's axes.
+/// The acceleration of a link's origin due to the motion of its parent, in the link's axes.
 fn carried_acceleration<'g>(
     chain: &Chain<'g>,
     index: usize,
@@ -136,19 +135,20 @@ impl<'g> Group<'g> {
     }
 }
 
-/// The rotational state of a link, without its own joint's acceleration.
+/// The rotational state of a link before its own joint's acceleration is added.
 struct Turning<'g> {
     omega: Vector<'g>,
-    /// ε with only the carried contribution about z.
+    /// ε, whose z component only contains the contribution of the carrier.
     epsilon: Vector<'g>,
-    /// The third column of U if it is known.
+    /// The third column of U, if it is known.
     column: Option<Vector<'g>>,
-    /// Whether the third row of U then comes from doubled products.
+    /// Whether, in that case, the third row of U is computed from doubled products.
     doubled: bool,
 }
 
 impl<'g> Turning<'g> {
-    /// ω, ε and U's column of a link from those of its group and, within a group, of the link before.
+    /// ω, ε and the third column of U of a link, computed from those of its group and, within a group, from the
+    /// preceding link.
     fn of(
         group: &Group<'g>,
         link: &ChainLink<'g>,
@@ -161,7 +161,7 @@ impl<'g> Turning<'g> {
             JointKind::Revolute => link.motion.velocity,
             JointKind::Prismatic => zero,
         };
-        // About the common axis, rates add up along the group.
+        // Velocities and accelerations about the common axis add up along the group.
         let (omega_z, epsilon_z) = match before {
             Some(state) => (state.angular_velocity.0[2], state.angular_acceleration.0[2]),
             None => (group.angular_velocity.0[2], group.angular_acceleration.0[2]),
@@ -175,7 +175,7 @@ impl<'g> Turning<'g> {
             Some(Vector([u13, u23, _])) => {
                 Vector([y * omega.0[2] - u23, u13 - x * omega.0[2], epsilon_z])
             }
-            // ε = Rᵀ ε₀ + ω × Q̇ z, with the group's own spin Q̇ about its axis
+            // ε = Rᵀ ε₀ + ω × Q̇ z, with the group's own angular velocity Q̇ about its axis.
             None => {
                 let spin = omega.0[2] - omega_group.0[2];
                 let Vector([ex, ey, _]) = turn.back(group.angular_acceleration);
@@ -224,8 +224,8 @@ impl<'g> Turning<'g> {
         }
     }
 
-    /// ε_z for a choice of the joint's acceleration, and the acceleration that it cancels; `None` for the
-    /// joint at rest.
+    /// ε_z for a choice of the joint's acceleration, and the acceleration that it cancels; `None` for the joint
+    /// acceleration 0.
     fn chosen(
         &self,
         free: FreeRate,
@@ -251,7 +251,7 @@ impl<'g> Turning<'g> {
                 }
                 let Matrix(u) = self.tensor();
                 let others = u[component][component] * p[component] + u[component][2] * p[2];
-                // U₁₂ = ω_x ω_y − ε_z or U₂₁ = ω_x ω_y + ε_z that undoes the rest.
+                // The entry U₁₂ = ω_x ω_y − ε_z or U₂₁ = ω_x ω_y + ε_z that cancels the remaining acceleration.
                 let entry = -((a[component] + others) / lever);
                 let total = if component == 0 { xy - entry } else { entry - xy };
                 Some((total, Some(Rest { child, component })))
@@ -293,7 +293,7 @@ fn base_tensor<'g>(base: &BaseMotion<'g>) -> Matrix<'g> {
     tensor(base.angular_velocity, base.angular_acceleration, None, false)
 }
 
-/// U = \[ε\]× + \[ω\]×², with its third column if that is known.
+/// U = \[ε\]× + \[ω\]×²; its third column is taken over if it is known.
 pub(crate) fn tensor<'g>(
     omega: Vector<'g>,
     epsilon: Vector<'g>,

@@ -1,4 +1,4 @@
-//! Links as pseudo-inertias.
+//! The pseudo-inertias of links.
 
 use robot_symbolic::{Expr, Graph};
 
@@ -7,11 +7,10 @@ use crate::economical::spatial::Twist;
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
 
-/// The residue of a moment that vanishes but for rounding, in units of the largest.
+/// The maximum rounding error of a moment that should vanish, relative to the largest moment.
 const ROUNDING: f64 = 1e-14;
 
-/// The distribution of mass of a body in some frame: the 4 × 4 pseudo-inertia
-/// P = \[\[Σ, h\], \[hᵀ, m\]\] by its blocks.
+/// The mass distribution of a body in some frame: the blocks of the 4 × 4 pseudo-inertia P = \[\[Σ, h\], \[hᵀ, m\]\].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PseudoInertia<'g> {
     /// Second moments Σ = ∫ r rᵀ dm, kg m²; the inertia tensor is tr(Σ) 1 − Σ.
@@ -35,13 +34,14 @@ impl<'g> PseudoInertia<'g> {
     pub(crate) fn of_link(link: &MechanismLink<'g>) -> PseudoInertia<'g> {
         let graph = link.mass.graph();
         let (inertia, center) = (link.inertia, link.center_of_mass);
-        // About the center of mass J = tr(Σ) 1 − Σ, hence tr J = 2 tr Σ.
+        // About the center of mass, J = tr(Σ) 1 − Σ, and therefore tr J = 2 tr Σ.
         let central = Matrix::identity(graph) * (inertia.trace() / 2) - inertia;
         let first = center * link.mass;
         PseudoInertia { second: central + Matrix::outer(first, center), first, mass: link.mass }
     }
 
-    /// The pseudo-inertia of masses on a line through the origin: mass, first and second moment along a unit vector.
+    /// The pseudo-inertia of masses on a line through the origin, given by the mass and the first and second moment
+    /// along a unit vector.
     pub(crate) fn rod([mass, first, second]: [Expr<'g>; 3], direction: Vector<'g>) -> Self {
         PseudoInertia {
             second: Matrix::outer(direction, direction) * second,
@@ -50,7 +50,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// This body in a frame in which its own frame lies at `origin`, turned by `rotation`: T P Tᵀ.
+    /// This body in a frame relative to which its own frame is at `origin` and rotated by `rotation`: T P Tᵀ.
     pub(crate) fn seen_from(self, rotation: Matrix<'g>, origin: Vector<'g>) -> PseudoInertia<'g> {
         let turned = rotation * self.first;
         let mixed = Matrix::outer(turned, origin);
@@ -60,7 +60,7 @@ impl<'g> PseudoInertia<'g> {
         PseudoInertia { second, first: turned + origin * self.mass, mass: self.mass }.symmetric()
     }
 
-    /// This body in a frame that lies at `origin`, turned by `rotation`, in its own frame.
+    /// This body in a frame that is at `origin` and rotated by `rotation` relative to its own frame.
     pub(crate) fn seen_in(self, rotation: Matrix<'g>, origin: Vector<'g>) -> PseudoInertia<'g> {
         let back = rotation.transpose();
         self.seen_from(back, -(back * origin))
@@ -82,7 +82,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// The rate of P in axes at rest if the body moves: V P + P Vᵀ.
+    /// The time derivative of P in axes at rest if the body moves with the twist: V P + P Vᵀ.
     pub(crate) fn rate(&self, motion: &Twist<'g>) -> PseudoInertia<'g> {
         let Twist { angular, linear } = *motion;
         let half = Matrix::skew(angular) * self.second + Matrix::outer(linear, self.first);
@@ -95,12 +95,12 @@ impl<'g> PseudoInertia<'g> {
         .symmetric()
     }
 
-    /// The entries that a rotation about z cannot distinguish from those of the parent: m, h_z, Σzz.
+    /// The entries that a rotation about z cannot distinguish from those of the parent: m, h_z and Σzz.
     pub(crate) fn along_z(self) -> [Expr<'g>; 3] {
         [self.mass, self.first.0[2], self.second.0[2][2]]
     }
 
-    /// Sets m, h_z and Σzz.
+    /// This body with other values of m, h_z and Σzz.
     pub(crate) fn with_along_z(mut self, [mass, first, second]: [Expr<'g>; 3]) -> Self {
         (self.mass, self.first.0[2], self.second.0[2][2]) = (mass, first, second);
         self
@@ -120,7 +120,7 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// Sets an entry that was solved for to exactly 0: rounding would leave a residue.
+    /// Sets an entry to exactly 0 that was made to vanish, because rounding would leave a residue.
     pub(crate) fn clear(&mut self, entry: Entry) {
         let zero = self.mass.graph().zero();
         let (Vector(h), Matrix(s)) = (&mut self.first, &mut self.second);
@@ -136,8 +136,8 @@ impl<'g> PseudoInertia<'g> {
         }
     }
 
-    /// Sets rounded moments next to 0, against the largest of their kind, to 0: they come from turning
-    /// by an angle that makes them vanish.
+    /// Sets moments to 0 that are small relative to the largest of their kind. They are rounding errors after a
+    /// rotation by an angle that makes them vanish.
     pub(crate) fn clean(mut self) -> PseudoInertia<'g> {
         let zero = self.mass.graph().zero();
         let clean = |entries: &mut dyn Iterator<Item = &mut Expr<'g>>| {
@@ -156,7 +156,7 @@ impl<'g> PseudoInertia<'g> {
         self
     }
 
-    /// Copies the upper triangle to the lower, so that both are one expression.
+    /// Copies the upper triangle to the lower, so that both contain the same expressions.
     fn symmetric(mut self) -> PseudoInertia<'g> {
         let Matrix(s) = &mut self.second;
         (s[1][0], s[2][0], s[2][1]) = (s[0][1], s[0][2], s[1][2]);

@@ -1,4 +1,4 @@
-//! Twists and wrenches about the origins of working frames, and how they change from frame to frame.
+//! Twists and wrenches about the origins of working frames, and their transformations between frames.
 
 pub(crate) mod inertia;
 pub(crate) mod momentum;
@@ -24,7 +24,7 @@ pub(crate) struct Wrench<'g> {
 }
 
 impl<'g> Twist<'g> {
-    /// The power of a wrench.
+    /// The power of a wrench on this motion.
     pub(crate) fn dot(&self, wrench: &Wrench<'g>) -> Expr<'g> {
         self.angular.dot(wrench.moment) + self.linear.dot(wrench.force)
     }
@@ -37,7 +37,7 @@ impl<'g> Twist<'g> {
         Twist { angular: self.angular * rate, linear: self.linear * rate }
     }
 
-    /// This motion, about an origin at `arm`.
+    /// This motion with respect to a new origin at `arm`.
     pub(crate) fn about(self, arm: Vector<'g>) -> Twist<'g> {
         Twist { linear: self.linear + self.angular.cross(arm), ..self }
     }
@@ -48,7 +48,7 @@ impl<'g> Twist<'g> {
 }
 
 impl<'g> Wrench<'g> {
-    /// This wrench, about an origin from which its own origin lies at `arm`.
+    /// This wrench with respect to a new origin; `arm` is the position of the old origin relative to the new one.
     pub(crate) fn about(self, arm: Vector<'g>) -> Wrench<'g> {
         Wrench { moment: self.moment + arm.cross(self.force), ..self }
     }
@@ -61,7 +61,7 @@ impl<'g> Wrench<'g> {
         Wrench { force: self.force + other.force, moment: self.moment + other.moment }
     }
 
-    /// The rate of a wrench that moves with a body: Z ×* W.
+    /// The time derivative of a wrench that moves with a body: Z ×* W.
     pub(crate) fn carried_by(&self, motion: &Twist<'g>) -> Wrench<'g> {
         let Twist { angular, linear } = *motion;
         Wrench {

@@ -1,5 +1,5 @@
-//! Composite momenta: B = Σ V P over a link and all that it carries, with the motions V and the
-//! pseudo-inertias P of the links.
+//! Composite momenta: B = Σ V P over a link and everything that it carries, with the motions V and pseudo-inertias P of
+//! these links.
 
 use crate::economical::composite::Accumulate;
 use crate::economical::spatial::inertia::PseudoInertia;
@@ -7,10 +7,10 @@ use crate::economical::spatial::rotation::{ConstantRotation, Plane};
 use crate::economical::spatial::{Twist, Wrench};
 use crate::vector::{Matrix, Vector};
 
-/// The upper rows of the 4 × 4 matrix V P by its blocks, about some origin.
+/// The upper three rows of the 4 × 4 matrix V P, in blocks, about some origin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Momentum<'g> {
-    /// ∫ v rᵀ dm with v the velocity of the point at r, kg m²/s.
+    /// ∫ v rᵀ dm, in which v is the velocity of the point at r, kg m²/s.
     pub(crate) second: Matrix<'g>,
     /// ∫ v dm, kg m/s.
     pub(crate) linear: Vector<'g>,
@@ -27,12 +27,12 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// Whether nothing moves.
+    /// Whether the momentum is zero.
     pub(crate) fn is_zero(&self) -> bool {
         self.linear.is_zero() && self.second.0.iter().flatten().all(|entry| entry.is_zero())
     }
 
-    /// The rate of B in axes at rest if all bodies move alike: V B + B Vᵀ.
+    /// The time derivative of B in axes at rest if all bodies move with the same twist: V B + B Vᵀ.
     pub(crate) fn rate(&self, motion: &Twist<'g>) -> Momentum<'g> {
         let Twist { angular, linear } = *motion;
         let turning = Matrix::skew(angular);
@@ -44,7 +44,7 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// The wrench of the matrix Ẑ B for a unit rate of a joint with the angular part `turning`.
+    /// The wrench of the matrix Ẑ B for a joint motion at unit velocity with the angular part `turning`.
     pub(crate) fn wrench_of_unit_rate(&self, turning: Vector<'g>) -> Wrench<'g> {
         let Matrix(n) = Matrix::skew(turning) * self.second;
         Wrench {
@@ -53,7 +53,7 @@ impl<'g> Momentum<'g> {
         }
     }
 
-    /// The projection of Ẑ B on a joint with the motion `joint`, per component of Z's angular part.
+    /// The projection of Ẑ B on a joint with the motion `joint`, for each component of Z's angular part.
     pub(crate) fn project(&self, joint: &Twist<'g>) -> Vector<'g> {
         let Matrix(b) = self.second;
         let Vector(z) = joint.angular;

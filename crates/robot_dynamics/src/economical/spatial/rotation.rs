@@ -1,35 +1,35 @@
-//! Rotations as sequences of plane rotations, the cheapest form to apply.
+//! Rotations as sequences of plane rotations, the form with the fewest operations.
 
 use robot_symbolic::{Expr, Number};
 
 use crate::vector::{Matrix, Vector};
 
-/// A rotation in a coordinate plane by an angle with this sine and cosine.
+/// A rotation in a coordinate plane by an angle with the given sine and cosine.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane<'g> {
-    /// The two axes of the plane, the first turning towards the second.
+    /// The two axes of the plane; the first turns toward the second.
     axes: (usize, usize),
     sine: Expr<'g>,
     cosine: Expr<'g>,
 }
 
 impl<'g> Plane<'g> {
-    /// About x.
+    /// A rotation about x.
     pub(crate) fn x(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
         Plane { axes: (1, 2), sine, cosine }
     }
 
-    /// About y.
+    /// A rotation about y.
     pub(crate) fn y(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
         Plane { axes: (2, 0), sine, cosine }
     }
 
-    /// About z.
+    /// A rotation about z.
     pub(crate) fn z(sine: Expr<'g>, cosine: Expr<'g>) -> Plane<'g> {
         Plane { axes: (0, 1), sine, cosine }
     }
 
-    /// Turned components to unturned ones: R v.
+    /// Transforms components in the turned axes to the unturned axes: R v.
     pub(crate) fn forward(&self, mut vector: Vector<'g>) -> Vector<'g> {
         let (i, j) = self.axes;
         let (a, b) = (vector.0[i], vector.0[j]);
@@ -38,15 +38,14 @@ impl<'g> Plane<'g> {
         vector
     }
 
-    /// A symmetric tensor in turned components to unturned ones: R S Rᵀ, with five products in the
-    /// plane.
+    /// Transforms a symmetric tensor from the turned to the unturned axes, R S Rᵀ, with five products in the plane.
     pub(crate) fn forward_symmetric(&self, Matrix(s): Matrix<'g>) -> Matrix<'g> {
         let (i, j) = self.axes;
         let k = 3 - i - j;
         let (sine, cosine) = (self.sine, self.cosine);
         let u = cosine * (s[i][i] - s[j][j]) - sine * (s[i][j] * 2);
         let first = s[j][j] + cosine * u;
-        // The trace does not change.
+        // The trace is invariant.
         let second = (s[i][i] + s[j][j]) - first;
         let mixed = s[i][j] + sine * u;
         let (a, b) = (s[i][k], s[j][k]);
@@ -59,7 +58,7 @@ impl<'g> Plane<'g> {
         Matrix(turned)
     }
 
-    /// Any tensor in turned components to unturned ones: R T Rᵀ.
+    /// Transforms an arbitrary tensor from the turned to the unturned axes: R T Rᵀ.
     pub(crate) fn forward_tensor(&self, Matrix(t): Matrix<'g>) -> Matrix<'g> {
         let (i, j) = self.axes;
         let k = 3 - i - j;
@@ -67,7 +66,7 @@ impl<'g> Plane<'g> {
         let u = cosine * (t[i][i] - t[j][j]) - sine * (t[i][j] + t[j][i]);
         let first = t[j][j] + cosine * u;
         let mut turned = t;
-        // The trace and the skew part do not change.
+        // The trace and the skew-symmetric part are invariant.
         (turned[i][i], turned[j][j]) = (first, (t[i][i] + t[j][j]) - first);
         (turned[i][j], turned[j][i]) = (t[i][j] + sine * u, t[j][i] + sine * u);
         let turn = |a, b| (cosine * a - sine * b, sine * a + cosine * b);
@@ -76,9 +75,9 @@ impl<'g> Plane<'g> {
         Matrix(turned)
     }
 
-    /// Any tensor in turned components to unturned ones, R T Rᵀ, where no entry is a difference of larger
-    /// ones that the turn does not mix: a moment that vanishes with an angle keeps its digits, which
-    /// [`Plane::forward_symmetric`] takes from it.
+    /// Transforms an arbitrary tensor from the turned to the unturned axes, R T Rᵀ, such that no entry is a difference
+    /// of larger entries that the rotation does not mix. A moment that vanishes with an angle therefore keeps its
+    /// digits, which it would lose in [`Plane::forward_symmetric`].
     pub(crate) fn forward_entries(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         let turned_columns = |Matrix(t): Matrix<'g>| {
             let columns = Matrix(t).transpose().0.map(|column| self.forward(Vector(column)).0);
@@ -87,7 +86,7 @@ impl<'g> Plane<'g> {
         turned_columns(turned_columns(tensor).transpose()).transpose()
     }
 
-    /// Unturned components to turned ones: Rᵀ v.
+    /// Transforms components in the unturned axes to the turned axes: Rᵀ v.
     pub(crate) fn back(&self, mut vector: Vector<'g>) -> Vector<'g> {
         let (i, j) = self.axes;
         let (a, b) = (vector.0[i], vector.0[j]);
@@ -97,12 +96,12 @@ impl<'g> Plane<'g> {
     }
 }
 
-/// A constant rotation R = before · Rz(θ): what lies before the last turn about z, and that turn.
+/// A constant rotation R = before · Rz(θ), split into its last rotation about z and the part before it.
 #[derive(Clone, Debug)]
 pub(crate) struct ConstantRotation<'g> {
-    /// Applied first to parent components, in this order.
+    /// The part before the last rotation; plane rotations are applied to parent components in this order.
     before: Before<'g>,
-    /// Sine and cosine of θ.
+    /// The sine and cosine of θ.
     pub(crate) turn: (Expr<'g>, Expr<'g>),
 }
 
@@ -113,18 +112,18 @@ enum Before<'g> {
 }
 
 impl<'g> ConstantRotation<'g> {
-    /// The cheapest sequence of plane rotations whose product is the matrix.
+    /// The sequence of plane rotations with the fewest operations whose product is the matrix.
     pub(crate) fn new(matrix: Matrix<'g>) -> ConstantRotation<'g> {
         let Matrix(r) = matrix;
         let graph = r[0][0].graph();
         let (zero, one) = (graph.zero(), graph.one());
         let z = matrix.column(2);
-        // Rx(α) Rz(θ) has third column (0, −sin α, cos α) and first row (cos θ, −sin θ, 0).
+        // The third column of Rx(α) Rz(θ) is (0, −sin α, cos α), and its first row is (cos θ, −sin θ, 0).
         if z.0[0].is_zero() {
             let plane = Plane::x(-z.0[1], z.0[2]);
             return ConstantRotation { before: planes(&[plane]), turn: (-r[0][1], r[0][0]) };
         }
-        // Ry(β) Rz(θ) has third column (sin β, 0, cos β) and second row (sin θ, cos θ, 0).
+        // The third column of Ry(β) Rz(θ) is (sin β, 0, cos β), and its second row is (sin θ, cos θ, 0).
         if z.0[1].is_zero() {
             let plane = Plane::y(z.0[0], z.0[2]);
             return ConstantRotation { before: planes(&[plane]), turn: (r[1][0], r[1][1]) };
@@ -133,7 +132,7 @@ impl<'g> ConstantRotation<'g> {
             let before = Before::Full(Box::new(matrix));
             return ConstantRotation { before, turn: (zero, one) };
         }
-        // Rz(φ) Rx(α) Rz(θ): third column (sin φ sin α, −cos φ sin α, cos α).
+        // The third column of Rz(φ) Rx(α) Rz(θ) is (sin φ sin α, −cos φ sin α, cos α).
         let sine = constant_root(z.0[0] * z.0[0] + z.0[1] * z.0[1]);
         let (sin_phi, cos_phi) = (z.0[0] / sine, -z.0[1] / sine);
         let outer = Plane::z(sin_phi, cos_phi);
@@ -145,7 +144,7 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
-    /// Parent components to components before the last turn.
+    /// Transforms parent components to the axes before the last rotation.
     pub(crate) fn back(&self, vector: Vector<'g>) -> Vector<'g> {
         match &self.before {
             Before::Planes(planes) => planes.iter().fold(vector, |v, plane| plane.back(v)),
@@ -153,7 +152,7 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
-    /// Components before the last turn to parent components.
+    /// Transforms components in the axes before the last rotation to parent components.
     pub(crate) fn forward(&self, vector: Vector<'g>) -> Vector<'g> {
         match &self.before {
             Before::Planes(planes) => planes.iter().rev().fold(vector, |v, plane| plane.forward(v)),
@@ -161,13 +160,13 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
-    /// The axes before the last turn in the components in which the parent's axes are the columns of `axes`.
+    /// The axes before the last rotation, in the components in which the columns of `axes` are the parent's axes.
     pub(crate) fn forward_axes(&self, axes: &Matrix<'g>) -> Matrix<'g> {
         let Matrix(rows) = *axes;
         Matrix(rows.map(|row| self.back(Vector(row)).0))
     }
 
-    /// A symmetric tensor in components before the last turn to parent components.
+    /// Transforms a symmetric tensor from the axes before the last rotation to parent components.
     pub(crate) fn forward_symmetric(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         match &self.before {
             Before::Planes(planes) => {
@@ -177,7 +176,7 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
-    /// Any tensor in components before the last turn to parent components.
+    /// Transforms an arbitrary tensor from the axes before the last rotation to parent components.
     pub(crate) fn forward_tensor(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         match &self.before {
             Before::Planes(planes) => {
@@ -187,7 +186,7 @@ impl<'g> ConstantRotation<'g> {
         }
     }
 
-    /// [`ConstantRotation::forward_tensor`] by [`Plane::forward_entries`].
+    /// Transforms a tensor like [`ConstantRotation::forward_tensor`], with [`Plane::forward_entries`].
     pub(crate) fn forward_entries(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         match &self.before {
             Before::Planes(planes) => {
@@ -208,7 +207,7 @@ fn planes<'g>(planes: &[Plane<'g>]) -> Before<'g> {
     Before::Planes(planes.to_vec())
 }
 
-/// The square root of a constant: exact if it is rational, else a float.
+/// The square root of a constant: exact if it is rational, otherwise a floating-point number.
 pub(crate) fn constant_root(constant: Expr<'_>) -> Expr<'_> {
     let root = constant.sqrt();
     if root.as_number().is_some() {

@@ -1,4 +1,4 @@
-//! Links and joints of the file, by their names, as a draft.
+//! Connects the links and joints of the file by their names and builds a draft.
 
 use std::collections::BTreeMap;
 
@@ -15,20 +15,20 @@ use super::name::Name;
 use crate::diagnostic::{Diagnostic, code, quote};
 use crate::robot::{Drive, Friction, Placement};
 
-/// The links of a draft without their bodies, and for each the index of the link of the file.
+/// The links of a draft without their bodies, and for each one the index of the corresponding link of the file.
 pub(super) struct Connected {
     pub(super) links: Vec<DraftLink>,
     pub(super) sources: Vec<usize>,
 }
 
-/// Names to indices.
+/// The parent and child link of a joint, as indices.
 struct Ends {
     parent: usize,
     child: usize,
 }
 
-/// Connects the links: the root first, then the children of the joints in the file's order. A root
-/// of the name `base` is the base itself.
+/// Connects the links: the root first, then the children of the joints in the order of the file. A root named `base` is
+/// the base itself.
 pub(super) fn connect(
     reader: &mut Reader<'_>,
     links: &[UrdfLink<'_>],
@@ -45,7 +45,7 @@ pub(super) fn connect(
     }
     let mut connected = Connected { links: Vec::new(), sources: Vec::new() };
     let is_base = |link: usize| links.get(link).is_some_and(|link| link.name.written == "base");
-    // The draft's index of each link.
+    // The index in the draft of each link of the file.
     let mut drafted: BTreeMap<usize, usize> = BTreeMap::new();
     if let Some((index, link)) = root.filter(|(index, _)| !is_base(*index)) {
         connected.links.push(base(link, joints));
@@ -71,7 +71,7 @@ pub(super) fn connect(
     Some(connected)
 }
 
-/// Names of one kind, each once.
+/// The index of each name. Reports names that are not unique.
 fn index<'n>(
     reader: &mut Reader<'_>,
     what: &str,
@@ -96,7 +96,7 @@ fn index<'n>(
     unique.then(|| found.into_iter().map(|(name, (index, _))| (name, index)).collect())
 }
 
-/// Parent and child of each joint, if all of them are links and no link is a child twice.
+/// The parent and child of each joint. Reports names that are not links, and links that are the child of two joints.
 fn ends(
     reader: &mut Reader<'_>,
     joints: &[UrdfJoint<'_>],
@@ -154,8 +154,8 @@ fn link(
     found
 }
 
-/// The one link that is not a child; `Some(None)` if every link is one, so that there are cycles,
-/// which are reported later.
+/// The only link that is not the child of a joint. `Some(None)` if every link is a child: then there are cycles, which
+/// are reported later.
 #[allow(clippy::type_complexity)]
 fn root<'l, 'a>(
     reader: &mut Reader<'_>,
@@ -178,7 +178,8 @@ fn root<'l, 'a>(
     let [root, others @ ..] = roots.as_slice() else {
         return Some(None);
     };
-    // The one that carries something is the base, or the first of several.
+    // The base is the first link without a parent that is the parent of another link; if there is none, the first link
+    // without a parent.
     let carries = |index: usize| ends.iter().any(|ends| ends.parent == index);
     let base = roots.iter().find(|(index, _)| carries(*index)).unwrap_or(root);
     for (index, link) in &roots {
@@ -199,7 +200,7 @@ fn root<'l, 'a>(
 
 /// The root as a link that is fixed to the base.
 fn base(link: &UrdfLink<'_>, joints: &[UrdfJoint<'_>]) -> DraftLink {
-    // Its joint, which the file does not have, needs a name that no other has.
+    // The file has no joint for this link; its name must differ from the names of all joints.
     let mut name = link.name.named.clone();
     while joints.iter().any(|joint| joint.name.named.name == name.name) {
         name.name.push_str("_base");
@@ -244,7 +245,7 @@ fn draft(
             kind: joint.kind,
             name: joint.name.named.clone(),
             axis: joint.axis.clone(),
-            // A joint that follows moves as far as the one that leads.
+            // The limits of a mimic joint are not used, because the leading joint determines its motion.
             limits: joint.limits.clone().filter(|_| joint.mimic.is_none()),
             mimic,
         },
@@ -268,7 +269,7 @@ fn draft(
     }
 }
 
-/// Damping is viscous friction, friction constant dry friction.
+/// The friction of a joint: damping is viscous friction, and friction is constant dry friction.
 fn friction(dynamics: &Dynamics) -> Friction {
     Friction {
         viscous: dynamics.damping.clone(),

@@ -1,4 +1,4 @@
-//! Elements of URDF, read attribute by attribute; everything that URDF does not define is reported.
+//! Elements of URDF, read attribute by attribute. Everything that URDF does not define is reported.
 
 use roxmltree::Node;
 
@@ -12,16 +12,16 @@ pub(super) struct Kind {
     pub(super) name: &'static str,
     attributes: &'static [&'static str],
     children: &'static [&'static Kind],
-    /// Elements that say nothing of the motion.
+    /// Names of elements that do not affect the motion.
     ignored: &'static [&'static str],
-    /// Whether everything else is an error; otherwise what is not near to a known word is passed
-    /// over with a warning: it may be an extension of some program.
+    /// Whether all other content is an error. If not, content whose name does not resemble a known one is skipped with
+    /// a warning, because it may be an extension of another program.
     strict: bool,
 }
 
 const LEAF: Kind = Kind { name: "", attributes: &[], children: &[], ignored: &[], strict: true };
 
-/// The root.
+/// The root element.
 pub(super) static ROBOT: Kind = Kind {
     name: "robot",
     attributes: &["name", "version"],
@@ -29,7 +29,7 @@ pub(super) static ROBOT: Kind = Kind {
     ignored: &["material", "transmission", "gazebo", "sensor", "ros2_control", "plugin", "group"],
     strict: false,
 };
-/// A link.
+/// A link element.
 pub(super) static LINK: Kind = Kind {
     name: "link",
     attributes: &["name", "type"],
@@ -42,7 +42,7 @@ static ORIGIN: Kind = Kind { name: "origin", attributes: &["xyz", "rpy"], ..LEAF
 static MASS: Kind = Kind { name: "mass", attributes: &["value"], ..LEAF };
 static INERTIA: Kind =
     Kind { name: "inertia", attributes: &["ixx", "ixy", "ixz", "iyy", "iyz", "izz"], ..LEAF };
-/// A joint.
+/// A joint element.
 pub(super) static JOINT: Kind = Kind {
     name: "joint",
     attributes: &["name", "type"],
@@ -63,7 +63,7 @@ static MIMIC: Kind = Kind { name: "mimic", attributes: &["joint", "multiplier", 
 static DYNAMICS: Kind =
     Kind { name: "dynamics", attributes: &["damping", "friction"], strict: false, ..LEAF };
 
-/// An element with what it may hold.
+/// An element and its allowed content.
 #[derive(Clone, Copy)]
 pub(super) struct Element<'a, 'i> {
     node: Node<'a, 'i>,
@@ -73,12 +73,12 @@ pub(super) struct Element<'a, 'i> {
 /// An attribute.
 pub(super) struct Attribute<'a> {
     pub(super) text: &'a str,
-    /// The value, without its quotes.
+    /// The place of the value, without its quotes.
     pub(super) span: Span,
 }
 
 impl<'a, 'i> Element<'a, 'i> {
-    /// The element, after its attributes and children have been looked over.
+    /// Creates the element and checks the names of its attributes and children.
     pub(super) fn new(
         reader: &mut Reader<'_>,
         node: Node<'a, 'i>,
@@ -90,24 +90,24 @@ impl<'a, 'i> Element<'a, 'i> {
         element
     }
 
-    /// `<name`, the beginning of the element.
+    /// The place of `<name`, the beginning of the element.
     pub(super) fn tag(&self) -> Span {
         tag(self.node)
     }
 
-    /// The element from its tag to its end.
+    /// The place of the whole element, from its tag to its end.
     pub(super) fn span(&self) -> Span {
         self.node.range()
     }
 
-    /// The attribute of that name.
+    /// The attribute with the given name.
     pub(super) fn attribute(&self, name: &str) -> Option<Attribute<'a>> {
         debug_assert!(self.kind.attributes.contains(&name), "{name} is not declared");
         let found = self.node.attribute_node(name)?;
         Some(Attribute { text: found.value(), span: found.range_value() })
     }
 
-    /// The attribute of that name, which must be there; `example` is a value for it.
+    /// The required attribute with the given name; `example` is a value for it.
     pub(super) fn require(
         &self,
         reader: &mut Reader<'_>,
@@ -126,14 +126,14 @@ impl<'a, 'i> Element<'a, 'i> {
         attribute
     }
 
-    /// The first child of that name.
+    /// The first child with the given name.
     pub(super) fn child(&self, reader: &mut Reader<'_>, name: &str) -> Option<Element<'a, 'i>> {
         let kind = self.child_kind(name)?;
         let node = self.node.children().find(|node| named(*node, name))?;
         Some(Element::new(reader, node, kind))
     }
 
-    /// The first child of that name, which must be there; `example` is what to add.
+    /// The required child with the given name; `example` is the text to add if it is missing.
     pub(super) fn require_child(
         &self,
         reader: &mut Reader<'_>,
@@ -152,12 +152,12 @@ impl<'a, 'i> Element<'a, 'i> {
         child
     }
 
-    /// The nodes of all children of that name, in order.
+    /// The nodes of all children with the given name, in order.
     pub(super) fn nodes(&self, name: &str) -> impl Iterator<Item = Node<'a, 'i>> {
         self.node.children().filter(move |node| named(*node, name))
     }
 
-    /// The number of elements of that name here and one level below.
+    /// The number of elements with the given name among the children and their children.
     pub(super) fn count(&self, name: &str) -> usize {
         let below = self.node.children().flat_map(|child| child.children());
         self.node.children().chain(below).filter(|node| named(*node, name)).count()
@@ -204,7 +204,7 @@ impl<'a, 'i> Element<'a, 'i> {
             if let Some(kind) = self.child_kind(name) {
                 let first = seen.iter().find(|(known, _)| *known == name);
                 match first {
-                    // A robot has many links and joints.
+                    // Links and joints may occur repeatedly; other children may not.
                     Some((_, first)) if !kind.is_repeated() => {
                         let message = format!("`<{name}>` appears twice in `<{}>`", self.kind.name);
                         reader.report(
@@ -243,7 +243,7 @@ impl Kind {
     }
 }
 
-/// An error if a word is near or nothing else is allowed, else a warning.
+/// Returns an error if the word resembles a known one or no other content is allowed, otherwise a warning.
 fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> Diagnostic {
     match near {
         Some(near) => Diagnostic::error(code::UNKNOWN_KEY, message)
@@ -256,12 +256,12 @@ fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> D
     }
 }
 
-/// Whether the element has that name and no prefix.
+/// Whether the element has the given name and no prefix.
 fn named(node: Node<'_, '_>, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name && prefix(node).is_none()
 }
 
-/// `<name` of an element.
+/// The place of `<name` of an element.
 pub(super) fn tag(node: Node<'_, '_>) -> Span {
     let range = node.range();
     let text = node.document().input_text().get(range.clone()).unwrap_or_default();
@@ -269,7 +269,7 @@ pub(super) fn tag(node: Node<'_, '_>) -> Span {
     range.start..range.start + end
 }
 
-/// The prefix of an element's name as it is written.
+/// The namespace prefix of an element's name, as it is written.
 pub(super) fn prefix<'i>(node: Node<'_, 'i>) -> Option<&'i str> {
     let written = node.document().input_text().get(tag(node))?.get(1..)?;
     written.split_once(':').map(|(prefix, _)| prefix)

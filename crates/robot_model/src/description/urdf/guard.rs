@@ -1,10 +1,10 @@
-//! Rejections before the text is parsed: the parser takes time or memory in the square of these.
+//! Checks before the text is parsed: the parser's time or memory grows with the square of these quantities.
 
-use super::super::limits::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES};
+use super::super::input_limits::{MAX_ATTRIBUTES, MAX_DEPTH, MAX_NAMESPACES};
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// Looks over the tags of a text for nesting, attributes and namespaces beyond the limits. What is
-/// not XML is left to the parser.
+/// Checks that the nesting, attributes and namespaces of the tags in a text do not exceed the limits. Syntax errors are
+/// left to the parser.
 pub(super) fn check(text: &str) -> Option<Diagnostic> {
     let mut position = 0;
     let mut depth = 0_usize;
@@ -46,12 +46,12 @@ struct Tag {
     length: usize,
     attributes: usize,
     namespaces: usize,
-    /// `<…/>`
+    /// Whether the tag is that of an empty element, `<…/>`.
     is_empty: bool,
 }
 
 impl Tag {
-    /// The tag at the start of the text.
+    /// Reads the tag at the start of the text.
     fn read(text: &str) -> Tag {
         let mut tag = Tag { length: text.len(), attributes: 0, namespaces: 0, is_empty: false };
         let mut quote = None;
@@ -68,7 +68,7 @@ impl Tag {
                     tag.namespaces += usize::from(key.starts_with("xmlns"));
                 }
                 (None, b' ' | b'\t' | b'\r' | b'\n') => {
-                    // `key = value` has its key before the space.
+                    // In `key = value`, the key ends before the space.
                     let key_follows = text
                         .get(index + 1..)
                         .is_some_and(|rest| !rest.starts_with([' ', '\t', '\r', '\n', '=']));

@@ -1,4 +1,4 @@
-//! `<joint>`: its type, links, place, axis, limits, and the joint that it mimics.
+//! `<joint>`: its type, links, origin, axis, limits, and the joint that it mimics.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -12,11 +12,11 @@ use crate::diagnostic::significant;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::robot::JointKind;
 
-/// A joint as the file has it.
+/// A joint of the file.
 pub(super) struct UrdfJoint<'a> {
     pub(super) name: Name<'a>,
     pub(super) tag: Span,
-    /// `None` for a fixed one.
+    /// `None` for a fixed joint.
     pub(super) kind: Option<JointKind>,
     pub(super) is_continuous: bool,
     pub(super) parent: Attribute<'a>,
@@ -31,37 +31,37 @@ pub(super) struct UrdfJoint<'a> {
     pub(super) unread: Vec<Unread>,
 }
 
-/// An attribute of `<limit>` that is not used.
+/// An attribute of `<limit>` that has no effect here.
 pub(super) struct Unread {
     pub(super) name: &'static str,
-    /// The value.
+    /// The place of its value.
     pub(super) span: Span,
 }
 
-/// Joint position = `multiplier` × that of `joint` + `offset`.
+/// The law of a mimic joint: joint position = `multiplier` × position of `joint` + `offset`.
 pub(super) struct UrdfMimic<'a> {
     pub(super) joint: Attribute<'a>,
     pub(super) multiplier: Formula,
     pub(super) offset: Formula,
 }
 
-/// Friction of a joint.
+/// The friction of a joint.
 pub(super) struct Dynamics {
-    /// N m s/rad or N s/m.
+    /// The viscous friction, N m s/rad or N s/m.
     pub(super) damping: Formula,
-    /// N m or N.
+    /// The constant dry friction, N m or N.
     pub(super) friction: Formula,
     pub(super) span: Span,
 }
 
 impl Dynamics {
-    /// The numbers in a line.
+    /// The values as text on one line.
     pub(super) fn figures(&self) -> String {
         format!("damping {}, friction {}", self.damping, self.friction)
     }
 }
 
-/// Reads a joint; `None` if something that others need is wrong.
+/// Reads a joint; `None` if a property that other links and joints depend on is invalid.
 pub(super) fn read<'a>(
     reader: &mut Reader<'_>,
     element: &Element<'a, '_>,
@@ -97,7 +97,7 @@ pub(super) fn read<'a>(
     })
 }
 
-/// `Some(None)` for a fixed joint; whether a moving one has limits.
+/// Reads the type: `Some(None)` for a fixed joint. The flag is whether a moving joint has limits.
 #[allow(clippy::option_option, reason = "no type, no motion, a motion")]
 fn kind_of(
     reader: &mut Reader<'_>,
@@ -137,7 +137,7 @@ fn kind_of(
     None
 }
 
-/// `<parent link="…"/>` or `<child link="…"/>`.
+/// The link that `<parent link="…"/>` or `<child link="…"/>` names.
 fn end<'a>(
     reader: &mut Reader<'_>,
     element: &Element<'a, '_>,
@@ -159,7 +159,7 @@ struct Moving<'a> {
     unread: Vec<Unread>,
 }
 
-/// The axis that URDF gives to a joint without one: x.
+/// The default values. A joint without an axis has the axis x in URDF.
 impl Default for Moving<'_> {
     fn default() -> Self {
         Moving {
@@ -204,7 +204,8 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
     moving
 }
 
-/// Reads the limits of forces and rates, which have no effect on the motion; a negative one is a mistake.
+/// Reads the limits of force and velocity and similar attributes, which have no effect on the motion. A negative one is
+/// an error.
 fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
     const NAMES: [&str; 5] = ["effort", "velocity", "acceleration", "deceleration", "jerk"];
     let mut unread = Vec::new();
@@ -225,9 +226,9 @@ fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
     unread
 }
 
-/// An axis of any length but 0.
+/// Reads an axis: a nonzero vector.
 fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Formula; 3]> {
-    /// Rounded values, 0.707 for √½, are of unit length.
+    /// The tolerance for taking a vector as a unit vector whose components are rounded, such as 0.707 for √½.
     const ROUNDED: f64 = 1e-3;
     let numbers = numbers::<3>(reader, attribute, "a joint axis", "0 0 1")?;
     if numbers.iter().all(Rational::is_zero) {
@@ -256,7 +257,7 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Lower and upper limit, 0 if one is left out, as URDF says; none if both are the same.
+/// Reads the lower and upper limits. As URDF specifies, a limit that is left out is 0. `None` if both are equal.
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,
@@ -265,7 +266,7 @@ fn limits(
     if attributes.iter().all(Option::is_none) {
         return (None, None);
     }
-    // Infinite limits are written if there are none.
+    // Some files express the absence of limits by infinite ones.
     let infinite = |attribute: &Option<Attribute<'_>>| {
         attribute.as_ref().is_some_and(|attribute| {
             let text = attribute.text.trim().trim_start_matches(['+', '-']);

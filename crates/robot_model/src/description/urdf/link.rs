@@ -12,28 +12,28 @@ use super::origin;
 use crate::diagnostic::{Severity, Span};
 use crate::robot::{Body, Inertia};
 
-/// A link as the file has it.
+/// A link of the file.
 pub(super) struct UrdfLink<'a> {
     pub(super) name: Name<'a>,
-    /// The element's tag.
+    /// The place of the element's tag.
     pub(super) tag: Span,
     pub(super) inertial: Option<Inertial>,
-    /// Whether something in the element is wrong, so that what is missing may be there.
-    pub(super) is_spoilt: bool,
+    /// Whether the element contains errors, so that content which seems to be missing may be present.
+    pub(super) has_errors: bool,
 }
 
-/// An `<inertial>`, all values known.
+/// An `<inertial>` in which all values are known.
 pub(super) struct Inertial {
-    /// Placed in the link's frame.
+    /// The body, placed in the link's frame.
     pub(super) body: Body,
     pub(super) place: BodyLocation,
     pub(super) mass: f64,
-    /// xx, yy, zz, xy, xz, yz about the center of mass, axes of the body's placement.
+    /// The tensor about the center of mass in the axes of the body's placement: xx, yy, zz, xy, xz, yz.
     pub(super) tensor: [f64; 6],
 }
 
 impl Inertial {
-    /// Whether it says that there is nothing.
+    /// Whether the mass and all moments of inertia are 0.
     pub(super) fn is_empty(&self) -> bool {
         self.mass == 0.0 && self.tensor.iter().all(|entry| *entry == 0.0)
     }
@@ -48,8 +48,8 @@ pub(super) fn read<'a>(reader: &mut Reader<'_>, node: Node<'a, '_>) -> Option<Ur
     let inertial = element.child(reader, "inertial");
     let inertial = inertial.and_then(|inertial| body(reader, &inertial, name.as_ref()));
     let found = reader.found.get(before..).unwrap_or_default();
-    let is_spoilt = found.iter().any(|found| found.severity == Severity::Error);
-    Some(UrdfLink { name: name?, tag: element.tag(), inertial, is_spoilt })
+    let has_errors = found.iter().any(|found| found.severity == Severity::Error);
+    Some(UrdfLink { name: name?, tag: element.tag(), inertial, has_errors })
 }
 
 fn body(
@@ -91,7 +91,7 @@ fn mass(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<(Formula, 
     Some((mass, attribute.span))
 }
 
-/// Products of inertia are entries of the tensor, as here.
+/// Reads the tensor. The products of inertia in URDF are entries of the tensor, as in this project.
 fn tensor(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Inertia> {
     let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
     let attributes = names.map(|name| element.require(reader, name, "0"));

@@ -1,12 +1,12 @@
-//! Masses and inertias: what no body can be, and how grave it is.
+//! Masses and inertias: which values no body can have, and whether they are errors or warnings.
 //!
-//! A file that was not written for this program cannot say that a value is intended. Impossible
-//! values are an error all the same, with two exceptions, which published values need:
+//! A file that was not written for this program cannot state that an impossible value is intended. Impossible values
+//! are errors nevertheless, with two exceptions that published values require:
 //!
-//! - principal moments that break the triangle inequality by no more than [`PUBLISHED`] of the
-//!   largest are a warning: measured moments are so;
-//! - a massless link with a moment of inertia about its joint axis alone is a warning if the joint
-//!   is carried by the base and turns about a vertical axis: nothing else of the link acts.
+//! - principal moments that violate the triangle inequality by at most [`PUBLISHED`] of the largest moment cause a
+//!   warning, because measured moments often do;
+//! - a massless link with a moment of inertia only about its joint axis causes a warning if its joint is on the base
+//!   and the axis is vertical, because no other property of the link has an effect.
 
 use robot_symbolic::Formula;
 
@@ -22,11 +22,11 @@ use crate::space::{
     IDENTITY, Matrix, Vector, apply, cross, direction, dot, product, rotation_about, transpose,
 };
 
-/// The part of the largest moment by which measured moments break the triangle inequality.
+/// The fraction of the largest moment by which measured moments may violate the triangle inequality.
 const PUBLISHED: f64 = 0.1;
 
-/// Gives the links of the draft their bodies and reports what is wrong with them. `sources` holds
-/// the link of the file for each link of the draft.
+/// Adds the bodies to the links of the draft and reports errors in them. `sources` contains the link of the file for
+/// each link of the draft.
 pub(super) fn add(
     reader: &mut Reader<'_>,
     draft: &mut Draft,
@@ -35,7 +35,7 @@ pub(super) fn add(
     options: &Options,
 ) {
     let mut carriers: Vec<Option<usize>> = vec![None; draft.links.len()];
-    // The bodies that move with each link: whether there is any mass or inertia.
+    // Whether a body with mass or inertia moves with each link.
     let mut moved = vec![false; draft.links.len()];
     for index in order {
         let (Some(link), Some(source)) = (draft.links.get(*index), sources.get(*index)) else {
@@ -67,13 +67,13 @@ pub(super) fn add(
             continue;
         };
         let missing = link.joint.kind.is_some() && !moved.get(*index).copied().unwrap_or(true);
-        if missing && !source.is_spoilt {
+        if missing && !source.has_errors {
             reader.report(massless(source, options));
         }
     }
 }
 
-/// A moving link with nothing to move.
+/// The error for a moving link that has no mass to move.
 fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
     let name = &link.name.named.name;
     let (place, label): (&Span, _) = match &link.inertial {
@@ -102,8 +102,8 @@ fn negative_mass(mass: f64) -> Diagnostic {
         .help("correct the value")
 }
 
-/// Reports what no body can be. `own` says that the body is of the moving link itself; `vertical`
-/// is its joint axis where nothing but the moment about it acts.
+/// Reports values that no body can have. `own` is whether the body belongs to the moving link itself rather than to a
+/// link fixed to it. `vertical` is the joint axis if only the moment of inertia about it has an effect.
 fn judge_body(
     reader: &mut Reader<'_>,
     inertial: &Inertial,
@@ -180,7 +180,7 @@ fn alone_acts(of_mass: &Span, moment: f64) -> Diagnostic {
         )
 }
 
-/// The joint axis of a link, in its frame, if the base carries it and it is along gravity.
+/// The joint axis of a link in the link's frame, if the joint is revolute, on the base, and parallel to gravity.
 fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector> {
     let link = draft.links.get(index)?;
     match link.joint.kind {
@@ -189,7 +189,8 @@ fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector> {
     }
     let mut rotation = rotation(&link.before);
     let mut below: &DraftLink = link;
-    // Fixed links between the base and the joint; a link's parents are fewer than the links.
+    // Follows the fixed links between the joint and the base. The loop is bounded, because a link has fewer ancestors
+    // than there are links.
     for _ in 0..draft.links.len() {
         let Parent::Link(parent) = below.parent else { break };
         below = draft.links.get(parent)?;
@@ -208,7 +209,7 @@ fn vertical_axis(draft: &Draft, index: usize) -> Option<Vector> {
     is_vertical.then_some(axis)
 }
 
-/// The moment about the axis where the tensor has no other.
+/// The moment of inertia about the axis, if all other entries of the tensor are 0.
 fn alone_about(inertial: &Inertial, axis: &Vector) -> Option<f64> {
     let [xx, yy, zz, xy, xz, yz] = inertial.tensor;
     let turn = rotation(&inertial.body.placement);
@@ -228,7 +229,7 @@ fn vector(formulas: &[Formula; 3]) -> Vector {
     formulas.each_ref().map(|formula| formula.evaluate(|_| f64::NAN))
 }
 
-/// The rotation of a placement without symbols.
+/// The rotation matrix of a placement without symbols.
 fn rotation(placement: &Placement) -> Matrix {
     let turn = |step: &Move| match step {
         Move::Translate(_) => IDENTITY,

@@ -1,7 +1,7 @@
-//! URDF, the description format of ROS, to a draft.
+//! Reads URDF, the description format of ROS, into a draft.
 //!
-//! Read are the links with their inertials and the joints; shapes, materials, controllers and the
-//! like say nothing of the motion. No other file is ever looked for.
+//! The links with their inertials and the joints are read; shapes, materials, controllers and the like do not affect
+//! the motion. No other file is ever opened.
 
 mod connect;
 mod element;
@@ -20,7 +20,7 @@ use robot_symbolic::{Formula, Rational};
 use roxmltree::Node;
 
 use super::draft::Draft;
-use super::limits::MAX_LINKS;
+use super::input_limits::MAX_LINKS;
 use super::options::Options;
 use super::placement::zero;
 use super::reader::{Named, Reader};
@@ -32,10 +32,10 @@ use element::{Element, JOINT, ROBOT};
 use joint::UrdfJoint;
 use link::UrdfLink;
 
-/// The acceleration of gravity in the base frame, which URDF does not have, in cm/s².
+/// The acceleration of gravity along z in the base frame, in cm/s². URDF does not specify it.
 const GRAVITY: i64 = -981;
 
-/// Lowers the text of a file; what is wrong with it, and the choices made, are reported.
+/// Lowers the text of a file and reports its errors and the choices that the reader made.
 pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowered> {
     let document = xml::parse(reader)?;
     let root = root(reader, document.root_element())?;
@@ -43,7 +43,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     let name = name.and_then(|attribute| name::identifier(reader, &attribute));
     let (links, joints) = parts(reader, &root)?;
     let connected = connect::connect(reader, &links, &joints, options.friction)?;
-    // A placeholder, so that the rest is checked all the same.
+    // A placeholder, so that the rest of the file is checked even if the name is not valid.
     let named = name.clone().unwrap_or(Named { name: String::new(), span: root.tag() });
     let down = Rational::new(GRAVITY, 100).unwrap_or(Rational::ZERO);
     let mut draft = Draft {
@@ -67,7 +67,7 @@ pub(super) fn lower(reader: &mut Reader<'_>, options: &Options) -> Option<Lowere
     Some(Lowered { draft, order, parameters, wanted: Wanted::default(), budgets: Vec::new() })
 }
 
-/// The root element, if it is that of URDF.
+/// The root element, if it is a `<robot>`.
 fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'a, 'i>> {
     let name = node.tag_name().name();
     let place = element::tag(node);
@@ -92,7 +92,7 @@ fn root<'a, 'i>(reader: &mut Reader<'_>, node: Node<'a, 'i>) -> Option<Element<'
     None
 }
 
-/// Links and joints; `None` if there are none, too many, or some without what others need.
+/// Reads links and joints. `None` if there are none or too many, or if a property that others depend on is invalid.
 fn parts<'a>(
     reader: &mut Reader<'_>,
     root: &Element<'a, '_>,

@@ -1,19 +1,19 @@
-//! Names of URDF, which may be any text, as names of robot files.
+//! Converts names of URDF, which may be any text, to names of robot files.
 
 use super::super::names::{Kind, reserved};
 use super::super::reader::{Named, Reader};
 use super::element::Attribute;
 use crate::diagnostic::{Diagnostic, code, is_invisible, quote};
 
-/// A name of the file, as it is written and as it is here.
+/// A name as it is written in the file, and as it is here.
 #[derive(Clone, Debug)]
 pub(super) struct Name<'a> {
     pub(super) written: &'a str,
     pub(super) named: Named,
 }
 
-/// The name of a link or joint: each character that names have not becomes `_`, and a first `-` or
-/// `.` is put behind one; `base` is the base itself, so that other links of the name get another.
+/// The name of a link or joint. Each character that names cannot have becomes `_`, and `_` is put before a leading `-`
+/// or `.`. The name `base` denotes the base itself, so a link with this name is renamed.
 pub(super) fn label<'a>(
     reader: &mut Reader<'_>,
     attribute: &Attribute<'a>,
@@ -27,7 +27,7 @@ pub(super) fn label<'a>(
         name.insert(0, '_');
     }
     if name == "base" {
-        // `base_link` and `base_joint` are names that files have beside it.
+        // `base_link` and `base_joint` often occur in the same file.
         name = "base_frame".to_owned();
     }
     let named = reader.check_name(&name, &attribute.span, what, Kind::Label)?;
@@ -35,14 +35,14 @@ pub(super) fn label<'a>(
 }
 
 impl Name<'_> {
-    /// Tells that the name has changed, if it has.
+    /// Reports a note if the name has changed.
     pub(super) fn tell(&self, reader: &mut Reader<'_>) {
         tell(reader, self.written, &self.named);
     }
 }
 
-/// The name of the robot, an identifier: as for links, `-` and `.` become `_`, too; what begins with
-/// a digit has `robot_` before it, and a word with a meaning of its own `_robot` behind it.
+/// The name of the robot, an identifier. `-` and `.` also become `_`. A name that begins with a digit or has only
+/// underscores gets the prefix `robot_`, and a reserved name the suffix `_robot`.
 pub(super) fn identifier(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<Named> {
     let mut name =
         plain(attribute.text, |character| character.is_ascii_alphanumeric() || character == '_');
@@ -69,7 +69,8 @@ fn tell(reader: &mut Reader<'_>, written: &str, named: &Named) {
     );
 }
 
-/// The text with `_` for what is not allowed; text that hides something is left to be refused.
+/// The text with `_` in place of characters that are not allowed. Text with invisible characters is returned unchanged,
+/// so that it will be refused.
 fn plain(text: &str, allowed: impl Fn(char) -> bool) -> String {
     let hides = |character: char| {
         (character.is_control() && !character.is_whitespace()) || is_invisible(character)

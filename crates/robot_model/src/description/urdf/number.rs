@@ -1,4 +1,4 @@
-//! Numbers in attributes: decimals between spaces, exact as they are written.
+//! Numbers in attributes: decimal numbers separated by spaces, read exactly.
 
 use robot_symbolic::{Formula, Rational};
 
@@ -7,7 +7,7 @@ use super::element::Attribute;
 use super::xml::template;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
-/// The numbers of an attribute: exactly `N`; `what` says of what, `example` how.
+/// Reads exactly `N` numbers from an attribute. For messages, `what` names the quantity and `example` is a valid value.
 pub(super) fn numbers<const N: usize>(
     reader: &mut Reader<'_>,
     attribute: &Attribute<'_>,
@@ -23,7 +23,8 @@ pub(super) fn numbers<const N: usize>(
             None => {
                 reader.report(wrong(word, place));
                 failed = true;
-                // One wrong number among the wanted is enough to know; the rest may be no numbers.
+                // With more than `N` numbers, one wrong word is enough to report: the attribute may not be a list of
+                // numbers at all.
                 if found.len() > N {
                     break;
                 }
@@ -47,7 +48,7 @@ pub(super) fn numbers<const N: usize>(
     None
 }
 
-/// [`numbers`] as formulas.
+/// Reads numbers like [`numbers`], as formulas.
 pub(super) fn formulas<const N: usize>(
     reader: &mut Reader<'_>,
     attribute: &Attribute<'_>,
@@ -61,7 +62,7 @@ pub(super) fn formulas<const N: usize>(
 /// The words of an attribute with their places in the file.
 pub(super) fn words<'t>(reader: &Reader<'t>, attribute: &Attribute<'t>) -> Vec<(&'t str, Span)> {
     let raw = reader.text.get(attribute.span.clone()).unwrap_or_default();
-    // Character references have no place of their own in the text.
+    // The places of words cannot be determined in text with character references.
     let followed = !raw.contains('&');
     let text = if followed { raw } else { attribute.text };
     let mut words = Vec::new();
@@ -90,7 +91,7 @@ fn number(word: &str) -> Option<Rational> {
     })
 }
 
-/// A word up to its exponent, if it has one.
+/// The part of a word before its exponent, if it has one.
 fn without_exponent(word: &str) -> &str {
     match word.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => {

@@ -10,18 +10,18 @@ use super::number::{formulas, words};
 use crate::diagnostic::Span;
 use crate::robot::Placement;
 
-/// A place with its spans.
+/// A placement with its places in the file.
 #[derive(Default)]
 pub(super) struct Origin {
     pub(super) placement: Placement,
-    /// The element.
+    /// The place of the element.
     pub(super) span: Option<Span>,
-    /// The coordinates.
+    /// The place of the coordinates.
     pub(super) xyz: Option<Span>,
 }
 
-/// The `<origin>` of an element; at the parent's origin, with its axes, if there is none. Angles
-/// are about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll).
+/// Reads the `<origin>` of an element; the identity if there is none. Angles are about fixed axes: R = Rz(yaw)
+/// Ry(pitch) Rx(roll).
 pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Origin> {
     let Some(element) = of.child(reader, "origin") else {
         return Some(Origin::default());

@@ -1,4 +1,4 @@
-//! The choices that reading a URDF file makes, as notes.
+//! Notes about the choices that the reader made for a URDF file.
 
 use super::super::draft::{Draft, DraftLink, Parent};
 use super::super::options::Options;
@@ -9,7 +9,7 @@ use super::unread;
 use crate::diagnostic::{Diagnostic, code};
 use crate::variable::JointVariable;
 
-/// Elements without effect on the motion, and their plural.
+/// Elements that do not affect the motion, in the singular and plural.
 const IGNORED: &[(&str, &str)] = &[
     ("visual", "visuals"),
     ("collision", "collisions"),
@@ -21,7 +21,7 @@ const IGNORED: &[(&str, &str)] = &[
     ("calibration", "calibrations"),
 ];
 
-/// Reports them.
+/// Reports the choices.
 pub(super) fn choices(
     reader: &mut Reader<'_>,
     root: &Element<'_, '_>,
@@ -45,7 +45,7 @@ pub(super) fn choices(
     unread::notes(reader, root, joints, options);
 }
 
-/// Reports that concern the file as a whole.
+/// Reports the choices that concern the whole file.
 fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: &[usize]) {
     let gravity = draft.gravity.each_ref().map(|entry| entry.text().to_owned()).join(", ");
     reader.report(
@@ -81,7 +81,7 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
         reader.report(
             Diagnostic::note(code::LEFT_OUT, format!("ignored: {}", counts.join(", ")))
                 .at(&root.tag(), "")
-                .because("they do not affect the motion; other files are not read"),
+                .because("they do not affect the motion; files that they name, such as meshes, are not read"),
         );
     }
 }

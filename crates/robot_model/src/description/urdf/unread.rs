@@ -1,6 +1,6 @@
-//! Content of a URDF file that the reader does not use, a line for each kind of thing.
+//! Content of a URDF file that the reader does not use, with one note for each kind of content.
 //!
-//! Content that affects the dynamics is also returned in words, so that every command can report it.
+//! Content that affects the dynamics is also described in words, so that every command can report it.
 
 use roxmltree::Node;
 
@@ -10,7 +10,7 @@ use super::element::{Element, tag};
 use super::joint::UrdfJoint;
 use crate::diagnostic::{Diagnostic, Span, code};
 
-/// Reports it as notes.
+/// Reports the unused content as notes.
 pub(super) fn notes(
     reader: &mut Reader<'_>,
     root: &Element<'_, '_>,
@@ -31,13 +31,13 @@ pub(super) fn notes(
     simulated(reader, &forces);
 }
 
-/// `12 joints`
+/// The count with its noun, such as `12 joints`.
 fn counted(count: usize, one: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {one}{plural}")
 }
 
-/// Limits of forces and rates.
+/// Reports limits of forces and velocities.
 fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     let mut kinds: Vec<(&str, Vec<&Span>)> = Vec::new();
     for unread in joints.iter().flat_map(|joint| &joint.unread) {
@@ -58,7 +58,7 @@ fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     }
 }
 
-/// Friction of joints.
+/// Reports friction of joints.
 fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     let mut found = joints.iter().filter_map(|joint| joint.dynamics.as_ref());
     let Some(first) = found.next() else { return };
@@ -76,7 +76,7 @@ fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     ));
 }
 
-/// Gears and motors.
+/// Reports gears and motors.
 fn drives(reader: &mut Reader<'_>, places: &[Span]) {
     let Some(first) = places.first() else { return };
     let count = counted(places.len(), "transmission");
@@ -90,7 +90,7 @@ fn drives(reader: &mut Reader<'_>, places: &[Span]) {
     reader.left_out.push(format!("the drives of {count}"));
 }
 
-/// Gazebo's settings of gravity, springs and damping.
+/// Reports Gazebo's settings of gravity, springs and damping.
 fn simulated(reader: &mut Reader<'_>, places: &[Span]) {
     let Some(first) = places.first() else { return };
     let count = counted(places.len(), "Gazebo element");
@@ -102,7 +102,7 @@ fn simulated(reader: &mut Reader<'_>, places: &[Span]) {
     reader.left_out.push(format!("gravity, springs or damping of {count}"));
 }
 
-/// Whether an element within is so.
+/// Whether the predicate holds for the name and text of any element within the node.
 fn any(node: Node<'_, '_>, is: fn(&str, &str) -> bool) -> bool {
     let mut within = node.descendants().filter(Node::is_element);
     within.any(|one| is(one.tag_name().name(), one.text().unwrap_or_default().trim()))

@@ -1,4 +1,4 @@
-//! XML text to a tree of elements, and errors of XML in the words of robot files.
+//! Parses XML text into a tree of elements and explains XML errors in terms of robot files.
 
 use roxmltree::{Document, Error, ParsingOptions, TextPos};
 
@@ -6,7 +6,7 @@ use super::super::reader::Reader;
 use super::guard;
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
-/// Parses the text; what is wrong with it is reported.
+/// Parses the text and reports syntax errors.
 pub(super) fn parse<'i>(reader: &mut Reader<'i>) -> Option<Document<'i>> {
     if let Some(diagnostic) = guard::check(reader.text) {
         reader.report(diagnostic);
@@ -72,12 +72,12 @@ fn words(text: &str, error: &Error) -> Diagnostic {
     }
 }
 
-/// The parser's words without the line and column that it gives, which the place shows.
+/// The message of the parser without the line and column, which the diagnostic shows.
 fn without_place(error: &Error) -> String {
     error.to_string().replace(&format!(" at {}", error.pos()), "")
 }
 
-/// The file is a template.
+/// The error for a file that is a template.
 pub(super) fn template(place: &Span) -> Diagnostic {
     Diagnostic::error(code::XACRO, "the file is a xacro template, not a robot")
         .at(place, "not expanded")
@@ -91,7 +91,7 @@ pub(super) fn template(place: &Span) -> Diagnostic {
         )
 }
 
-/// The byte of a line and column, both counted from 1, the column in characters.
+/// The byte at a line and column. Both are counted from 1, the column in characters.
 fn byte_of(text: &str, position: TextPos) -> Span {
     let line = usize::try_from(position.row).unwrap_or(1).saturating_sub(1);
     let start = match line {

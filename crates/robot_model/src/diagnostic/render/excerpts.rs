@@ -1,4 +1,4 @@
-//! Diagnostics with the lines of the file that they are about.
+//! Renders diagnostics with the lines of the file that they concern.
 
 use annotate_snippets::{AnnotationKind, Level, Renderer, Snippet};
 
@@ -6,7 +6,7 @@ use super::super::group::Group;
 use super::super::{Label, Severity, Source, Span, quote};
 use super::Style;
 
-/// Diagnostics of the same kind as one text, without a newline at the end.
+/// Renders diagnostics of the same kind as one text, without a trailing newline.
 pub(super) fn group(source: &Source, found: &Group<'_>, style: Style) -> String {
     let diagnostic = found.first;
     let (message, others) = (found.message(), found.others(source));
@@ -56,7 +56,7 @@ pub(super) fn group(source: &Source, found: &Group<'_>, style: Style) -> String 
 
 type Excerpt<'s> = (&'s str, usize, Vec<(AnnotationKind, Span, &'s str)>);
 
-/// The part of the source that the labels need: whole lines, so that columns are right.
+/// The part of the source that contains all labels. It consists of whole lines, so that the columns are right.
 fn excerpts<'s>(source: &'s Source, labels: &[(&'s Label, AnnotationKind)]) -> Vec<Excerpt<'s>> {
     let text = source.text.as_str();
     let labels: Vec<_> = labels
@@ -78,8 +78,7 @@ fn excerpts<'s>(source: &'s Source, labels: &[(&'s Label, AnnotationKind)]) -> V
     vec![(&text[start..end], line, moved.collect())]
 }
 
-/// The span within the text, at characters' boundaries, and not over the end of its first line by
-/// more than it needs.
+/// The span limited to the text, with both ends on character boundaries.
 fn clamp(text: &str, span: &Span) -> Span {
     let floor = |mut byte: usize| {
         byte = byte.min(text.len());

@@ -1,4 +1,4 @@
-//! Diagnostics as text for people.
+//! Renders diagnostics as text.
 
 #[cfg(feature = "excerpts")]
 mod excerpts;
@@ -13,7 +13,7 @@ use places::group;
 use super::group::{Group, groups};
 use super::{Diagnostic, Severity, Source, quote};
 
-/// More diagnostics than this are counted, not shown.
+/// The maximum number of diagnostics that are shown; further ones are only counted.
 const MAX_SHOWN: usize = 40;
 
 /// The style in which diagnostics are rendered.
@@ -21,18 +21,18 @@ const MAX_SHOWN: usize = 40;
 pub enum Style {
     /// Plain text.
     Plain,
-    /// With the colors of a terminal.
+    /// Text with the colors of a terminal.
     Terminal,
 }
 
-/// The text of one diagnostic, without a trailing newline.
+/// Renders one diagnostic, without a trailing newline.
 #[must_use]
 pub fn render(source: &Source, diagnostic: &Diagnostic, style: Style) -> String {
     render_group(source, &Group { first: diagnostic, others: vec![] }, style)
 }
 
-/// Diagnostics of the same kind as one text, without a newline at the end: with the lines that they are about, if the
-/// crate has the feature `excerpts`.
+/// Renders diagnostics of the same kind as one text, without a trailing newline. If the crate has the feature
+/// `excerpts`, the text contains the lines that they concern.
 #[must_use]
 pub fn render_group(source: &Source, found: &Group<'_>, style: Style) -> String {
     group(source, found, style)

@@ -1,10 +1,10 @@
-//! Diagnostics without the lines that they are about: names, lines and columns.
+//! Renders diagnostics without the lines that they concern: only with names, lines and columns.
 
 use super::super::group::Group;
 use super::super::{Label, Source, quote};
 use super::Style;
 
-/// Diagnostics of the same kind as one text, without a newline at the end; it has no colors in any style.
+/// Renders diagnostics of the same kind as one text, without a trailing newline and, in any style, without colors.
 pub(super) fn group(source: &Source, found: &Group<'_>, _: Style) -> String {
     let diagnostic = found.first;
     let name = quote(&source.name);

@@ -1,5 +1,5 @@
-//! The scheme as a PDF file, of ASCII characters alone: one page of its size, for LaTeX and other programs that take
-//! figures.
+//! The scheme as a PDF file with one page of the scheme's size, for LaTeX and other programs that include figures. The
+//! file contains only ASCII characters.
 
 mod writing;
 
@@ -12,21 +12,21 @@ use robot_model::robot::Robot;
 use super::figure;
 use writing::{FONTS, Run, runs};
 
-/// The width of a line of text on A4, pt; wider schemes are made smaller.
+/// The width of a line of text on A4 in pt; wider schemes are scaled down to it.
 const WIDTH: f64 = 455.0;
-/// The smallest type, pt.
+/// The smallest font size, in pt.
 const SMALLEST: f64 = 5.0;
-/// The margin around what is written, pt.
+/// The margin around labels, in pt.
 const MARGIN: f32 = 0.5;
 
-/// The scheme of a robot as a PDF file.
+/// Draws the scheme of a robot as a PDF file.
 #[must_use]
 pub fn scheme_pdf(robot: &Robot) -> String {
     let figure = figure(robot);
     let page = Page { low: figure.bounds[0], high: figure.bounds[1], scale: figure.scale(WIDTH) };
     let [title, catalog, pages, only, content] = [1, 2, 3, 4, 5].map(Ref::new);
     let mut pdf = Pdf::with_settings(Settings { pretty: false });
-    // No byte above ASCII: the file is text.
+    // The marker is ASCII too, so that the file is text.
     pdf.set_binary_marker(b"text");
     pdf.document_info(title).creator(TextStr(MARKER)).title(TextStr(&robot.name));
     pdf.catalog(catalog).pages(pages);
@@ -51,20 +51,20 @@ pub fn scheme_pdf(robot: &Robot) -> String {
         }
     }
     pdf.stream(content, &drawn(&figure, &page));
-    // Escapes are ASCII, and so is the marker.
+    // Escape sequences and the marker are ASCII, so the conversion loses nothing.
     String::from_utf8_lossy(&pdf.finish()).into_owned()
 }
 
-/// Where a drawing is on its page.
+/// The position of a drawing on its page.
 struct Page {
     low: Point,
     high: Point,
-    /// Points per unit.
+    /// The scale, in points per unit.
     scale: f64,
 }
 
 impl Page {
-    /// A point of the drawing on the page, where y points up.
+    /// Converts a point of the drawing to the page, where y points up.
     fn point(&self, [x, y]: Point) -> [f32; 2] {
         [number((x - self.low[0]) * self.scale), number((self.high[1] - y) * self.scale)]
     }
@@ -74,7 +74,7 @@ impl Page {
     }
 }
 
-/// A number with two decimals.
+/// Rounds a number to two decimals.
 fn number(value: f64) -> f32 {
     ((value * 100.0).round() / 100.0 + 0.0) as f32
 }
@@ -126,7 +126,7 @@ fn draw(content: &mut Content, path: &Path, page: &Page) {
     };
 }
 
-/// A label on white, its middle at its point.
+/// Writes a label on a white background, centered on its point.
 fn write(content: &mut Content, label: &Label, page: &Page) {
     let size = (label.size * page.scale).max(SMALLEST);
     let runs = runs(&label.words, label.is_bold);

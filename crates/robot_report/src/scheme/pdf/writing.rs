@@ -1,17 +1,17 @@
-//! Labels in the fonts that every PDF viewer has.
+//! Labels in the standard fonts, which every PDF viewer has.
 
 use robot_document::document::Inline;
 use robot_document::math::{Fence, Math};
 
 /// A font.
 pub(super) struct Font {
-    /// Its name within the file.
+    /// The name within the file.
     pub(super) key: &'static [u8],
-    /// Its name in the standard.
+    /// The name in the PDF standard.
     pub(super) name: &'static [u8],
     /// Whether it has Latin letters.
     pub(super) is_latin: bool,
-    /// The widths of the characters from the space to the tilde, in thousandths of its size.
+    /// The widths of the characters from the space to the tilde, in thousandths of the font size.
     widths: &'static [u16; 95],
 }
 
@@ -21,7 +21,7 @@ const UPRIGHT: usize = 2;
 const ITALIC: usize = 3;
 const GREEK: usize = 4;
 
-/// The standard fonts in use.
+/// The standard fonts that are used.
 pub(super) const FONTS: [Font; 5] = [
     Font { key: b"S", name: b"Helvetica", is_latin: true, widths: &HELVETICA },
     Font { key: b"B", name: b"Helvetica-Bold", is_latin: true, widths: &HELVETICA },
@@ -30,7 +30,7 @@ pub(super) const FONTS: [Font; 5] = [
     Font { key: b"G", name: b"Symbol", is_latin: false, widths: &TIMES },
 ];
 
-/// Of Helvetica; bold letters are wider by a twentieth at most.
+/// The widths of Helvetica. They are also used for the bold font, some of whose letters are wider.
 #[rustfmt::skip]
 const HELVETICA: [u16; 95] = [
     278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278,
@@ -41,7 +41,7 @@ const HELVETICA: [u16; 95] = [
     556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
 ];
 
-/// Of Times-Italic; the other fonts that have these differ by a tenth at most.
+/// The widths of Times-Italic. They are also used for Times-Roman and Symbol, whose widths differ somewhat.
 #[rustfmt::skip]
 const TIMES: [u16; 95] = [
     250, 333, 420, 500, 500, 833, 778, 214, 333, 333, 500, 675, 250, 333, 250, 278,
@@ -52,24 +52,24 @@ const TIMES: [u16; 95] = [
     500, 500, 389, 389, 278, 500, 444, 667, 444, 444, 389, 400, 275, 400, 541,
 ];
 
-/// Characters of one font, size and height.
+/// Characters with the same font, size and height.
 pub(super) struct Run {
     pub(super) font: usize,
     /// The codes of the characters.
     pub(super) text: Vec<u8>,
-    /// The height of its base line above that of the label, in sizes of type.
+    /// The height of the baseline above that of the label, in units of the label's font size.
     pub(super) rise: f64,
-    /// Its size, in sizes of type.
+    /// The font size, in units of the label's font size.
     pub(super) scale: f64,
 }
 
 impl Run {
-    /// The width in sizes of the label's type.
+    /// The width, in units of the label's font size.
     pub(super) fn width(&self) -> f64 {
         Run::width_of(self.font, &self.text) * self.scale
     }
 
-    /// The width of characters in sizes of their type.
+    /// The width of characters, in units of their font size.
     pub(super) fn width_of(font: usize, text: &[u8]) -> f64 {
         let widths = FONTS.get(font).map_or(&HELVETICA, |font| font.widths);
         let width = |code: &u8| {
@@ -80,7 +80,7 @@ impl Run {
     }
 }
 
-/// What is written, piece by piece.
+/// The runs of a label, from left to right.
 pub(super) fn runs(words: &Inline, is_bold: bool) -> Vec<Run> {
     let mut runs = vec![];
     match words {
@@ -93,7 +93,7 @@ pub(super) fn runs(words: &Inline, is_bold: bool) -> Vec<Run> {
     runs
 }
 
-/// The codes of letters; those that the fonts lack are question marks.
+/// The codes of characters; those that the fonts lack become question marks.
 fn latin(text: &str) -> Vec<u8> {
     let code = |character: char| {
         let code = u8::try_from(character).ok();
@@ -102,7 +102,7 @@ fn latin(text: &str) -> Vec<u8> {
     text.chars().map(code).collect()
 }
 
-/// The size of indices, and how far they are lowered and raised.
+/// The size of indices, and the distances by which they are lowered and raised, in units of the font size.
 const INDEX: f64 = 0.7;
 const LOWER: f64 = -0.18;
 const UPPER: f64 = 0.35;
@@ -159,7 +159,7 @@ fn formula(math: &Math, rise: f64, scale: f64, runs: &mut Vec<Run>) {
     }
 }
 
-/// The code of a Greek letter in the font that has them.
+/// The code of a Greek letter in the font Symbol.
 fn greek(letter: char) -> Option<u8> {
     const LETTERS: &str = "αβχδεφγηιϕκλμνοπθρστυϖωξψζ";
     const CAPITALS: &str = "ΑΒΧΔΕΦΓΗΙϑΚΛΜΝΟΠΘΡΣΤΥςΩΞΨΖ";

@@ -1,4 +1,4 @@
-//! Registers of 64-bit ARM: of 128 bits (Advanced SIMD, Neon), for targets that may use them.
+//! Registers of 64-bit ARM, of 128 bits (Advanced SIMD, Neon), for targets that have them.
 
 #![allow(unsafe_code)]
 

@@ -1,10 +1,10 @@
-//! Registers of any processor, by the names of its instructions.
+//! Defines register types for any processor from the names of its instructions.
 
-/// A register type; multiply-adds and sines round once if `ONCE`.
+/// Defines a register type, whose multiply-adds and sines round once if `ONCE`.
 ///
 /// SAFETY of every `unsafe` block below: the instructions need a processor that has them. The type is
-/// compiled only for such processors, or used only by code that has asked the processor. Loads and
-/// stores go through references to as many numbers as the register holds, at any alignment.
+/// compiled only for such processors, or used only by code that has queried the processor. Loads and
+/// stores use references to as many numbers as the register holds, with any alignment.
 macro_rules! register {
     (
         $(#[$attribute:meta])*
@@ -52,7 +52,7 @@ macro_rules! register {
                 Self::from_bits(unsafe { $xor(self.bits(), bits) })
             }
 
-            /// All bits of a lane unless its number is below the limit's.
+            /// Sets all bits of a lane unless its number is below the limit.
             #[inline(always)]
             fn not_below(self, limit: Self) -> $integer {
                 let (Self($a), Self($b)) = (self, limit);
@@ -127,7 +127,7 @@ macro_rules! register {
 
         impl<const ONCE: bool> Scalar for $name<ONCE> {
             const ZERO: Self = {
-                // SAFETY: both are as many numbers, and any bits are numbers.
+                // SAFETY: both types have the same number of numbers, and any bits are valid numbers.
                 unsafe { core::mem::transmute::<[$float; $lanes], Self>([0.0; $lanes]) }
             };
             const ONE: Self = {
@@ -159,7 +159,7 @@ macro_rules! register {
                 let magnitude = self.abs();
                 let sign = self.and(Self::splat_bits($bits::MIN));
                 let unit = sign.or(Self::ONE.bits());
-                // Zero, which has the sign 0, or NaN, which stays one.
+                // Lanes with zero, whose sign is 0, or with NaN, which stays NaN.
                 let neither = Self::ZERO.not_below(magnitude);
                 let kept = Self::from_bits(neither).xor(Self::splat_bits(-1));
                 unit.and(kept.bits()).or(magnitude.and(neither).bits())

@@ -1,4 +1,4 @@
-//! Registers of x86-64: of 128 bits everywhere, of 256 with AVX2, of 512 with AVX-512.
+//! Registers of x86-64: of 128 bits on all targets, of 256 bits with AVX2, of 512 bits with AVX-512.
 
 #![allow(unsafe_code)]
 
@@ -89,8 +89,8 @@ register!(
 
 macro_rules! of_one_state {
     ($name:ident: $float:ident in $register:ident of $lanes:literal, $($index:literal)*) => {
-        /// Sines and cosines of angles, with multiply-adds that round once if `ONCE`; AVX2. Without a loop for as
-        /// many as a robot has joints, 64; one angle after the other beyond.
+        /// Sines and cosines of angles with AVX2, with multiply-adds that round once if `ONCE`. Up to 64 angles, as
+        /// many as a robot can have joints, are computed without a loop, further ones one after the other.
         #[inline(always)]
         pub(in super::super) fn $name<const ONCE: bool, const N: usize>(
             angles: &[$float; N],

@@ -1,4 +1,4 @@
-//! Functions of whole arrays of angles, shaped so that LLVM vectorises them.
+//! Functions on arrays of angles, in a form that LLVM vectorizes.
 
 use super::super::scalar::Scalar;
 
@@ -11,7 +11,7 @@ const VECTORS: bool = cfg!(any(
     target_feature = "altivec",
 ));
 
-/// `function` of each angle, one after the other.
+/// Applies `function` to each angle, one after the other.
 #[inline(always)]
 pub(crate) fn one_by_one<T: Scalar, const N: usize>(
     angles: &[T; N],
@@ -24,7 +24,7 @@ pub(crate) fn one_by_one<T: Scalar, const N: usize>(
     (sines, cosines)
 }
 
-/// `function` of each angle, without a loop for the first 16.
+/// Applies `function` to each angle, without a loop for the first 16.
 #[inline(always)]
 pub(crate) fn unrolled<T: Scalar, const N: usize>(
     angles: &[T; N],
@@ -49,12 +49,12 @@ pub(crate) fn unrolled<T: Scalar, const N: usize>(
     (sines, cosines)
 }
 
-/// `function` of each angle, where vectors exist in blocks of `BLOCK` angles.
+/// Applies `function` to each angle, in blocks of `BLOCK` angles if the target has vectors.
 ///
-/// A loop of `BLOCK` must be too long to be unrolled before the vectoriser sees it. Up to `BLOCK`
-/// angles are filled up with zeros and computed in place. More, and angles on a target without
+/// `BLOCK` must be so large that a loop over it is not unrolled before the vectorizer. Up to `BLOCK`
+/// angles are filled up with zeros and computed inline. More angles, and angles on a target without
 /// vectors, are computed by calls of one function, so that the code neither loops nor repeats
-/// itself; the last block ends with the last angle and overlaps the one before.
+/// itself; the last block ends with the last angle and overlaps the block before it.
 #[inline(always)]
 pub(crate) fn in_blocks<const BLOCK: usize, T: Scalar, const N: usize>(
     angles: &[T; N],
@@ -101,7 +101,7 @@ fn block_out_of_line<T: Scalar, const BLOCK: usize>(
     (*sines, *cosines) = one_by_one(angles, function);
 }
 
-/// The elements that both have; unlike `copy_from_slice` it knows no panic.
+/// Copies the elements that both slices have; unlike `copy_from_slice` it cannot panic.
 #[inline(always)]
 pub(crate) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     for (to, from) in to.iter_mut().zip(from) {

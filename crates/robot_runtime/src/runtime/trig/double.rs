@@ -1,36 +1,36 @@
 //! Sine and cosine in double precision.
 //!
 //! Method: Cody & Waite, *Software Manual for the Elementary Functions* (1980), chapter 8. The
-//! angle x is brought to r = x − k·π/2 with k the integer nearest to 2x/π, |k| < 2³⁰, and π/2 held
-//! in parts. If multiply-adds are [`FUSED`] these are three of 53 bits: the first step is exact,
-//! the second rounds once. Elsewhere they are four: the first two have 23 bits, so that their
-//! products with k are exact; the third has 36, its product is exact for |k| < 2¹⁷ and off by less
-//! than 2⁻⁶⁹ beyond. What the last part gives is added to the sine alone, behind its polynomial,
-//! where it keeps the last places next to multiples of π/2. On |r| ≤ π/4 sine and cosine are
+//! angle x is reduced to r = x − k·π/2, where k is the integer nearest to 2x/π, |k| < 2³⁰, and π/2
+//! is a sum of parts. If multiply-adds are [`FUSED`], there are three parts of 53 bits: the first step is
+//! exact, the second rounds once. Otherwise there are four: the first two have 23 bits, so that their
+//! products with k are exact; the third has 36 bits, and its product is exact for |k| < 2¹⁷ and has an error
+//! of less than 2⁻⁶⁹ beyond. The term of the last part is added only to the sine, after its polynomial,
+//! where it keeps the last places accurate close to multiples of π/2. For |r| ≤ π/4, sine and cosine are
 //!
 //! ```text
 //! sin r = r + r³ S(r²)      relative error of the polynomial 3.8e-18
 //! cos r = 1 − r²/2 + r⁴ C(r²)      absolute error of the polynomial 4.8e-20
 //! ```
 //!
-//! with S and C of degree 5: the minimax polynomials under those two measures by Remez's exchange
-//! in 300-bit arithmetic, their coefficients rounded to double one by one from the lowest, the
-//! rest fitted anew after each. The two low bits of k select and sign the results by masks.
+//! with S and C of degree 5: the minimax polynomials for these two errors, computed by Remez's exchange
+//! in 300-bit arithmetic. Their coefficients were rounded to double one by one from the lowest, and the
+//! others were fitted again after each. The two low bits of k swap the results and set their signs by masks.
 //!
-//! Angles of |x| < 2³⁰ = 1 073 741 824 rad have a sine and a cosine, both within [−1, 1]; worst
-//! error: see the table of the crate. From there on, and for the infinities and NaN, both are NaN,
+//! Angles of |x| < 2³⁰ = 1 073 741 824 rad have a sine and a cosine, both within [−1, 1]; for the worst
+//! error see the table in the crate's documentation. For larger angles, infinities and NaN, both are NaN,
 //! by a mask of x's own bits. The sine of −0 is +0.
 
 use super::super::fused::FUSED;
 use super::super::number::Number;
 
-/// The limit of the absolute value of angles, rad.
+/// The limit below which the absolute value of angles must be, in rad.
 pub const LIMIT: f64 = 1073741824.0;
 
-/// 1.5 · 2⁵²: added to a smaller number it leaves the nearest integer in the low bits of the sum.
+/// 1.5 · 2⁵²: if it is added to a smaller number, the low bits of the sum are the nearest integer.
 pub const SHIFT: f64 = 6755399441055744.0;
 
-/// Parts of π/2; each is the remainder of the preceding ones.
+/// Parts of π/2; each is the rounded remainder after the parts before it.
 pub const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123233995736766e-17, -1.4973849048591698e-33];
 
@@ -65,13 +65,13 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 }
 
 /// Sine and cosine of `angle` (radians) with multiply-adds that round twice on every target: the bits
-/// of [`sin_cos`] if there is no [`FUSED`].
+/// of [`sin_cos`] without [`FUSED`].
 #[inline(always)]
 pub fn portable_sin_cos(angle: f64) -> (f64, f64) {
     compute::<false, _>(angle)
 }
 
-/// Sine and cosine of one angle or of several side by side, with multiply-adds that round once if
+/// Sine and cosine of one angle or of several in lanes, with multiply-adds that round once if
 /// `ONCE`.
 #[inline(always)]
 pub(in super::super) fn compute<const ONCE: bool, V: Number<f64>>(angle: V) -> (V, V) {
@@ -85,7 +85,7 @@ pub(in super::super) fn compute<const ONCE: bool, V: Number<f64>>(angle: V) -> (
     shifted.turned(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
 }
 
-/// `angle` less `k` right angles, as a number less a rest that counts if the number is tiny.
+/// `angle` minus `k` right angles, as a number minus a remainder that matters if the number is tiny.
 #[inline(always)]
 fn reduce<const ONCE: bool, V: Number<f64>>(angle: V, k: V) -> (V, V) {
     let less = |angle: V, part: f64| k.multiply_add::<ONCE>(V::splat(-part), angle);
@@ -97,7 +97,7 @@ fn reduce<const ONCE: bool, V: Number<f64>>(angle: V, k: V) -> (V, V) {
     (less(r, SHORT_HALF_PI[2]), k * V::splat(SHORT_HALF_PI[3]))
 }
 
-/// The coefficients' polynomial in Estrin's order, whose parts do not wait for each other.
+/// The polynomial with these coefficients in Estrin's order, whose parts do not wait for each other.
 #[inline(always)]
 fn polynomial<const ONCE: bool, V: Number<f64>>(c: &[f64; 6], z: V) -> V {
     let pair = |low: f64, high: f64| V::splat(high).multiply_add::<ONCE>(z, V::splat(low));

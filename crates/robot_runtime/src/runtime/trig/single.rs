@@ -1,24 +1,24 @@
-//! Sine and cosine in single precision, without a single double-precision operation.
+//! Sine and cosine in single precision, without any operation in double precision.
 //!
-//! The method is that of [`double`](super::double) with |k| < 2¹⁷: if multiply-adds are
-//! [`FUSED`], π/2 in three parts of 24 bits; elsewhere in four, the first three of at most 7 bits,
-//! exact in products with k. S and C are of degree 2 with polynomial errors 4.0e-9 (relative, sine)
-//! and 1.1e-10 (absolute, cosine).
+//! The method is that of [`double`](super::double) with |k| < 2¹⁷. If multiply-adds are
+//! [`FUSED`], π/2 has three parts of 24 bits; otherwise it has four, of which the first three have at most 7
+//! bits, so that their products with k are exact. S and C have degree 2 and polynomial errors of 4.0e-9
+//! (relative, sine) and 1.1e-10 (absolute, cosine).
 //!
-//! Angles of |x| < 2¹⁷ = 131 072 rad have a sine and a cosine, both within [−1, 1]; worst error: see
-//! the table of the crate. From there on, and for the infinities and NaN, both are NaN. Single
-//! precision holds an angle of 10⁵ rad to 0.004 rad, which no sine mends: count turns elsewhere.
+//! Angles of |x| < 2¹⁷ = 131 072 rad have a sine and a cosine, both within [−1, 1]; for the worst error see
+//! the table in the crate's documentation. For larger angles, infinities and NaN, both are NaN. In single
+//! precision, an angle of 10⁵ rad is only accurate to 0.004 rad, which no sine can repair: count turns elsewhere.
 
 use super::super::fused::FUSED;
 use super::super::number::Number;
 
-/// The limit of the absolute value of angles, rad.
+/// The limit below which the absolute value of angles must be, in rad.
 pub const LIMIT: f32 = 131072.0;
 
-/// 1.5 · 2²³: added to a smaller number it leaves the nearest integer in the low bits of the sum.
+/// 1.5 · 2²³: if it is added to a smaller number, the low bits of the sum are the nearest integer.
 pub const SHIFT: f32 = 12582912.0;
 
-/// Parts of π/2; each is the remainder of the preceding ones.
+/// Parts of π/2; each is the rounded remainder after the parts before it.
 pub const HALF_PI: [f32; 3] = [1.5707964, -4.371139e-8, -1.7151245e-15];
 
 /// π/2 in shorter parts, for multiply-adds that round twice.
@@ -36,7 +36,7 @@ pub fn sin_cos(angle: f32) -> (f32, f32) {
     compute::<FUSED, _>(angle)
 }
 
-/// Sine and cosine of one angle or of several side by side, with multiply-adds that round once if
+/// Sine and cosine of one angle or of several in lanes, with multiply-adds that round once if
 /// `ONCE`.
 #[inline(always)]
 pub(in super::super) fn compute<const ONCE: bool, V: Number<f32>>(angle: V) -> (V, V) {
@@ -50,7 +50,7 @@ pub(in super::super) fn compute<const ONCE: bool, V: Number<f32>>(angle: V) -> (
     shifted.turned(sine, z.multiply_add::<ONCE>(cosine, V::splat(1.0)))
 }
 
-/// `angle` less `k` right angles.
+/// `angle` minus `k` right angles.
 #[inline(always)]
 fn reduce<const ONCE: bool, V: Number<f32>>(angle: V, k: V) -> V {
     let less = |angle: V, part: f32| k.multiply_add::<ONCE>(V::splat(-part), angle);
@@ -61,7 +61,7 @@ fn reduce<const ONCE: bool, V: Number<f32>>(angle: V, k: V) -> V {
     less(less(r, SHORT_HALF_PI[2]), SHORT_HALF_PI[3])
 }
 
-/// The coefficients' polynomial in Horner's order.
+/// The polynomial with these coefficients in Horner's order.
 #[inline(always)]
 fn polynomial<const ONCE: bool, V: Number<f32>>(c: &[f32; 3], z: V) -> V {
     let high = V::splat(c[2]).multiply_add::<ONCE>(z, V::splat(c[1]));

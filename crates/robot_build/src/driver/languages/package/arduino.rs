@@ -1,4 +1,4 @@
-//! A library of Arduino: the header of C, and an example that is the test.
+//! An Arduino library: the C header, and an example that is also the test.
 
 use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::c::{self, Names};
@@ -8,7 +8,7 @@ use super::{Parts, description, file, of_sources};
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
-/// The files of the library.
+/// Makes the files of the library.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = c::tree(parts.module, parts.flat);
     let printer = Printer { parts, tree: &tree, names: Names::new(&tree.name), casadi: None };

@@ -10,7 +10,7 @@ use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
-/// The files of the package.
+/// Makes the files of the package.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = c::tree(parts.module, parts.flat);
     let casadi = c::casadi(parts.module, parts.flat);
@@ -27,7 +27,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     files
 }
 
-/// What the README says of the options of compilers.
+/// The paragraph of the README about compiler options.
 pub(super) fn options(parts: &Parts<'_>) -> String {
     let sines = match parts.options.trigonometry {
         Trigonometry::Polynomial => {
@@ -42,14 +42,14 @@ pub(super) fn options(parts: &Parts<'_>) -> String {
     )
 }
 
-/// Whether the check values are known to the bit: those of the interpreter in double precision.
+/// Whether the check values have the bits of the interpreter, which requires double precision.
 pub(super) fn has_bits(parts: &Parts<'_>) -> bool {
     parts.options.scalar == Scalar::F64
         && parts.options.trigonometry == Trigonometry::Polynomial
         && !parts.options.fused
 }
 
-/// A function that names the compiler's options under which bits differ, and counts them as failures.
+/// A function of the printed test that names the compiler options that change bits, and counts them as failures.
 pub(super) const FLAGS: &str = "/* Names the compiler options that change bits. */
 static void name_flags(void)
 {
@@ -71,12 +71,12 @@ static void name_flags(void)
 
 ";
 
-/// Calls of functions with the interface of C.
+/// Prints calls of functions through the C interface.
 pub(super) struct Printer<'a> {
     pub(super) parts: &'a Parts<'a>,
     pub(super) tree: &'a Tree<'a>,
     pub(super) names: Names,
-    /// In double precision.
+    /// The external functions for CasADi, in double precision only.
     pub(super) casadi: Option<&'a Casadi>,
 }
 
@@ -146,7 +146,7 @@ add_test(NAME {name} COMMAND {name}_test)
         )
     }
 
-    /// The statements that make `model` at the stated parameters, if there are parameters.
+    /// Prints the statements that make `model` from the stated parameters, if there are parameters.
     pub(super) fn model(&self) -> Vec<String> {
         if !self.tree.has_parameters() {
             return vec![];
@@ -176,7 +176,7 @@ add_test(NAME {name} COMMAND {name}_test)
         values.collect::<Vec<_>>().join(", ")
     }
 
-    /// The call of a function at its check state, with the declarations before it.
+    /// Prints the call of a function at its check state, with the declarations before it.
     pub(super) fn block(&self, check: &CheckValue) -> Option<Vec<String>> {
         let (function, real) = (self.function(&check.function)?, self.real());
         let mut lines = vec![];
@@ -223,7 +223,7 @@ add_test(NAME {name} COMMAND {name}_test)
         text
     }
 
-    /// The function that hides inputs.
+    /// Prints the function that hides inputs from the compiler.
     pub(super) fn hidden(&self) -> String {
         let real = self.real();
         format!(
@@ -242,7 +242,7 @@ static void hide({real} *numbers, int count)
         )
     }
 
-    /// The function that compares results with stated values.
+    /// Prints the function that compares results with stated values.
     pub(super) fn comparison(&self) -> String {
         let real = self.real();
         let mut text = format!(
@@ -273,7 +273,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
         text
     }
 
-    /// Whether the check values are known to the bit: those of the interpreter in double precision.
+    /// Whether the check values have the bits of the interpreter, which requires double precision.
     pub(super) fn has_bits(&self) -> bool {
         has_bits(self.parts)
     }
@@ -302,7 +302,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
         else {
             return String::new();
         };
-        // The call is the last line; the inputs stand first.
+        // The call is the last line; the inputs come first.
         let mut text = "    {\n".to_owned();
         let (declared, call) = lines.split_at(lines.len().saturating_sub(1));
         for line in declared {

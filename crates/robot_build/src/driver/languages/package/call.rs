@@ -1,11 +1,11 @@
-//! Calls at the check states, as text of scripting languages.
+//! Calls at the check states in scripting languages.
 
 use robot_codegen::backend::flat::{Function, Tree};
 
 use super::Parts;
 use crate::driver::check::CheckValue;
 
-/// The functions that have a check value, with it.
+/// Returns the functions that have check values, with these values.
 pub(super) fn checked<'t>(
     parts: &'t Parts<'_>,
     tree: &'t Tree<'_>,
@@ -16,14 +16,14 @@ pub(super) fn checked<'t>(
     })
 }
 
-/// `1.0, -0.5`
+/// Prints numbers such as `1.0, -0.5`.
 pub(super) fn numbers(values: &[f64], separator: &str) -> String {
     let values = values.iter().map(|value| format!("{value:?}"));
     values.collect::<Vec<_>>().join(separator)
 }
 
-/// The arguments of a call: the model if there are parameters, and the inputs of the check value, each an array in
-/// these brackets.
+/// Prints the arguments of a call: the model if there are parameters, and the inputs of the check value, each as an
+/// array in these brackets.
 pub(super) fn arguments(
     tree: &Tree<'_>,
     check: &CheckValue,

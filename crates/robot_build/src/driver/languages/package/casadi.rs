@@ -1,9 +1,9 @@
-//! What a package in C says of its external functions for CasADi.
+//! The parts of a C package that concern its external functions for CasADi.
 
 use robot_codegen::backend::c::Casadi;
 use robot_codegen::backend::flat::Tree;
 
-/// The target of the shared library.
+/// Prints the CMake target of the shared library.
 pub(super) fn cmake(name: &str) -> String {
     format!(
         "
@@ -15,7 +15,7 @@ set_target_properties({name}_casadi PROPERTIES C_STANDARD 99 C_EXTENSIONS OFF)
     )
 }
 
-/// A section of the README.
+/// Prints a section of the README.
 pub(super) fn usage(tree: &Tree<'_>, casadi: &Casadi) -> String {
     let name = &tree.name;
     let with = casadi.functions.iter().find(|(_, has_jacobian)| *has_jacobian);

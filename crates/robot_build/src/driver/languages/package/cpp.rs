@@ -12,7 +12,7 @@ use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
-/// The files of the package.
+/// Makes the files of the package.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = c::tree(parts.module, parts.flat);
     let mut files = vec![
@@ -53,7 +53,7 @@ add_test(NAME {name} COMMAND {name}_test)
     )
 }
 
-/// The statements that make `model`, if there are parameters.
+/// Prints the statements that make `model`, if there are parameters.
 fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> Vec<String> {
     if !tree.has_parameters() {
         return vec![];
@@ -75,7 +75,7 @@ fn inputs(parts: &Parts<'_>, check: &CheckValue) -> impl Iterator<Item = String>
     })
 }
 
-/// The arguments of the call at a check state.
+/// Prints the arguments of the call at a check state.
 fn arguments(parts: &Parts<'_>, tree: &Tree<'_>, check: &CheckValue) -> String {
     let model = tree.has_parameters().then(|| "model".to_owned());
     let inputs = inputs(parts, check).map(|entries| format!("{{{{{entries}}}}}"));
@@ -122,7 +122,7 @@ fn test(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     text
 }
 
-/// What the test has before `main`.
+/// Prints the part of the test before `main`.
 fn comparison(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     let (name, real) = (&tree.name, real(parts));
     let tolerance = if parts.options.scalar == Scalar::F64 { "1e-12" } else { "1e-4" };
@@ -189,7 +189,7 @@ static void check(const char *what, const std::vector<double> &found, const std:
     )
 }
 
-/// The check of one function.
+/// Prints the check of one function.
 fn test_of(
     parts: &Parts<'_>,
     tree: &Tree<'_>,

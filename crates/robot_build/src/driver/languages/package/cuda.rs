@@ -1,4 +1,4 @@
-//! A package in CUDA C++: the header, an example that is the test, and a file for CMake.
+//! A package in CUDA C++: the header, an example that is also the test, and a file for CMake.
 
 use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::c::{self, BATCH, Names};
@@ -10,7 +10,7 @@ use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
-/// The files of the package.
+/// Makes the files of the package.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = c::cuda_tree(parts.module, parts.flat);
     let printer = Printer { parts, tree: &tree, names: Names::new(&tree.name), casadi: None };
@@ -48,7 +48,7 @@ add_test(NAME {name} COMMAND {name}_example)
     )
 }
 
-/// The address of each array of a function in memory that holds one after the other, and the size of all.
+/// Returns the address of each array of a function in memory in which they follow each other, and the size of all.
 fn places<'f>(function: &'f Function<'_>) -> (Vec<(&'f Array, String)>, usize) {
     let mut size = 0;
     let arrays = function.inputs.iter().chain(&function.outputs).map(|array| {
@@ -59,7 +59,7 @@ fn places<'f>(function: &'f Function<'_>) -> (Vec<(&'f Array, String)>, usize) {
     (arrays.collect(), size)
 }
 
-/// The call of a function's kernel for one state in that memory.
+/// Prints the call of a function's kernel for one state in this memory.
 fn launch(printer: &Printer<'_>, function: &Function<'_>) -> String {
     let model = printer.tree.has_parameters().then(|| "model".to_owned());
     let size = ["1", "1"].map(str::to_owned);
@@ -170,7 +170,7 @@ static void finish(const char *what)
     text
 }
 
-/// The kernel that finds out whether the compiler fuses.
+/// A kernel that detects whether the compiler fuses products and sums.
 const FLAGS: &str = "/* (1 + e)^2 - 1 - 2 e is e^2 if a product and a sum are fused, else 0. */
 static __global__ void fused(double e, double *found)
 {
@@ -180,7 +180,7 @@ static __global__ void fused(double e, double *found)
 
 ";
 
-/// A function at its check state.
+/// Prints the check of a function at its check state.
 fn block(printer: &Printer<'_>, check: &CheckValue) -> String {
     let Some(function) = printer.function(&check.function) else { return String::new() };
     let (name, real) = (&function.name, printer.real());

@@ -1,4 +1,4 @@
-//! The description of a module in JSON: what a program needs in order to call it.
+//! The description of a module in JSON, from which a program can call it.
 
 use robot_codegen::Scalar;
 use robot_codegen::backend::flat::{Function, Tree};
@@ -8,18 +8,18 @@ use serde_json::{Map, Value, json};
 use super::Parts;
 use crate::driver::generate::{file_name, source_hash};
 
-/// `robot.json`
+/// Prints the description as `robot.json`.
 pub(super) fn json(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     text(&value(parts, tree))
 }
 
-/// A description as text.
+/// Prints a description.
 pub(super) fn text(value: &Value) -> String {
     let text = serde_json::to_string_pretty(value).unwrap_or_default();
     format!("{text}\n")
 }
 
-/// The description.
+/// Makes the description.
 pub(super) fn value(parts: &Parts<'_>, tree: &Tree<'_>) -> Value {
     let robot = &parts.programs.robot;
     let joints = robot.coordinates.iter().map(|coordinate| {

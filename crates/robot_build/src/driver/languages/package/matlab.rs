@@ -9,7 +9,7 @@ use super::{Parts, description, file, of_sources};
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
-/// The files of the package.
+/// Makes the files of the package.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = matlab::tree(parts.module, parts.flat);
     let mut files = vec![
@@ -24,7 +24,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     files
 }
 
-/// The statements that make `model`, if there are parameters.
+/// Prints the statements that make `model`, if there are parameters.
 fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     if !tree.has_parameters() {
         return String::new();

@@ -1,4 +1,4 @@
-//! Whole packages: the module, what builds it, a test and a README.
+//! Whole packages: the module, files to build it, a test and a README.
 
 mod arduino;
 mod c;
@@ -29,12 +29,12 @@ use crate::driver::programs::{Programs, programs};
 use crate::driver::readme::{Sections, paragraph, plain, section};
 use crate::error::Errors;
 
-/// The files of a package with a robot's functions in a language, in a fixed order: the sources, which can be built
-/// or loaded as they are, a README, a description in JSON and a test of the check values.
+/// Generates the files of a package with a robot's functions in a language, in a fixed order: the sources, which can be
+/// built or loaded without changes, a README, a description in JSON and a test of the check values.
 ///
 /// # Errors
 ///
-/// Everything that is wrong with the file or the options, and options that the language does not have.
+/// All errors in the file or the options, and options that the language does not have.
 pub fn package(
     source: &Source,
     options: &Options,
@@ -49,11 +49,11 @@ pub fn package(
     package_of(&programs, source, options, language)
 }
 
-/// [`package()`] for existing programs; budgets are not checked.
+/// Does the same as [`package()`] for existing programs; budgets are not checked.
 ///
 /// # Errors
 ///
-/// Options that the language does not have, and numbers beyond the range of single precision.
+/// Options that the language does not have, and numbers outside the range of single precision.
 pub fn package_of(
     programs: &Programs,
     source: &Source,
@@ -82,7 +82,7 @@ pub fn package_of(
     })
 }
 
-/// What the files of a package are made from.
+/// The data from which the files of a package are made.
 struct Parts<'a> {
     source: &'a Source,
     options: &'a Options,
@@ -93,18 +93,18 @@ struct Parts<'a> {
     checks: &'a [CheckValue],
 }
 
-/// A file of a package.
+/// Makes a text file of a package.
 fn file(path: &str, text: String) -> File {
     File::text(path, text)
 }
 
-/// The source files as files of the package.
+/// Converts source files to files of the package.
 fn of_sources(sources: Vec<SourceFile>) -> impl Iterator<Item = File> {
     sources.into_iter().map(|SourceFile { name, contents }| File { path: name, contents })
 }
 
 impl Parts<'_> {
-    /// The README: what the package is, how it is used, and the sections that all READMEs have.
+    /// Prints the README: what the package is, how it is used, and the sections that all READMEs share.
     fn readme(&self, tree: &Tree<'_>, what: &str, usage: &str, constructor: &str) -> String {
         let robot = &self.programs.robot;
         let from = plain(file_name(self.source));
@@ -134,14 +134,14 @@ impl Parts<'_> {
         text
     }
 
-    /// The fields of the parameters without nominal values, with the values that the check values are for.
+    /// The fields of the parameters without nominal values, with the values for which the check values were computed.
     fn given_parameters<'t>(&self, tree: &'t Tree<'_>) -> Vec<(&'t str, f64)> {
         let fields = tree.parameters.iter().map(String::as_str).zip(self.stated_parameters());
         let specs = self.module.parameters.iter().zip(fields);
         specs.filter(|(spec, _)| spec.nominal.is_none()).map(|(_, given)| given).collect()
     }
 
-    /// The value of each parameter that the check values are for.
+    /// The value of each parameter for which the check values were computed.
     fn stated_parameters(&self) -> Vec<f64> {
         let stated = self.checks.first().map_or(&[][..], |check| check.parameters.as_slice());
         let values = self.module.parameters.iter().map(|parameter| {

@@ -1,4 +1,4 @@
-//! A package in WebAssembly: the module, what loads it, its declarations, a test, and `package.json`.
+//! A package in WebAssembly: the module, an ES module that loads it, its declarations, a test, and `package.json`.
 
 use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::flat::{Function, Tree};
@@ -12,10 +12,10 @@ use crate::driver::check::CheckValue;
 use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 
-/// The states of the test of functions over columns: lanes of any type, and a rest.
+/// The number of states in the test of functions over columns: enough for lanes of any type, and a remainder.
 const STATES: usize = 7;
 
-/// The files of the package.
+/// Makes the files of the package.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     let tree = wasm::tree(parts.module, parts.flat);
     let mut files = vec![
@@ -28,7 +28,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
     files
 }
 
-/// The statement that makes `model`, if there are parameters.
+/// Prints the statement that makes `model`, if there are parameters.
 fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     if !tree.has_parameters() {
         return String::new();
@@ -38,12 +38,12 @@ fn model(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     format!("const model = robot.create_model({{ ...nominal(){} }});\n", given.join(""))
 }
 
-/// The names that are imported.
+/// The names that the test imports.
 fn imports(tree: &Tree<'_>) -> &'static str {
     if tree.has_parameters() { "load, nominal" } else { "load" }
 }
 
-/// The call of a function at its check state; over columns of so many equal states if that is given.
+/// Prints the call of a function at its check state, or over columns of `states` equal states.
 fn call(tree: &Tree<'_>, name: &str, check: &CheckValue, states: Option<usize>) -> String {
     let model = tree.has_parameters().then(|| "model".to_owned());
     let inputs = check.inputs.iter().map(|(_, values)| match states {
@@ -86,7 +86,7 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     parts.readme(tree, "WebAssembly", &usage, "create_model")
 }
 
-/// A call by addresses.
+/// Prints an example of a call by addresses, for the README.
 fn uncopied(tree: &Tree<'_>, function: &Function<'_>) -> String {
     let mut text = "```js\n".to_owned();
     let mut arguments = vec![];
@@ -107,7 +107,7 @@ fn uncopied(tree: &Tree<'_>, function: &Function<'_>) -> String {
     text + "```\n"
 }
 
-/// Whether the check values are known to the bit: those of the interpreter in double precision.
+/// Whether the check values have the bits of the interpreter, which requires double precision.
 fn has_bits(parts: &Parts<'_>) -> bool {
     parts.options.scalar == Scalar::F64
         && parts.options.trigonometry == Trigonometry::Polynomial

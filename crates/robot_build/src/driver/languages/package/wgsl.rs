@@ -1,4 +1,4 @@
-//! A package in WGSL: the module, and a test by the Python package `wgpu`.
+//! A package in WGSL: the module, and a test with the Python package `wgpu`.
 
 use robot_codegen::Interpreter;
 use robot_codegen::backend::SourceFile;
@@ -11,11 +11,11 @@ use crate::driver::file::File;
 use crate::driver::generate::unnamed_header;
 use crate::error::Errors;
 
-/// The files of the package.
+/// Makes the files of the package.
 ///
 /// # Errors
 ///
-/// Parameters that the interpreter does not take.
+/// Parameters that the interpreter does not accept.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Result<Vec<File>, Errors> {
     let tree = wgsl::tree(parts.module);
     let mut files = vec![
@@ -27,7 +27,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Result<Vec<F
     Ok(files)
 }
 
-/// The description, with the names of the kernels and the numbers of the model.
+/// Makes the description, with the names of the kernels and the numbers of the model.
 fn described(parts: &Parts<'_>, tree: &Tree<'_>) -> Result<Value, Errors> {
     let mut value = description::value(parts, tree);
     if let Some(Value::Array(functions)) = value.get_mut("functions") {
@@ -77,7 +77,7 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     parts.readme(tree, "WGSL: compute kernels in single precision", &usage, "create_model")
 }
 
-/// The test, which takes all names from `robot.json`.
+/// The test, which reads all names from `robot.json`.
 const TEST: &str = r#""""The check values of the README, on the first device that wgpu finds."""
 
 import json

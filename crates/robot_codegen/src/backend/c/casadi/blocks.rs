@@ -1,15 +1,15 @@
-//! Jacobians of functions from the functions of the module that compute them.
+//! Jacobians of functions, computed by other functions of the module.
 
 use super::super::Header;
 use super::external::{External, Port, call, given, model, taken};
 use crate::backend::flat::Function;
 
-/// The functions that give the blocks of a Jacobian, a block for each input: the name of the function, the names of the
-/// inputs that it takes from those of the differentiated one, the others being 0, and its outputs.
+/// The functions that compute the blocks of a Jacobian, one block for each input: the name of a function and the names
+/// of its outputs that are blocks. Inputs of this function that the differentiated one does not have are set to 0.
 type Blocks = &'static [(&'static str, &'static [&'static str])];
 
-/// The blocks of ∂f/∂x of a function by its name. The derivative of inverse dynamics by the accelerations is the mass
-/// matrix; bias and gravity are inverse dynamics where accelerations, and velocities, are 0.
+/// Returns the blocks of ∂f/∂x for the function with this name. The derivative of inverse dynamics with respect to
+/// accelerations is the mass matrix. `bias` is inverse dynamics with accelerations 0, `gravity` also with velocities 0.
 fn blocks(name: &str) -> Blocks {
     match name {
         "inverse_dynamics" => &[
@@ -25,7 +25,7 @@ fn blocks(name: &str) -> Blocks {
     }
 }
 
-/// `jac_f`, if the module has the functions that compute it.
+/// Makes the external function `jac_f`, if the module has the functions that compute it.
 pub(super) fn jacobian(
     header: &Header<'_>,
     function: &Function<'_>,
@@ -34,7 +34,7 @@ pub(super) fn jacobian(
     let [output] = of.outputs.as_slice() else { return None };
     let blocks = blocks(&function.source.name);
     let count: usize = blocks.iter().map(|(_, outputs)| outputs.len()).sum();
-    // A bundle may have the name.
+    // A bundle with other inputs can have the same name.
     if count == 0 || count != of.variables {
         return None;
     }

@@ -1,4 +1,4 @@
-//! One external function: what CasADi asks of it, and its body.
+//! An external function: the functions of C that CasADi requires for it, and its body.
 
 use super::super::Header;
 use super::ports;
@@ -10,7 +10,7 @@ pub(super) struct Port {
     pub(super) name: String,
     pub(super) rows: usize,
     pub(super) columns: usize,
-    /// Whether all entries are there; else none is.
+    /// Whether all entries are stored; otherwise none is, and the matrix is 0.
     is_dense: bool,
 }
 
@@ -27,8 +27,8 @@ impl Port {
         self.rows * self.columns
     }
 
-    /// CasADi's compressed columns: rows, columns, where each column begins, the rows of entries; a 1 in the third place
-    /// says that all are there.
+    /// CasADi's compressed column format: the numbers of rows and columns, the start of each column, and the rows of
+    /// the entries. A 1 in the third place stands for a dense matrix.
     fn sparsity(&self) -> String {
         let mut numbers = vec![self.rows, self.columns];
         match self.is_dense {
@@ -44,14 +44,14 @@ pub(super) struct External {
     pub(super) name: String,
     pub(super) inputs: Vec<Port>,
     pub(super) outputs: Vec<Port>,
-    /// The number of inputs by which it can be differentiated: the first ones.
+    /// The number of the first inputs with respect to which the function can be differentiated.
     pub(super) variables: usize,
-    /// The statements, which read `arg` and write to `res`.
+    /// The statements of the body, which read from `arg` and write to `res`.
     pub(super) body: Vec<String>,
 }
 
 impl External {
-    /// A function of the module.
+    /// Makes the external function for a function of the module.
     pub(super) fn of(header: &Header<'_>, function: &Function<'_>, name: &str) -> External {
         let (inputs, outputs) = ports(function, header.tree.parameters.len());
         let variables = function.inputs.len();
@@ -65,7 +65,7 @@ impl External {
         External { name: name.to_owned(), inputs, outputs, variables, body }
     }
 
-    /// All functions of C that CasADi looks up.
+    /// Prints all functions of C that CasADi looks up.
     pub(super) fn lines(&self) -> Vec<String> {
         let name = &self.name;
         let mut lines: Vec<String> = vec![
@@ -115,7 +115,7 @@ impl External {
         lines
     }
 
-    /// The names and the sparsity of inputs or of outputs.
+    /// Prints the functions that return the names and the sparsity of inputs or of outputs.
     fn described(&self, ports: &[Port], ending: &str) -> Vec<String> {
         let name = &self.name;
         let mut lines = vec![
@@ -144,20 +144,20 @@ impl External {
     }
 }
 
-/// `x0`, `x1` and so on: copies of the inputs.
+/// Prints the statements that copy the inputs to `x0`, `x1` and so on.
 pub(super) fn taken(inputs: &[Port]) -> Vec<String> {
     let inputs = inputs.iter().enumerate();
     let lines = inputs.flat_map(|(index, port)| {
         let size = port.size();
         [format!("double x{index}[{size}];"), format!("take_(x{index}, arg[{index}], {size});")]
     });
-    // Declarations first.
+    // Declarations come first.
     let (mut lines, calls): (Vec<_>, Vec<_>) = lines.partition(|line| line.starts_with("double"));
     lines.extend(calls);
     lines
 }
 
-/// `model` from the input behind the variables, if the module has parameters.
+/// Prints the statements that compute `model` from the input `input`, the parameters, if the module has any.
 pub(super) fn model(header: &Header<'_>, input: usize) -> Vec<String> {
     if !header.tree.has_parameters() {
         return vec![];
@@ -174,7 +174,7 @@ pub(super) fn model(header: &Header<'_>, input: usize) -> Vec<String> {
     lines
 }
 
-/// The call of a function with results in arrays of that name with their numbers behind.
+/// Prints the call of a function. Its results are in arrays with the name `results` followed by a number.
 pub(super) fn call(
     header: &Header<'_>,
     function: &Function<'_>,
@@ -192,12 +192,12 @@ pub(super) fn call(
     lines
 }
 
-/// An output from an array that lies row by row.
+/// Prints the statement that copies an output from an array in row-major order.
 pub(super) fn given(index: usize, from: &str, port: &Port) -> String {
     format!("give_(res[{index}], {from}, {}, {});", port.rows, port.columns)
 }
 
-/// The nominal parameters.
+/// Makes the external function without inputs that returns the nominal parameters.
 pub(super) fn nominal(header: &Header<'_>, name: &str) -> External {
     let fields = &header.tree.parameters;
     let port = Port::dense("parameters".to_owned(), fields.len(), 1);

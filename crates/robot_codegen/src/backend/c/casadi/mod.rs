@@ -1,5 +1,5 @@
-//! External functions of CasADi: a source file beside the header that gives each function CasADi's interface of C, with the
-//! Jacobian where the module computes it exactly.
+//! External functions of CasADi: a source file next to the header that provides each function with CasADi's C
+//! interface, and its Jacobian if the module has functions that compute it.
 
 use super::{Dialect, Header, comment, tree};
 use crate::backend::SourceFile;
@@ -12,10 +12,10 @@ mod external;
 
 use self::external::{External, Port};
 
-/// Names that CasADi refuses for functions.
+/// Names that CasADi does not accept for functions.
 const RESERVED: &[&str] = &["null", "jac", "hess"];
 
-/// The endings of the further functions that CasADi looks up beside each.
+/// The name endings of the additional functions that CasADi looks up for each function.
 const ENDINGS: &[&str] = &[
     "n_in",
     "n_out",
@@ -44,16 +44,17 @@ const ENDINGS: &[&str] = &[
 pub struct Casadi {
     /// The source file.
     pub file: SourceFile,
-    /// For each function of the module, the name that `external` takes, and whether CasADi finds its Jacobian.
+    /// For each function of the module, its name for `casadi.external`, and whether CasADi finds its Jacobian.
     pub functions: Vec<(String, bool)>,
-    /// The function without inputs that gives the nominal parameters, if all have nominal values.
+    /// The name of the function without inputs that returns the nominal parameters, if all have nominal values.
     pub nominal: Option<String>,
 }
 
-/// The external functions of a module in double precision, which is CasADi's; nothing in single.
+/// Prints the external functions of a module in double precision, which CasADi uses; returns `None` in single
+/// precision.
 ///
-/// All arrays are dense columns, matrices column by column. Parameters of the module are a further input, `parameters`, in
-/// their order. With respect to them CasADi takes the functions as constant.
+/// All arrays are dense columns, and matrices are stored column by column. The parameters of the module are an
+/// additional input, `parameters`, in their order. CasADi treats the functions as constant with respect to it.
 #[must_use]
 pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
     if options.scalar != Scalar::F64 {
@@ -63,7 +64,7 @@ pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
     let header = Header::new(&tree, options, Dialect::C);
     let mut namer = Namer::new(RESERVED, &[]);
     let mut symbol = |name: &str| {
-        // `gravity_work` is what CasADi looks up beside `gravity`.
+        // For a function `gravity`, CasADi also looks up `gravity_work`.
         let is_ending = |ending: &&str| name.ends_with(&format!("_{ending}"));
         let ending = if ENDINGS.iter().any(is_ending) { "_f" } else { "" };
         namer.name(&format!("casadi_{}_{name}{ending}", tree.name))
@@ -148,7 +149,7 @@ static void give_(casadi_real *to, const double *from, int rows, int columns)
     lines
 }
 
-/// The names of inputs and outputs, which are CasADi's keywords: each once.
+/// Makes the ports of a function's inputs and outputs. Their names are unique, because CasADi uses them as keywords.
 fn ports(function: &Function<'_>, parameters: usize) -> (Vec<Port>, Vec<Port>) {
     let source = function.source;
     let mut namer = Namer::new(RESERVED, &[]);

@@ -6,16 +6,16 @@ use crate::program::{DoubleDouble, Operation, Program, Source, Value};
 
 /// The number of points that have the same values of parameters.
 const POINTS_PER_SET: usize = 2;
-/// Sets of values of parameters.
+/// The number of sets of values of the parameters.
 const SETS: usize = 3;
-/// All points.
+/// The number of all points.
 const POINTS: usize = SETS * POINTS_PER_SET;
 
 /// The unit of rounding of `f64`.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
-/// The largest rounding of an evaluation, relative to the terms it adds up, for agreement to within that
-/// rounding to be evidence: beyond it, as after dozens of joints, everything would agree.
+/// The largest rounding error of an evaluation, relative to the terms that it adds, for which agreement to within that
+/// error is evidence. Beyond it, for example after dozens of joints, all values would agree.
 const TRUST: f64 = 1e-9;
 
 /// The points at which values are compared, and others at which the result is checked.
@@ -33,7 +33,7 @@ impl Samples {
         }
     }
 
-    /// Samples for angles that nothing relates.
+    /// Samples for unrelated angles.
     #[cfg(test)]
     pub(super) fn unrelated() -> Samples {
         let [compared, checked] =
@@ -41,7 +41,7 @@ impl Samples {
         Samples { compared, checked }
     }
 
-    /// Samples that lie: at the points that are compared all of `count` angles are one.
+    /// Misleading samples: at the points of comparison, all `count` angles are equal.
     #[cfg(test)]
     pub(super) fn of_equal_angles(count: usize) -> Samples {
         let Samples { compared, checked } = Samples::unrelated();
@@ -54,8 +54,8 @@ impl Samples {
         self.compared.of(program)
     }
 
-    /// Whether two programs have the same results at points that were not compared, as far as there are
-    /// results: the root of a number below 0 is not.
+    /// Whether two programs have the same results at points that were not used for the comparison, as far as the
+    /// results exist: the root of a negative number does not.
     pub(super) fn agree(&self, before: &Program, after: &Program) -> bool {
         let results = |program: &Program| -> Vec<Sample> {
             let samples = self.checked.of(program);
@@ -77,15 +77,15 @@ impl Samples {
 /// The purpose of points.
 #[derive(Clone, Copy, PartialEq)]
 enum Use {
-    /// To find values that agree. The values of functions are unrelated numbers here: see the first
-    /// lines of `resubstitution`.
+    /// To find values that agree. The values of functions are then unrelated numbers; see the module documentation of
+    /// `resubstitution`.
     Compare,
-    /// To check what was made of them.
+    /// To check the replacements.
     Check,
 }
 
-/// The values that loads read at the points: parameters and inputs of either sign and sizes near 1, and the
-/// sines and cosines of a function's angles, which may depend on each other.
+/// The values that loads read at the points: parameters and inputs of either sign and of a size near 1, and the
+/// sines and cosines of a function's angles, which can depend on each other.
 struct Points {
     used: Use,
     angles: Option<Vec<[DoubleDouble; POINTS]>>,
@@ -99,7 +99,7 @@ impl Points {
         Points { used, angles: Some(angles) }
     }
 
-    /// The samples of all values of a program.
+    /// Computes the samples of all values of a program.
     fn of(&self, program: &Program) -> Vec<Sample> {
         let mut samples: Vec<Sample> = Vec::with_capacity(program.operations().len());
         for (value, operation) in program.values() {
@@ -147,7 +147,7 @@ impl Points {
     }
 }
 
-/// Numbers between 1/2 and 2 of either sign (SplitMix64, Steele, Lea, Flood 2014).
+/// Returns numbers of either sign with sizes between 1/2 and 2 (SplitMix64; Steele, Lea, Flood 2014).
 fn unrelated_numbers(kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble; POINTS] {
     std::array::from_fn(|point| {
         let point = if same_in_set { point / POINTS_PER_SET } else { point };
@@ -161,7 +161,7 @@ fn unrelated_numbers(kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble;
     })
 }
 
-/// A value at the points, with bounds of what rounding does to its evaluation in `f64`.
+/// A value at the points, with bounds on the rounding error of its evaluation in `f64`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
     values: [DoubleDouble; POINTS],
@@ -189,7 +189,7 @@ impl Sample {
         sum.trusted_as_sum_of(self, other)
     }
 
-    /// The difference, or the sum if the sign of the other is changed.
+    /// Returns the difference of two samples, or their sum if `negative` is set.
     pub(super) fn minus(&self, other: &Sample, negative: bool) -> Sample {
         let sign = if negative { -1.0 } else { 1.0 };
         let difference = Sample::new(
@@ -234,7 +234,7 @@ impl Sample {
         quotient.trusted_as_product_of(self, other, true)
     }
 
-    /// Whether the value at a point is all rounding.
+    /// Whether the value at a point is not larger than its rounding error.
     fn vanishes_at(&self, point: usize) -> bool {
         self.value(point).abs() <= self.errors[point]
     }
@@ -244,13 +244,13 @@ impl Sample {
         self.values[point].to_f64()
     }
 
-    /// The largest rounding at any point.
+    /// The largest bound on the rounding error at any point.
     pub(super) fn rounding(&self) -> f64 {
         self.errors.iter().copied().fold(0.0, f64::max)
     }
 
-    /// Whether agreement with the value is evidence, and the value finite and, up to rounding, not 0 at
-    /// every point.
+    /// Whether agreement with the value is evidence, and the value is finite and, up to rounding, different from 0
+    /// at every point.
     pub(super) fn is_regular(&self) -> bool {
         self.is_trusted
             && (0..POINTS).all(|point| {
@@ -268,7 +268,8 @@ impl Sample {
             })
     }
 
-    /// The constant that the value is: where its evaluation rounds least; 0 where rounding is all.
+    /// The value at the point where its evaluation rounds least, or 0 if it is not larger than its rounding error
+    /// there.
     pub(super) fn mean(&self) -> f64 {
         let errors = self.errors.iter().copied().enumerate();
         let least = errors.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(point, _)| point);
@@ -276,8 +277,8 @@ impl Sample {
         if self.vanishes_at(least) { 0.0 } else { value }
     }
 
-    /// Whether the value is another's (`Some(false)`) or its negative (`Some(true)`), to within the
-    /// rounding of this value's evaluation.
+    /// Returns `Some(false)` if the value equals another and `Some(true)` if it equals its negative, to within the
+    /// rounding error of this value's evaluation.
     pub(super) fn equals(&self, other: &Sample) -> Option<bool> {
         let agree = |sign: f64| {
             (0..POINTS).all(|point| {
@@ -288,12 +289,12 @@ impl Sample {
         if agree(1.0) { Some(false) } else { agree(-1.0).then_some(true) }
     }
 
-    /// This value divided by another, or `None` if the quotient varies within a set of parameters.
+    /// Returns this value divided by another, or `None` if the quotient varies within a set of parameters.
     pub(super) fn ratio(&self, other: &Sample) -> Option<Sample> {
         let ratio = self.over(other);
         let first = |point: usize| point / POINTS_PER_SET * POINTS_PER_SET;
         let steady = (0..POINTS).all(|point| {
-            // Within the rounding of this value, as the multiple would have it.
+            // The multiple must agree with this value to within the value's rounding error.
             let expected = ratio.values[first(point)] * other.values[point];
             (self.values[point] - expected).to_f64().abs() <= self.errors[point]
         });
@@ -301,7 +302,8 @@ impl Sample {
         steady.then_some(Sample { errors, ..ratio })
     }
 
-    /// The largest error of a factor of another value before this value leaves its own rounding.
+    /// The largest errors of a factor for which its product with another value stays within this value's rounding
+    /// error.
     fn relative_errors(&self, other: &Sample) -> [f64; POINTS] {
         std::array::from_fn(|point| self.errors[point] / other.value(point).abs())
     }

@@ -1,7 +1,7 @@
 use super::*;
 use crate::program::Builder;
 
-/// 10⁶ x (1 + 10⁻¹² p) by 10⁶ x: no constant, for rounding is far below 10⁻¹² of either.
+/// 10⁶ x (1 + 10⁻¹² p) divided by 10⁶ x is not a constant, because the rounding errors of both are far below 10⁻¹².
 #[test]
 fn the_ratio_of_large_values_is_as_exact_as_that_of_small_ones() {
     let is_constant = |difference: f64| {
@@ -65,7 +65,7 @@ fn no_two_loads_read_the_same_numbers() {
         let step = if shared { POINTS_PER_SET } else { 1 };
         numbers.extend(read.iter().step_by(step));
     }
-    // Of functions too; they are compared as unrelated numbers.
+    // The numbers of functions too, because functions are compared as unrelated numbers.
     for index in 0..200 {
         numbers.extend(samples.compared.numbers(3, index, false).map(|x| x.to_f64().to_bits()));
     }
@@ -79,7 +79,7 @@ fn sample(values: [f64; POINTS], errors: [f64; POINTS]) -> Sample {
     Sample { values: values.map(Into::into), errors, is_trusted: true }
 }
 
-/// To first order: what the operands bring, and half a unit in the last place of the result.
+/// To first order, the error is that of the operands plus half a unit in the last place of the result.
 #[test]
 fn rounding_grows_as_the_operations_say() {
     let (x, y) = ([0.5, -0.75, 1.25, 2.0, -3.0, 0.625], [1.5, 0.25, -0.5, 4.0, -1.0, 0.125]);
@@ -122,17 +122,17 @@ fn trust_is_inherited_and_lost_where_little_is_left_of_much_rounding() {
             assert_eq!(found.is_trusted, trusted);
         }
     }
-    // 4e-10 is a part in a billion of 0.4.
+    // 4e-10 is a billionth of 0.4.
     for (size, trusted) in [(0.41, true), (0.39, false)] {
         let (small, other) = (sample([size; POINTS], rough), sample([-0.1; POINTS], fine));
         assert_eq!(small.plus(&other).is_trusted, trusted, "{size}");
         assert_eq!(other.plus(&small).is_trusted, trusted, "{size}");
-        // At one point it is enough.
+        // One such point is enough.
         let mut sizes = [2.0; POINTS];
         sizes[4] = size;
         assert_eq!(sample(sizes, rough).minus(&other, true).is_trusted, trusted, "{size}");
     }
-    // What is all rounding on both sides is 0, and not in doubt.
+    // A sum of two values that are both within their rounding errors is 0 and is trusted.
     let nothing = sample([1e-10; POINTS], rough);
     assert!(nothing.plus(&nothing).is_trusted && nothing.vanishes_at(0));
     assert!(!nothing.plus(&sample([0.3; POINTS], rough)).is_trusted);
@@ -197,8 +197,8 @@ fn what_is_regular_and_what_is_constant() {
     assert_eq!(sample([1e-9; POINTS], [1e-8; POINTS]).mean(), 0.0);
 }
 
-/// Results may differ by a part in a billion of themselves, or, far below the largest result, by a part
-/// in a billion of a billionth of that.
+/// Results may differ by a billionth of themselves or, if they are far below the largest result, by a billionth of a
+/// billionth of that result.
 #[test]
 fn results_agree_to_a_part_in_a_billion() {
     let program = |factors: [f64; 2]| {
@@ -217,13 +217,13 @@ fn results_agree_to_a_part_in_a_billion() {
         assert!(agree([3.0 * sign, 7.0], [3.0 * sign + 2.7e-9, 7.0 - 6.3e-9]));
         assert!(!agree([3.0 * sign, 7.0], [3.0 * sign, 7.0 - 7.7e-9]));
         assert!(!agree([3.0 * sign, 7.0], [3.0 * sign - 3.3e-9, 7.0]));
-        // Beside 10⁶, 10⁻¹² of 10⁻³ is nothing.
+        // Relative to 10⁶, 10⁻¹² is negligible.
         assert!(agree([1e6, 1e-10 * sign], [1e6, 1e-10 * sign + 0.9e-12]));
         assert!(!agree([1e6, 1e-10 * sign], [1e6, 1e-10 * sign + 1.1e-12]));
     }
 }
 
-/// Functions are themselves where results are checked, and unrelated numbers where values are compared.
+/// Functions have their own values if results are checked, and are unrelated numbers if values are compared.
 #[test]
 fn functions_are_checked() {
     let program = |function: Function| {

@@ -5,7 +5,7 @@ use crate::economical::plan::{Entry, LinkPlan, Origin, Turn};
 /// A change of a link's options.
 pub(super) type Change = Box<dyn Fn(&mut LinkPlan)>;
 
-/// Changes of working frames and of what stays with a link.
+/// Changes of working frames and of residuals.
 pub(super) fn frame_changes(current: &LinkPlan) -> Vec<Change> {
     let mut changes: Vec<Change> = vec![];
     let origins = [

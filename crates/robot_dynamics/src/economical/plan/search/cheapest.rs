@@ -1,4 +1,4 @@
-//! The cheapest plans that a search met, for callers that judge them by more than a count.
+//! The cheapest plans that a search encountered, for callers that compare them by more than an operation count.
 
 use robot_model::robot::Robot;
 use robot_symbolic::Operations;
@@ -7,14 +7,15 @@ use super::{Found, Measure, search_with};
 use crate::economical::plan::Plan;
 use crate::mechanism::MechanismOptions;
 
-/// Plans with the same operations of each kind that are kept: most of these are one program.
+/// The number of plans with the same count of operations of each kind that are kept; most such plans give the same
+/// program.
 const ALIKE: usize = 2;
 
-/// So many of the cheapest plans, each once.
+/// A limited number of the cheapest plans, without repetitions.
 #[derive(Debug)]
 pub(super) struct Cheapest {
     most: usize,
-    /// By cost; of equal cost in the order in which they were met.
+    /// The plans in the order of their cost; plans of equal cost are in the order in which they were encountered.
     plans: Vec<(usize, Operations, Plan)>,
 }
 
@@ -42,8 +43,8 @@ impl Cheapest {
     }
 }
 
-/// [`search`](super::search()), and the cheapest plans that it met: at most so many, the best first, each with the right
-/// torques. The same in every run.
+/// Searches like [`search`](super::search()) and returns at most `most` of the cheapest plans that were encountered,
+/// the best first. All of them give the right torques. The result is the same in every run.
 #[must_use]
 pub fn search_several(
     robot: &Robot,
@@ -79,7 +80,7 @@ mod tests {
             let count = Operations { additions: cost, ..Operations::default() };
             cheapest.offer(cost, &count, &plan(links));
         }
-        // The third of three additions is one too many of its kind.
+        // Only two plans with the same operations of each kind are kept.
         let kept: Vec<Plan> = cheapest.into_plans().collect();
         assert_eq!(kept, [plan(2), plan(6), plan(4)]);
     }

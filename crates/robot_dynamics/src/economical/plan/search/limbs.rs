@@ -1,9 +1,9 @@
-//! The search of trees and long chains, limb by limb.
+//! The search for plans of trees and long chains, limb by limb.
 //!
-//! A limb is a chain of links between branchings. The options of a link act on the operations of its neighbors and
-//! hardly beyond, so that a limb, or a window of a long one, is searched as a robot of its own: with a few links
-//! around it, whose options are held. What that finds is taken if the whole robot then needs fewer operations and
-//! has the same torques.
+//! A limb is a chain of links between branchings. The options of a link affect the operations of its neighbors but
+//! hardly those of links farther away. A limb, or a window of a long limb, is therefore searched like a separate robot,
+//! together with a few adjacent links whose options are held fixed. The result is accepted if the whole robot then
+//! needs fewer operations and has the same torques.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -18,41 +18,45 @@ use crate::economical::plan::{LinkPlan, Plan};
 use crate::mechanism::{BaseMotion, Mechanism, MechanismLink, MechanismOptions};
 use crate::newton_euler;
 
-/// The longest chain that is searched as a whole.
+/// The maximum length of a chain that is searched as a whole.
 const LONGEST: usize = 10;
-/// The links of a window of a longer limb. Windows of each second round lie between those of the first.
+/// The number of links in a window of a longer limb. In every second round, the windows are shifted by half their
+/// length.
 const WINDOW: usize = 5;
-/// The links inward of a window that are held.
+/// The number of links inward of a window whose options are held fixed.
 const INWARD: usize = 1;
-/// The links next to the base whose motions lack components. Beyond them a window starts from any motion.
+/// The number of links near the base whose motions lack components. Beyond them, a window starts from an arbitrary
+/// motion.
 const NEAR: usize = 3;
-/// The most rounds over all limbs, improved or not.
+/// The maximum number of rounds over all limbs.
 const MAX_ROUNDS: usize = 6;
-/// The number of plans of one limb or window after which no new descent begins.
+/// The number of plans for one limb or window after which no new descent is started.
 const MAX_TRIES: usize = 1000;
-/// Operations, summed over the candidates of all limbs, after which the search ends with the best plan so far.
+/// The number of operations, summed over the candidates of all limbs, after which the search ends with the best plan so
+/// far.
 pub(super) const MAX_WORK: usize = 5_000_000;
 
-/// Operations for sweeps over the whole robot at the end, if they are enough for one.
+/// The number of operations that are allowed for final sweeps over the whole robot; they are omitted if it is not
+/// enough for one.
 const POLISHING: usize = 2_000_000;
 
-/// Whether the robot is searched limb by limb: if it branches, or is a long chain.
+/// Whether the robot is searched limb by limb: if it has branches or is a long chain.
 pub(super) fn applies(mechanism: &Mechanism<'_>) -> bool {
     let bases = mechanism.links.iter().filter(|link| link.parent.is_none()).count();
     let branches = (0..mechanism.links.len()).any(|link| mechanism.children(link).count() > 1);
     bases > 1 || branches || mechanism.links.len() > LONGEST
 }
 
-/// Links that are searched together.
+/// Links that are searched together, with the adjacent links.
 #[derive(Clone, Debug)]
 struct Part {
-    /// The links to search and the links around them, whose options are held; parents before children.
+    /// The links to search and the adjacent links, whose options are held fixed; parents before children.
     links: Vec<usize>,
     /// The indices in `links` of the links to search.
     searched: Vec<usize>,
 }
 
-/// The robot that is searched, in whatever graph.
+/// The robot that is searched. It does not depend on a graph.
 #[derive(Clone, Copy)]
 pub(super) struct Limbs<'r> {
     pub(super) robot: &'r Robot,
@@ -61,14 +65,16 @@ pub(super) struct Limbs<'r> {
 }
 
 impl Limbs<'_> {
-    /// Searches limb by limb until no limb gets cheaper, then the unit of length of the whole robot.
+    /// Searches limb by limb until the cost does not decrease any more, then searches for the best unit of length of
+    /// the whole robot.
     pub(super) fn search(self, whole: &mut Search<'_, '_>, scope: Scope) -> Found {
         let (mut cost, mut plan) = whole.cheapest_start();
         let mut settled: BTreeMap<Vec<usize>, Vec<LinkPlan>> = BTreeMap::new();
         let mut last = usize::MAX;
         let mut cut_short = false;
         for round in 0..MAX_ROUNDS {
-            // Windows lie at two places: a limb is done if neither finds anything.
+            // Windows are at two alternating positions: the search of a limb ends if no improvement is found at either
+            // of them.
             let parts = parts(whole.mechanism, round % 2 == 1);
             let left = parts.len();
             for (done, part) in parts.into_iter().enumerate() {
@@ -98,8 +104,8 @@ impl Limbs<'_> {
         Found { cut_short, ..whole.found(plan) }
     }
 
-    /// The best plan of a part with at most so much work, which counts as that of the whole, and whether the work ended
-    /// the search; `None` if nothing of it can be searched.
+    /// The best plan of a part that is found with a limited amount of work, which also counts as work of the whole
+    /// search, and whether the limit ended the search. `None` if the recursion does not apply to the part.
     fn search_part(
         self,
         whole: &mut Search<'_, '_>,
@@ -129,7 +135,8 @@ impl Limbs<'_> {
 }
 
 impl Search<'_, '_> {
-    /// Takes a part's plan for the whole if that is cheaper; if not, those of single links that are.
+    /// Takes over the plan of a part if this reduces the cost of the whole robot; otherwise, takes over the options of
+    /// single links that reduce it.
     fn take(&mut self, part: &Part, found: &Plan, plan: &mut Plan, cost: &mut usize) {
         let mut candidate = plan.clone();
         for &place in &part.searched {
@@ -150,7 +157,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// The limbs, or windows of long ones, from the tips to the base.
+/// The limbs, or the windows of long limbs, from the tips to the base.
 fn parts(mechanism: &Mechanism<'_>, shifted: bool) -> Vec<Part> {
     let mut parts = vec![];
     for limb in limbs(mechanism).into_iter().rev() {
@@ -181,7 +188,7 @@ fn limbs(mechanism: &Mechanism<'_>) -> Vec<Vec<usize>> {
 }
 
 impl Part {
-    /// A window with the links around it: a few inward, and those that its last link carries.
+    /// A window with the adjacent links: a few links inward, and the links that its last link carries.
     fn around(mechanism: &Mechanism<'_>, window: &[usize]) -> Part {
         let mut links = window.to_vec();
         let parent = |link: &usize| mechanism.links[*link].parent;
@@ -195,13 +202,13 @@ impl Part {
         Part { links, searched }
     }
 
-    /// The options of its links.
+    /// The options of the part's links.
     fn plan(&self, whole: &Plan) -> Plan {
         let links = self.links.iter().map(|link| whole.links[*link].clone()).collect();
         Plan { links, unit_length: None }
     }
 
-    /// A robot of these links alone, on a base that moves if their parents do.
+    /// A mechanism of these links alone, on a base that moves if the parent of a first link moves.
     fn of<'g>(&self, whole: &Mechanism<'g>) -> Mechanism<'g> {
         let place = |link: usize| self.links.iter().position(|other| *other == link);
         let link = |index: &usize| {

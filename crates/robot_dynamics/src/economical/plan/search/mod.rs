@@ -1,8 +1,8 @@
-//! The search for the cheapest plan of a robot, by regenerating and counting.
+//! The search for the cheapest plan of a robot, which derives and counts every candidate.
 //!
-//! Coordinate descent in a fixed order: deterministic, bounded, and with a whole generation at each step, so
-//! that a plan's cost is the code's. A plan is accepted only if its torques agree with
-//! those of the paper's iterations at test states.
+//! The search is a coordinate descent in a fixed order. It is deterministic and bounded, and it derives the whole
+//! recursion at each step, so that the cost of a plan is that of the code. A plan is accepted only if its torques agree
+//! with those of the paper's iterations at test states.
 
 mod changes;
 mod cheapest;
@@ -24,30 +24,30 @@ use cheapest::Cheapest;
 pub use cheapest::search_several;
 use limbs::Limbs;
 
-/// A plan must reproduce the torques to this fraction of the largest.
+/// The maximum error of the torques of a plan, relative to the largest torque.
 const TOLERANCE: f64 = 1e-12;
-/// The most sweeps over all options of all links, improved or not.
+/// The maximum number of sweeps over all options of all links.
 const MAX_SWEEPS: usize = 6;
-/// The number of starting plans to descend from: the cheapest.
+/// The number of starting plans from which a descent is started; the cheapest are chosen.
 const DESCENTS: usize = 2;
-/// The number of plans after which no new descent begins.
+/// The number of plans after which no new descent is started.
 const MAX_TRIES: usize = 3000;
-/// Operations, summed over the candidates, after which a search ends with the best plan so far: the time
-/// of a search goes with them. The longest arms of seven joints take some two million and a second.
-/// Chains of dozens of joints, of which not even the first sweep would fit, are not descended from at
-/// all: its plan is the best of the uniform ones.
+/// The number of operations, summed over the candidates, after which a search ends with the best plan so far; the time
+/// of a search is proportional to it. The longest searches for arms with seven joints take about two million operations
+/// and a second. Chains of dozens of joints exceed the limit in their first sweep. For them, no descent is started: the
+/// result is the best of the uniform plans.
 const MAX_WORK: usize = 2_500_000;
-/// The limit of searches that count several functions, each of which may be ten times as long.
+/// The limit for searches that count several functions, each of which may be ten times as long.
 const MAX_WORK_FOR: usize = 40 * MAX_WORK;
 
 /// The measure that a search minimizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Measure {
-    /// Multiplications and additions.
+    /// The number of multiplications and additions.
     #[default]
     Operations,
-    /// Operations with each product and the only sum that uses it counted as one multiply-add: for targets
-    /// that have the instruction, and code that uses it.
+    /// The number of operations, in which a product and the only sum that uses it count as one multiply-add. This is
+    /// for targets with such an instruction, and code that uses it.
     Instructions,
 }
 
@@ -67,25 +67,26 @@ pub struct Found {
     pub plan: Plan,
     /// The measure that was minimized.
     pub measure: Measure,
-    /// The plan's multiplications and additions, sines and cosines apart.
+    /// The plan's number of multiplications and additions, without sines and cosines.
     pub operations: usize,
-    /// The operations with fusible pairs counted once.
+    /// The number of operations, with fusible pairs counted once.
     pub instructions: usize,
-    /// The number of plans that were generated and counted.
+    /// The number of plans that were derived and counted.
     pub tried: usize,
-    /// Whether the search ended early because of the length of the mechanism: then it is the best plan that
-    /// was seen, and others were not tried.
+    /// Whether the search ended early because of the length of the mechanism. The plan is then the best one that was
+    /// found, and others were not tried.
     pub cut_short: bool,
-    /// Whether it was chosen among several by the time that its code took on some machine, which no search does itself.
+    /// Whether the plan was chosen among several by the run time of its code on some machine. No search does this
+    /// itself.
     pub tuned: bool,
 }
 
 /// The expressions of a candidate that a search counts and checks.
 #[derive(Clone, Debug)]
 pub struct Objective<'g> {
-    /// The expressions whose operations count.
+    /// The expressions whose operations are counted.
     pub counted: Vec<Expr<'g>>,
-    /// The expressions that must have the right values.
+    /// The expressions whose values must be right.
     pub checked: Vec<Expr<'g>>,
 }
 
@@ -99,27 +100,28 @@ impl<'g> Objective<'g> {
 
 type ObjectiveOf<'m, 'g> = &'m dyn Fn(&Recursion<'g>) -> Objective<'g>;
 
-/// The groups of options that a search tries, besides those of frames and inertias.
+/// The groups of options that a search tries, in addition to those of frames and inertias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scope {
     /// The options of the recursion over motions and forces.
     pub motions: bool,
     /// The options of composite inertias.
     pub composites: bool,
-    /// The choice of accelerations in forward dynamics.
+    /// The choice of the accelerations that forward dynamics assumes.
     pub free: bool,
 }
 
-/// Searches the cheapest plan for inverse dynamics.
+/// Searches for the cheapest plan for inverse dynamics.
 ///
-/// The robot's parameters are free: what depends on them alone costs nothing. `None` if the
-/// economical recursion does not apply (a joint axis that depends on parameters).
+/// Expressions that only depend on the robot's parameters are not counted. `None` if the economical recursion does not
+/// apply because a joint axis depends on parameters.
 #[must_use]
 pub fn search(robot: &Robot, options: &MechanismOptions, measure: Measure) -> Option<Found> {
     search_with(robot, options, measure, 0, |_, found| found)
 }
 
-/// Searches, keeps so many of the cheapest plans, and gives what is made of both.
+/// Searches for the cheapest plan and keeps the given number of the cheapest plans; returns the result of `then` for
+/// both.
 fn search_with<T>(
     robot: &Robot,
     options: &MechanismOptions,
@@ -147,10 +149,10 @@ fn search_with<T>(
     Some(then(&mut search, found))
 }
 
-/// Searches the plan with the fewest multiplications and additions for the given functions.
+/// Searches for the plan with the fewest multiplications and additions for the given functions.
 ///
-/// Candidates are checked against the values under the plan that keeps the file's frames. `None` if
-/// the economical recursion does not apply (a joint axis that depends on parameters).
+/// The candidates' values are compared with those of the plan that keeps the file's frames. `None` if the economical
+/// recursion does not apply because a joint axis depends on parameters.
 #[must_use]
 pub fn search_for(
     robot: &Robot,
@@ -169,10 +171,10 @@ pub fn search_for(
     Some(search.run(scope))
 }
 
-/// The frames of the file.
+/// Options that keep the frames of the file.
 const FILE: LinkPlan = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::BASIC };
 
-/// Options to descend from, the same for every link that is searched.
+/// Options from which a descent may be started, the same for every link that is searched.
 fn starts() -> [LinkPlan; 5] {
     let searched = LinkPlan { angle_sum: true, column: true, diagonal: true, ..LinkPlan::BASIC };
     [
@@ -184,7 +186,7 @@ fn starts() -> [LinkPlan; 5] {
     ]
 }
 
-/// A fixed sequence of pseudo-random numbers (xorshift): the search is the same at every run.
+/// A fixed sequence of pseudo-random numbers (xorshift), so that the search is the same in every run.
 struct Steps(u64);
 
 impl Steps {
@@ -199,19 +201,19 @@ impl Steps {
 struct Search<'m, 'g> {
     mechanism: &'m Mechanism<'g>,
     base: &'m Base<'g>,
-    /// The links whose options are searched.
+    /// The links whose options are varied.
     searched: Vec<usize>,
-    /// Whether the unit of length is searched.
+    /// Whether the unit of length is varied.
     with_unit: bool,
     objective: ObjectiveOf<'m, 'g>,
-    /// The robot's parameters: all other symbols are inputs.
+    /// The robot's parameters; all other symbols are inputs.
     parameters: BTreeSet<SymbolId>,
     counter: Counter,
     states: Vec<Vec<f64>>,
     reference: Vec<Vec<f64>>,
     measure: Measure,
     tried: usize,
-    /// Plans that need not be tried again, if they are kept.
+    /// Plans that need not be tried again; `None` if they are not recorded.
     known: Option<HashSet<Plan>>,
     cheapest: Cheapest,
     work: usize,
@@ -260,7 +262,7 @@ impl<'m, 'g> Search<'m, 'g> {
         Found { cut_short, ..self.found(plan) }
     }
 
-    /// A plan with what it costs.
+    /// A plan with its cost.
     fn found(&mut self, plan: Plan) -> Found {
         let candidate = self.candidate(&plan);
         let count = self.operations(&candidate.counted);
@@ -269,8 +271,8 @@ impl<'m, 'g> Search<'m, 'g> {
         Found { plan, measure, operations, instructions, tried, cut_short: false, tuned: false }
     }
 
-    /// Plans to descend from, the cheapest first: one with the options of `held` for all links, and some with
-    /// others for those that are searched.
+    /// Plans from which to start a descent, the cheapest first: one with the options of `held` for all links, and
+    /// several with other options for the links that are searched.
     fn ranked(&mut self, held: Option<Plan>) -> Vec<(usize, Plan)> {
         let links = self.mechanism.links.len();
         let under = held.clone().unwrap_or_else(|| Plan::uniform(links, &LinkPlan::BASIC));
@@ -291,8 +293,8 @@ impl<'m, 'g> Search<'m, 'g> {
         self.ranked(None).swap_remove(0)
     }
 
-    /// The best of the descents from the cheapest of a few plans, and of further descents from
-    /// neighbors of the best; and its cost.
+    /// The best plan of the descents from the cheapest of a few plans and of further descents from neighbors of the
+    /// best; and its cost.
     fn best_descent(&mut self, scope: Scope, held: Option<Plan>) -> (usize, Plan) {
         let ranked = self.ranked(held);
         let (mut best, mut plan) = ranked[0].clone();
@@ -305,7 +307,7 @@ impl<'m, 'g> Search<'m, 'g> {
                 (best, plan) = found;
             }
         }
-        // Out of a dead end by a few changes at random, from there downhill again.
+        // A few random changes, followed by another descent, may lead out of a local minimum.
         let mut steps = Steps(1);
         while self.tried < self.max_tries && !self.is_spent() && !self.searched.is_empty() {
             let perturbed = self.perturb(scope, &plan, &mut steps);
@@ -318,7 +320,7 @@ impl<'m, 'g> Search<'m, 'g> {
         (best, plan)
     }
 
-    /// Whether the budget is enough to try all changes of all links once.
+    /// Whether the remaining budget is enough to try all changes of all links once.
     fn can_sweep(&self, scope: Scope, plan: &Plan, cost: usize) -> bool {
         let links = self.searched.iter();
         let changes: usize =
@@ -381,7 +383,7 @@ impl<'m, 'g> Search<'m, 'g> {
         self.states.iter().zip(&self.reference).all(|(state, reference)| {
             let size = reference.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
             let values = evaluate(roots, state);
-            // A comparison with NaN is false: such a plan is rejected.
+            // A comparison with NaN is false, so a plan with such values is rejected.
             values.iter().zip(reference).all(|(a, b)| (a - b).abs() <= TOLERANCE * size)
         })
     }
@@ -404,7 +406,7 @@ impl<'m, 'g> Search<'m, 'g> {
         (cost, plan)
     }
 
-    /// The changes of one option, or of two that go together, of a link.
+    /// The changes of single options of a link, and of two options that belong together.
     fn alternatives(&self, scope: Scope, current: &LinkPlan, link: usize) -> Vec<Change> {
         let mut changes = frame_changes(current);
         if scope.motions {
@@ -468,7 +470,7 @@ fn evaluate(roots: &[Expr<'_>], state: &[f64]) -> Vec<f64> {
     walk::evaluate(roots, |symbol| state.get(symbol.index()).copied().unwrap_or(f64::NAN))
 }
 
-/// Values for all symbols, spread by the golden ratio: parameters positive, states of order 1.
+/// Values for all symbols, distributed by the golden ratio: parameters are positive, and states are of order 1.
 fn test_state(state: usize, symbols: usize) -> Vec<f64> {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     let value = |symbol: usize| ((state * 131 + symbol + 1) as f64 * GOLDEN).fract() + 0.4;

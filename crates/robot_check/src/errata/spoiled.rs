@@ -1,4 +1,5 @@
-//! What is told of spoilt equations, and how LaTeX is read, beside committed texts: `told.txt`, `read.txt`.
+//! Compares the messages about corrupted equations, and the translation of LaTeX, with committed texts: `spoiled.txt`,
+//! `read.txt`.
 
 use std::fmt::Write as _;
 
@@ -7,7 +8,7 @@ use super::tests::{compared, robot};
 use super::*;
 use crate::tests::assert_snapshot;
 
-/// The second equation of the planar arm, which also is its joint's moment.
+/// The terms of the second equation of the planar arm, which is also the moment in its second joint.
 const TERMS: [&str; 8] = [
     "-m2*g*r2*sin(q1)*sin(q2)",
     "m2*g*r2*cos(q1)*cos(q2)",
@@ -19,16 +20,16 @@ const TERMS: [&str; 8] = [
     "I2*qdd2",
 ];
 
-/// What may stand for a factor.
+/// Factors that may replace another one.
 const OTHERS: [&str; 8] = ["", "qd1", "qdd1", "m1", "r2", "sin(q2)", "cos(q1)", "k7"];
 
-/// Other printed equations, some with terms like those of [`TERMS`] and mistakes of their own.
+/// Other printed equations, some of which contain terms like those of [`TERMS`] and other mistakes.
 const BESIDE: &str = "(3) F2.y = m2*r2*qdd1 + m2*r2*qdd2 - m2*l1*cos(q2)*qdd1 + m2*g*cos(q1)*cos(q2)\n\
     (4) Q1 = m2*l1*r2*cos(q2)*qdd1*g + I2*qdd1*qd2 + 2*I2*qdd2\n\
     M_c2.z = I2*qdd1 + I2*qdd2\n(5) M_l2.z = Q2\n";
 
-/// The term without a factor, with others in its place, with its square, and so on.
-fn spoilt(term: &str) -> Vec<String> {
+/// Corrupted versions of a term: without a factor, with a factor replaced or squared, and so on.
+fn spoiled(term: &str) -> Vec<String> {
     let (sign, bare) = match term.strip_prefix('-') {
         Some(bare) => ("-", bare),
         None => ("", term),
@@ -57,7 +58,7 @@ fn spoilt(term: &str) -> Vec<String> {
     all
 }
 
-/// What is told of the equation numbered 2.
+/// The messages about the equation with the number 2.
 fn told(text: &str) -> String {
     let found = compared(&robot("planar_2r"), text).unwrap_or_else(|error| panic!("{text}{error}"));
     let mut shown = String::new();
@@ -78,15 +79,15 @@ fn told(text: &str) -> String {
 }
 
 #[test]
-fn what_is_told_of_spoilt_terms() {
+fn messages_about_spoiled_terms() {
     let mut shown = String::new();
     for (place, term) in TERMS.iter().enumerate().filter(|(place, _)| [0, 2, 3, 5].contains(place))
     {
-        for (number, wrong) in spoilt(term).into_iter().enumerate() {
+        for (number, wrong) in spoiled(term).into_iter().enumerate() {
             let mut own: Vec<&str> = TERMS.to_vec();
             own[place] = &wrong;
             own.retain(|term| !term.is_empty());
-            // A sign behind a sign is not a formula.
+            // A sign after another sign is not a valid formula.
             let text = format!("# As printed.\n(2) Q2 = {}\n{BESIDE}", own.join("\n  + "));
             let text = text.replace("+ -", "- ");
             let _ = write!(shown, "{term} as {wrong}\n{}", told(&text));
@@ -97,10 +98,10 @@ fn what_is_told_of_spoilt_terms() {
             }
         }
     }
-    assert_snapshot("errata/told.txt", &shown);
+    assert_snapshot("errata/spoiled.txt", &shown);
 }
 
-/// All of one comparison: what is counted, and the differences of all equations.
+/// Tests the counts of one comparison, and the number of differences of each equation.
 #[test]
 fn what_is_counted() {
     let found = compared(&robot("planar_2r"), BESIDE).unwrap();
@@ -113,7 +114,7 @@ fn what_is_counted() {
     assert!(wrench.wrench);
 }
 
-/// Texts whose arrangement is read: the quantity, its number, its terms.
+/// Texts of which the arrangement is read: the quantity, its number, its terms.
 const ARRANGED: &[&str] = &[
     "Q1 = a\n(2) Q2 = b - c\n  + d\n# no\nQ3 = (a - b)*c + sin(a + b) - 1e-3*d\n",
     "( 7 ) Q1 = a +b -c\r\n\tcontinued + d\r\n",
@@ -147,7 +148,7 @@ const ARRANGED: &[&str] = &[
     "Q1 = 2..5 + 1e+2 - 1E-2*a - .5\n",
 ];
 
-/// Formulas of papers.
+/// Formulas as in papers.
 const FORMULAS: &[&str] = &[
     "a_1 b_{2} c^2 d^{-3}",
     "\\frac{a}{b}^2 \\dfrac12 \\tfrac{1}{2}a \\frac1{23}",
