@@ -31,7 +31,10 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
             return vec![holding("p", words).class("note").into()];
         }
     };
+    let name = |name| if name == "coriolis" { "Coriolis" } else { name };
     let contributions = found.named();
+    let contributions: Vec<_> =
+        contributions.into_iter().map(|(column, samples)| (name(column), samples)).collect();
     let mut columns = vec!["Coordinate", "Unit"];
     columns.extend(contributions.iter().map(|(name, _)| *name));
     let mut table = Table::new("The largest magnitudes along the trajectory", columns);
@@ -60,7 +63,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
 const WORDS: &str = "Each coordinate oscillates about the middle of its range, or about 0 if it \
     has no limits: q = middle − amplitude · cos(2π k t / 4 s), with k = 1 for odd coordinate \
     numbers and k = 2 for even ones. The amplitude is 0.3 of half the range; without limits it \
-    is 0.8 rad or 0.2 m. Inertia is M q̈, coriolis is C q̇, the Coriolis and centrifugal \
+    is 0.8 rad or 0.2 m. Inertia is M q̈, Coriolis is C q̇, the Coriolis and centrifugal \
     terms, and gravity is g; the total is their sum, including friction if there is any.";
 
 fn trajectory(robot: &Robot) -> Trajectory {

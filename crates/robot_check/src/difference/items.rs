@@ -118,7 +118,7 @@ fn named(name: &str, value: String) -> (String, String) {
 
 fn of_robot(robot: &Robot) -> Vec<(String, String)> {
     let mut properties = vec![named("gravity", vector(&robot.gravity))];
-    let snap = robot.snap.map(|snap| named("angles snapped within", format!("{snap:e} rad")));
+    let snap = robot.snap.map(|snap| named("snapping tolerance", format!("{snap:e} rad")));
     properties.extend(snap);
     properties.extend(robot.payload.as_ref().map(|payload| {
         let Payload { mass, center_of_mass, inertia } = payload;
@@ -150,7 +150,7 @@ fn link(LinkRow { link, parent, .. }: LinkRow<'_>) -> Item {
 fn body_properties(body: &Body) -> Vec<(String, String)> {
     let mut properties = vec![
         named("mass", formula(&body.mass)),
-        named("centre of mass", placement(&body.placement)),
+        named("center of mass", placement(&body.placement)),
     ];
     let entries = Inertia::NAMES.into_iter().zip(body.inertia.entries());
     properties.extend(entries.map(|(name, entry)| (format!("I{name}"), formula(entry))));
@@ -169,9 +169,9 @@ fn joint(LinkRow { link, kind, coordinate, limits, .. }: LinkRow<'_>) -> Item {
         named("offset", formula(offset)),
         named("viscous friction", formula(&friction.viscous)),
         named("friction per contact force", formula(&friction.coulomb)),
-        named("spindle diameter", formula(&friction.spindle_diameter)),
-        named("dry friction forward", formula(&friction.coulomb_positive)),
-        named("dry friction backward", formula(&friction.coulomb_negative)),
+        named("journal diameter", formula(&friction.spindle_diameter)),
+        named("forward Coulomb friction", formula(&friction.coulomb_positive)),
+        named("backward Coulomb friction", formula(&friction.coulomb_negative)),
         named("friction offset", formula(&friction.offset)),
         named("armature", formula(&drive.armature)),
         named("rotor inertia", formula(&drive.rotor_inertia)),

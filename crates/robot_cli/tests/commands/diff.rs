@@ -27,6 +27,22 @@ fn a_value_is_found_in_text_and_json() {
 }
 
 #[test]
+fn properties_have_the_same_names_in_text_and_json() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let path = folder("diff_names").join("moved.toml");
+    let moved =
+        text.replace(r#"center_of_mass = ["r1", 0, 0]"#, r#"center_of_mass = ["l1", 0, 0]"#);
+    assert_ne!(moved, text);
+    std::fs::write(&path, moved).unwrap();
+    let files = [robot("planar_2r"), path.to_str().unwrap().to_owned()];
+    let json = run(&["diff", &files[0], &files[1], "--states", "5", "--format", "json"]).output;
+    let found: Value = serde_json::from_str(&json).unwrap();
+    assert!(found["changes"][0]["properties"]["center of mass"].is_array(), "{json}");
+    let text = run(&["diff", &files[0], &files[1], "--states", "5"]).output;
+    assert!(text.contains(": center of mass to (r1, 0, 0) -> to (l1, 0, 0)"), "{text}");
+}
+
+#[test]
 fn a_parameter_without_a_value_is_named() {
     let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
     let path = folder("diff_value").join("unknown.toml");

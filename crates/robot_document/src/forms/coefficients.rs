@@ -22,6 +22,9 @@ pub(super) const MAX_LENGTH: usize = 200;
 /// The possible limits for the printed symbols of a coefficient that is written out, if others need named parts. The
 /// one that makes the coefficients and the named parts shortest in total is used.
 const LENGTHS: [usize; 4] = [300, 200, 130, 80];
+/// Limits that leave few coefficients written out: only if with the one above all is longer than with parts for every
+/// coefficient by more than a tenth.
+const SHORTER: [usize; 2] = [50, 30];
 /// The smallest number of printed symbols of a coefficient that is written by another one.
 pub(super) const MIN_LENGTH: usize = 3;
 
@@ -128,6 +131,9 @@ pub(super) fn limit<'g>(
         written + named_length(&named, writer.options.digits)
     };
     let Some(most) = LENGTHS.into_iter().min_by_key(|most| total(*most)) else { return };
+    let longest = total(0) * 11 / 10;
+    let chosen = std::iter::once(most).chain(SHORTER).find(|most| total(*most) <= longest);
+    let most = chosen.unwrap_or(most);
     for (shown, printed) in shown.iter_mut().flatten().zip(printed.iter().flatten()) {
         if let (Shown::Short { value, .. }, Shown::Short { terms, .. }) = (&*shown, printed)
             && length(terms) > most

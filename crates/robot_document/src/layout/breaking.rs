@@ -35,21 +35,52 @@ const EQUALS: f64 = 13.4;
 /// The indent of further lines, with the spaces around the sign at their beginning, in pt.
 const INDENT: f64 = 14.5;
 
-/// Breaks the right side of an equation into lines; `available` is the width beside the left side, in points.
+/// Breaks the right side of an equation into lines; `available` is the width beside the left side, in points. The last
+/// line leaves `number` points of it for the number of the equation.
 ///
 /// # Errors
 ///
 /// If a piece that cannot be broken does not fit on a line.
-pub(crate) fn right_side(equation: &Equation, available: f64) -> Result<Vec<Math>, Error> {
+pub(crate) fn right_side(
+    equation: &Equation,
+    available: f64,
+    number: f64,
+) -> Result<Vec<Math>, Error> {
     if equation.is_name() {
         return Ok(vec![Math::default()]);
     }
-    let rest = available - INDENT;
-    broken(&equation.right, available - EQUALS, rest).map_err(|wide| Error::Narrow {
-        name: equation.name.clone(),
-        needed: Centimeters::from_points(wide.needed),
-        available: Centimeters::from_points(rest),
-    })
+    let rest = available - number - INDENT;
+    let first = available - number - EQUALS;
+    let whole = broken(&equation.right, available - EQUALS, available - INDENT).ok();
+    let whole = whole.filter(|lines| lines.len() > 1).and_then(|lines| beside(lines, rest));
+    match (broken(&equation.right, first, rest), whole) {
+        (Ok(lines), Some(whole)) if whole.len() >= lines.len() => Ok(lines),
+        (_, Some(whole)) => Ok(whole),
+        (lines, None) => lines.map_err(|wide| Error::Narrow {
+            name: equation.name.clone(),
+            needed: Centimeters::from_points(wide.needed),
+            available: Centimeters::from_points(rest),
+        }),
+    }
+}
+
+/// Lines of which the last one fits the room that the number of the equation leaves, if need be by moving its last term to
+/// a line of its own.
+fn beside(mut lines: Vec<Math>, rest: f64) -> Option<Vec<Math>> {
+    let fits = |line: &Math| {
+        let indent = if is_within_product(line.pieces()) { DEEPER } else { 0.0 };
+        width(line) <= rest - indent
+    };
+    let last = lines.pop()?;
+    if fits(&last) {
+        lines.push(last);
+        return Some(lines);
+    }
+    let moved = terms(last.pieces()).last()?.to_vec();
+    let kept = last.pieces().len().checked_sub(moved.len()).filter(|kept| *kept > 0)?;
+    let kept = last.pieces().get(..kept)?.to_vec();
+    let moved = Math::row(moved);
+    fits(&moved).then(|| lines.into_iter().chain([Math::row(kept), moved]).collect())
 }
 
 /// The way in which a piece is joined to the preceding one.
@@ -113,6 +144,9 @@ impl Lines {
         let alone = width(&Math::Row(joined.clone()));
         if !self.line.is_empty() && alone <= self.further(&joined) {
             let opened = self.opened(&joined);
+            if opened.is_empty() && self.goes_on_with(pieces) {
+                return self.split(pieces, joint, alone);
+            }
             self.end();
             self.line = [opened, joined].concat();
             return Ok(());
@@ -146,6 +180,19 @@ impl Lines {
         }
         self.line.truncate(start);
         opened
+    }
+
+    /// Whether the line is little more than an opened parenthesis, such as `2 (`, and has room for the first one of several
+    /// factors: such a line is not left alone.
+    fn goes_on_with(&self, pieces: &[Math]) -> bool {
+        let is_short = |line: &[Math]| width(&Math::Row(line.to_vec())) <= TAIL * self.rest;
+        let is_opened = self.line.last() == Some(&Math::Sign('(')) && is_short(&self.line);
+        let factors = factors(pieces);
+        is_opened
+            && factors.len() > 1
+            && factors.first().is_some_and(|factor| {
+                width(&Math::Row([self.line.as_slice(), factor].concat())) <= self.limit()
+            })
     }
 
     /// Adds pieces that do not fit on one line.
@@ -249,9 +296,11 @@ pub fn terms(pieces: &[Math]) -> impl Iterator<Item = &[Math]> {
     pieces.chunk_by(stay).filter(|term| !term.is_empty())
 }
 
-/// The factors of a term. A sign belongs to the factor after it, and a function to its argument.
+/// The factors of a term. A sign belongs to the factor after it, a function to its argument, and a `×` to both of its
+/// operands.
 fn factors(pieces: &[Math]) -> Vec<&[Math]> {
-    pieces.chunk_by(|before, _| stays_with_next(before)).collect()
+    let stay = |before: &Math, next: &Math| stays_with_next(before) || *next == Math::Sign('×');
+    pieces.chunk_by(stay).collect()
 }
 
 fn stays_with_next(piece: &Math) -> bool {
@@ -315,6 +364,48 @@ mod tests {
     }
 
     #[test]
+    fn a_line_is_more_than_a_factor_and_what_opens_a_sum() {
+        let sum =
+            r"2 \left(\left(a_1 + a_2\right) \left(b_1 + b_2\right) c_3 + d_4 + e_5\right) f_6";
+        for first in 100..200 {
+            let broken = lines(sum, f64::from(first), f64::from(first));
+            assert!(broken.iter().all(|line| line != "2("), "{first}: {broken:?}");
+        }
+    }
+
+    #[test]
+    fn a_cross_product_stays_whole() {
+        let sum = r"a + \varepsilon \times r + \omega \times \left(\omega \times r\right)";
+        for first in 60..140 {
+            let broken = lines(sum, f64::from(first), 80.0);
+            let is_whole = |line: &String| !line.contains(r"\cdot") && !line.starts_with(r"\times");
+            assert!(broken.iter().all(is_whole), "{first}: {broken:?}");
+        }
+    }
+
+    /// The number of an equation stands beside its last line alone.
+    #[test]
+    fn lines_before_the_last_one_take_the_room_of_the_number() {
+        let right = math("a_1 + a_2 + a_3 + a_4 + a_5 + a_6 + a_7");
+        let equation =
+            Equation { name: "Q1".to_owned(), text: String::new(), left: math("Q_1"), right };
+        let mut fewer = 0;
+        for available in (90..200).map(f64::from) {
+            let [whole, beside] =
+                [0.0, 36.0].map(|number| right_side(&equation, available, number).unwrap());
+            let narrow = right_side(&equation, available - 36.0, 0.0).unwrap();
+            assert!((whole.len()..=narrow.len()).contains(&beside.len()), "{available}");
+            let before = if beside.len() == 1 { EQUALS } else { INDENT };
+            let last = width(beside.last().unwrap());
+            assert!(last <= available - 36.0 - before, "{available}: {last}");
+            let printed: String = beside.iter().map(formula).collect();
+            assert_eq!(printed.replace(' ', ""), formula(&equation.right).replace(' ', ""));
+            fewer += usize::from(beside.len() < narrow.len());
+        }
+        assert!(fewer > 10, "{fewer}");
+    }
+
+    #[test]
     fn sums_in_parentheses_break_within() {
         let sum = r"m \left(a_1 + a_2 + a_3 + a_4\right) + b";
         assert_eq!(lines(sum, 80.0, 80.0), ["m( a_1 + a_2 + a_3", "+a_4 ) + b"]);
@@ -342,7 +433,7 @@ mod tests {
         let equation = Equation { name: "Q1".to_owned(), text: String::new(), left, right };
         let (mut several, mut tight) = (0, f64::INFINITY);
         for available in (120..400).map(f64::from) {
-            let lines = right_side(&equation, available).unwrap();
+            let lines = right_side(&equation, available, 0.0).unwrap();
             for (place, line) in lines.iter().enumerate() {
                 let before = if place == 0 { 7.78 + 2.0 * 2.78 } else { 10.0 + 2.0 * 2.22 };
                 let room = available - before - width(line);

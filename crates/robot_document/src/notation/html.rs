@@ -90,7 +90,7 @@ fn lines(name: &'static str, children: impl IntoIterator<Item = Element>) -> Ele
 /// The lines of an equation as rows of a table; the last one has the number.
 fn rows(equation: &Equation, layout: Layout, number: Option<&str>) -> Result<Vec<Element>, Error> {
     let apart = if number.is_some() { NUMBER } else { 0.0 };
-    let lines = right_side(equation, layout.width - width(&equation.left) - apart)?;
+    let lines = right_side(equation, layout.width - width(&equation.left) - apart, 0.0)?;
     let last = lines.len().saturating_sub(1);
     let mut rows = vec![];
     for (place, line) in lines.iter().enumerate() {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::breaking::right_side;
 use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
-use crate::latex::{Layout, formula};
+use crate::latex::{Layout, continued, formula};
 use crate::math::Math;
 use crate::width::width;
 
@@ -28,8 +28,11 @@ fn display(
     layout: Layout,
     number: Option<&str>,
 ) -> Result<String, Error> {
-    let lines = right_side(equation, layout.width - width(&equation.left))?;
-    let lines: Vec<String> = lines.iter().map(formula).collect();
+    let lines = right_side(equation, layout.width - width(&equation.left), 0.0)?;
+    let lines = lines.iter().enumerate();
+    let lines: Vec<String> = lines
+        .map(|(place, line)| if place == 0 { formula(line) } else { continued(line) })
+        .collect();
     let left = formula(&equation.left);
     let display = match lines.as_slice() {
         _ if equation.is_name() => left,
@@ -182,6 +185,17 @@ mod tests {
         ] {
             assert_eq!(opened(given), expected);
         }
+    }
+
+    #[test]
+    fn the_sign_at_the_start_of_a_line_is_one_between_terms() {
+        let [left, right] =
+            ["Q_1", "a_1 + b_2 - c_3"].map(|latex| crate::latex::read(latex).unwrap());
+        let equation =
+            crate::forms::Equation { name: "Q1".to_owned(), text: String::new(), left, right };
+        let one = NumberedEquation { label: None, number: None, equation };
+        let shown = display(&one, Layout { width: 75.0 }, None).unwrap();
+        assert!(shown.contains("\\quad {}- c_3"), "{shown}");
     }
 
     #[test]

@@ -126,7 +126,7 @@
 
   // Each piece draws itself and gives its depth.
   const hue = (link) => link === null ? "ground" : "hue-" + link % 8;
-  const group = make("g", "", svg);
+  const group = make("g", "", svg), labels = make("g", "", svg);
   const ground = make("path", "ground", group);
   function body(path, carrier, link) {
     const own = make("g", hue(carrier), group);
@@ -167,16 +167,18 @@
     const own = make("g", hue(i), group);
     const axis = make("path", "", make("g", "axis", own));
     const sign = make("path", "", make("g", "joint", own));
-    const label = make("text", "", make("g", "coordinate", own));
+    const label = make("text", "", make("g", `coordinate ${hue(i)}`, labels));
     label.textContent = robot.coordinates[link.coordinate].symbol;
-    label.setAttribute("text-anchor", "middle");
     return { own, draw: (all) => {
       const { R, p } = all[i];
       const direction = R.map((row) => dot(row, link.axis));
       const x = project(p), along = turned(direction);
       axis.setAttribute("d", line([plus(x, along, -30), plus(x, along, 40)]));
       sign.setAttribute("d", link.kind === "revolute" ? cylinder(x, along, dot(direction, axes[2])) : box(x, R, direction));
-      const [a, b] = plus(x, along, 52);
+      // Beside a joint whose axis is upright or points at the viewer, where links would cover a label at its end.
+      const beside = 0.5 > Math.abs(along[0]) || Math.abs(along[1]) > Math.abs(along[0]);
+      const [a, b] = beside ? plus(x, [RADIUS + 7, 0]) : plus(x, along, 52);
+      label.setAttribute("text-anchor", beside ? "start" : "middle");
       label.setAttribute("x", a.toFixed(1));
       label.setAttribute("y", (b + 4).toFixed(1));
       return dot(p, axes[2]);

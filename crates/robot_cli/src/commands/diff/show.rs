@@ -72,34 +72,19 @@ fn arrow<T: ToString>(sides: &[Option<T>; 2]) -> String {
 
 fn change(change: &Change) -> String {
     let whole = |sign: char, item: &Item| {
-        let said: Vec<String> = item
-            .properties
-            .iter()
-            .map(|(name, value)| format!("{} {value}", words(name)))
-            .collect();
+        let said: Vec<String> =
+            item.properties.iter().map(|(name, value)| format!("{name} {value}")).collect();
         format!("{sign} {} {}: {}\n", item.kind.name(), item.name, said.join("; "))
     };
     match change {
         Change::Added(item) => whole('+', item),
         Change::Removed(item) => whole('-', item),
         Change::Changed { kind, name, properties } => {
-            let one = |one: &Property| format!("{} {}", words(&one.name), arrow(&one.values));
+            let one = |one: &Property| format!("{} {}", one.name, arrow(&one.values));
             let properties: Vec<String> = properties.iter().map(one).collect();
             let name = if name.is_empty() { String::new() } else { format!(" {name}") };
             format!("~ {}{name}: {}\n", kind.name(), properties.join("; "))
         }
-    }
-}
-
-/// The name of a property in text; JSON uses the original name as key.
-fn words(property: &str) -> &str {
-    match property {
-        "angles snapped within" => "snapping tolerance",
-        "centre of mass" => "center of mass",
-        "spindle diameter" => "journal diameter",
-        "dry friction forward" => "forward Coulomb friction",
-        "dry friction backward" => "backward Coulomb friction",
-        other => other,
     }
 }
 

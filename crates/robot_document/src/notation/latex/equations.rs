@@ -38,8 +38,7 @@ impl Layout {
 pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Error> {
     let numbered = list.iter().any(|equation| equation.label.is_some());
     let left = list.iter().map(|one| width(&one.equation.left)).fold(0.0, f64::max);
-    let number = if numbered { NUMBER } else { 0.0 };
-    let available = layout.width - left - number - MARGIN;
+    let available = layout.width - left - MARGIN;
     let mut writer = Writer { numbered, latex: String::new(), rows: vec![], is_within: false };
     for equation in list {
         writer.add(equation, available)?;
@@ -60,7 +59,7 @@ struct Writer {
 impl Writer {
     fn add(&mut self, numbered: &NumberedEquation, available: f64) -> Result<(), Error> {
         let NumberedEquation { label, number, equation } = numbered;
-        let lines = right_side(equation, available)?;
+        let lines = right_side(equation, available, if label.is_some() { NUMBER } else { 0.0 })?;
         let left = formula(&equation.left);
         let last = lines.len().saturating_sub(1);
         // An equation is kept in one environment if possible.
@@ -125,7 +124,7 @@ enum Cut {
 }
 
 /// A further line of an equation: the sign at its beginning has the same spaces as within a sum.
-pub(super) fn continued(line: &Math) -> String {
+pub(in crate::notation) fn continued(line: &Math) -> String {
     match line.pieces() {
         [Math::Sign(_), rest @ ..] => {
             let sign = formula(&Math::row(line.pieces().iter().take(1).cloned().collect()));

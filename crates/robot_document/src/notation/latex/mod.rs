@@ -9,6 +9,7 @@ mod read_back;
 mod text;
 
 pub use document::{Page, document};
+pub(super) use equations::continued;
 pub use equations::{Layout, equations};
 pub use formula::formula;
 pub(crate) use read::read_symbol;

@@ -32,9 +32,9 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
     for NumberedEquation { label, number: own, equation } in list {
         let number = if label.is_some() { NUMBER } else { 0.0 };
-        let available = layout.width - width(&equation.left) - number - MARGIN;
+        let available = layout.width - width(&equation.left) - MARGIN;
         let left = formula(&equation.left);
-        let lines = right_side(equation, available)?;
+        let lines = right_side(equation, available, number)?;
         let last = lines.len().saturating_sub(1) / LINES;
         for (part, lines) in lines.chunks(LINES).enumerate() {
             let mut shown = vec![];
