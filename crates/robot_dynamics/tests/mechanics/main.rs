@@ -68,7 +68,7 @@ fn turned(seed: u64) -> Robot {
         let [turn, tilt, reach] =
             ["turn", "tilt", "reach"].map(|name| Formula::symbol(&format!("{name}{number}")));
         let [zero, ..] = numbers([0; 3]);
-        let tilt = if seed % 2 == 0 { tilt } else { zero.clone() };
+        let tilt = if seed.is_multiple_of(2) { tilt } else { zero.clone() };
         link.joint.axis = numbers([0, 0, 1]);
         link.placement = Placement(vec![
             Move::Translate([reach, zero.clone(), zero]),
