@@ -1,10 +1,13 @@
 //! Every function that the numeric solver has, under the default plan and plans drawn at random.
 
-use robot_dynamics::economical::Plan;
+use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
+use robot_dynamics::economical::{Plan, Solver};
 use robot_dynamics::functions::{Derivation, Output};
+use robot_dynamics::matrix::Pivots;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::functions::{Bundle, Effects, FunctionKind, coupled};
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph, operations};
@@ -44,7 +47,10 @@ fn functions_agree_with_the_numeric_solver() {
         let states: Vec<_> = (0..STATES).map(|_| state(&mut random, &solver, &robot)).collect();
         let graph = Graph::new();
         let usual = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let drawn: Vec<Plan> = (0..2).map(|_| random_plan(&mut random, &robot)).collect();
+        let mut drawn: Vec<Plan> = (0..2).map(|_| random_plan(&mut random, &robot)).collect();
+        // The file's frames, whose axes lie along any axis of the frame before.
+        let file = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::DEFAULT };
+        drawn.push(Plan::uniform(robot.links.len(), &file));
         let drawn: Vec<_> = drawn.iter().map(|plan| (usual.with_plan(plan), plan)).collect();
         for kind in kinds(&robot) {
             let expected: Vec<Vec<f64>> =
@@ -240,6 +246,11 @@ fn functions_of_a_bundle_share_their_work() {
             let (shared, single) = (cost(&of_bundle), cost(&apart));
             println!("{name} {functions:?}: {shared} {single}");
             assert!(shared <= single, "{name}, {functions:?}: {shared} {single}");
+            // What is made from the others has at least a tenth fewer.
+            let is_made = functions.contains(&MassMatrix) || functions.contains(&CoriolisMatrix);
+            if name == "puma560" && is_made && !functions.contains(&accelerations) {
+                assert!(shared * 10 <= single * 9, "{name}, {functions:?}: {shared} {single}");
+            }
         }
         // Of the forms of the derivatives the one that goes best with the torques; parameters would cost nothing.
         if !robot.parameters.is_empty() {
@@ -292,4 +303,62 @@ fn forward_dynamics_says_how_it_solves() {
         assert!(said.contains("Uses the articulated-body algorithm"), "{said}");
         assert!(said.contains("are NaN"), "{said}");
     }
+}
+
+/// Outputs of a bundle have the names of their functions, of functions with several outputs the outputs' own, with the
+/// function's before it where two have the same.
+#[test]
+fn outputs_of_a_bundle_have_names_of_their_own() {
+    use FunctionKind::{Energies, ForwardKinematics, FramePoses, Gravity};
+    let robot = robot_testing::robot("puma560");
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let names = |functions: &[FunctionKind]| -> Vec<String> {
+        let bundle = Bundle { name: "several".to_owned(), functions: functions.to_vec() };
+        derivation.bundle(&bundle).outputs.into_iter().map(|output| output.name).collect()
+    };
+    let own = |kind: FunctionKind| -> Vec<String> {
+        derivation.functions(kind).remove(0).outputs.into_iter().map(|one| one.name).collect()
+    };
+    assert_eq!(names(&[Gravity, Energies]), [vec!["gravity".to_owned()], own(Energies)].concat());
+    let prefixed = |kind: FunctionKind| -> Vec<String> {
+        own(kind).iter().map(|name| format!("{}_{name}", kind.name())).collect()
+    };
+    assert_eq!(own(ForwardKinematics), own(FramePoses));
+    let expected = [prefixed(ForwardKinematics), prefixed(FramePoses)].concat();
+    assert_eq!(names(&[ForwardKinematics, FramePoses]), expected);
+}
+
+/// Each way of solving M q̈ = τ − C q̇ − g gives the solver's accelerations, whether pivots are checked or not; joint by joint
+/// it applies if each coordinate moves one joint.
+#[test]
+fn every_way_of_solving_has_the_solvers_accelerations() {
+    let kind = FunctionKind::ForwardDynamics(Effects::NONE);
+    let (mut alone, mut shared) = (0, 0);
+    for (name, robot, seed) in crate::robots() {
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let Some(recursion) = &derivation.recursion else { continue };
+        let moved =
+            |index: usize| robot.links.iter().filter(|link| link.joint.coordinate == index).count();
+        let moves_one = (0..robot.degrees_of_freedom()).all(|index| moved(index) == 1);
+        *(if moves_one { &mut alone } else { &mut shared }) += 1;
+        let torques = robot.symbols(JointVariable::Torque);
+        let torques: Vec<Expr<'_>> = torques.iter().map(|name| graph.symbol(name)).collect();
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+        let state = state(&mut Random::new(seed), &solver, &robot);
+        let expected = expected(&robot, &solver, kind, &state);
+        for method in [Solver::MassMatrix, Solver::ArticulatedBodies, Solver::SmallPivots] {
+            for pivots in [Pivots::Checked, Pivots::Positive] {
+                let found = recursion.forward_dynamics(&torques, false, method, pivots);
+                let applies = moves_one || method == Solver::MassMatrix;
+                assert_eq!(found.is_some(), applies, "{name}, {method:?}");
+                let Some(found) = found else { continue };
+                let values = evaluate(&robot, &found, &state);
+                let off = robot_testing::largest_difference(&values, &expected);
+                assert!(off <= TOLERANCE * magnitude(&expected), "{name}, {method:?}: {off}");
+            }
+        }
+    }
+    assert!(alone > 10 && shared > 3, "{alone} {shared}");
 }

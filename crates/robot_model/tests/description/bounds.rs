@@ -119,3 +119,14 @@ fn components_of_an_axis_are_of_one_size() {
         hold(&axis(wrong), false, "the axis of `lead` has components of");
     }
 }
+
+/// A text has at most 4096 bytes.
+#[test]
+fn texts_are_not_too_long() {
+    let described = |length: usize| {
+        let text = "é".repeat(length / 2) + &"x".repeat(length % 2);
+        with("", "").replacen("[robot]", &format!("[robot]\ndescription = \"{text}\""), 1)
+    };
+    hold(&described(4096), true, "");
+    hold(&described(4097), false, "the text has 4097 bytes; at most 4096");
+}
