@@ -5,7 +5,6 @@ use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
 use robot_model::description::Described;
 use robot_model::diagnostic::Source;
-use robot_model::functions::Functions;
 
 use crate::driver::generate::counts;
 use crate::driver::options::Options;
@@ -66,9 +65,7 @@ fn each(plan: &mut Plan, change: fn(&mut LinkPlan)) {
 /// All errors in the file or the options.
 pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Errors> {
     let Described { robot, code, .. } = read_with(source, options)?;
-    let options = options.or_of_file(&code);
-    let (functions, bundles) = options.functions_of(&robot)?;
-    let options = &Options { functions: Functions::Chosen(functions), bundles, ..options };
+    let options = &options.or_of_file(&code);
     let plan = plan_of(&robot, options).unwrap_or_else(|| Plan::default_for(&robot));
     let counted = |without, plan: Plan, codegen: &robot_codegen::Options| -> Result<_, Errors> {
         let options = Options { plan: Some(plan), search: false, ..options.clone() };

@@ -4,10 +4,12 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod harmless;
+mod packages;
 
 use harmless::{Chosen, PLAIN, in_every_language};
 use robot_build::languages::{Language, package};
 use robot_build::{Builder, Options, Scalar, Source};
+use robot_model::functions::{FunctionKind, Functions};
 use robot_symbolic::Random;
 
 const ARM: &str = r#"format = 1
@@ -68,6 +70,65 @@ fn functions_over_columns_of_a_single_joint_use_all_parameters() {
         let text: String = texts.collect();
         assert!(text.contains("size_t stride") && text.contains("(void)stride;"), "{text}");
     }
+}
+
+/// A file of a package as text.
+fn text_of<'f>(files: &'f [robot_build::File], name: &str) -> &'f str {
+    files.iter().find(|file| file.path.ends_with(name)).unwrap().contents.text().unwrap()
+}
+
+/// The functions of the arm that have inputs.
+const FUNCTIONS: [&str; 3] = ["inverse_dynamics", "mass_matrix", "forward_dynamics"];
+
+fn options(scalar: Scalar) -> Options {
+    let kinds = FUNCTIONS.map(|name| FunctionKind::from_name(name).unwrap());
+    Options { functions: Functions::Chosen(kinds.to_vec()), scalar, ..Options::default() }
+}
+
+/// The example of CUDA launches each kernel once, with as many arguments as it takes: its arrays one behind the other.
+#[test]
+fn the_example_in_cuda_launches_every_kernel() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    let files = package(&source, &options(Scalar::F64), Language::Cuda).unwrap();
+    let (header, example) = (text_of(&files, ".cuh"), text_of(&files, "example.cu"));
+    for function in FUNCTIONS {
+        let kernel = format!("pendulum_{function}_kernel");
+        let declared = header.split_once(&format!("{kernel}(")).unwrap().1;
+        let count = declared.split_once(')').unwrap().0.split(',').count();
+        let launches: Vec<&str> = example.split(&format!("{kernel}<<<1, 32>>>(")).skip(1).collect();
+        assert_eq!(launches.len(), 1, "{function}: {example}");
+        let arguments: Vec<&str> = launches[0].split_once(");").unwrap().0.split(", ").collect();
+        assert_eq!(arguments.len(), count, "{function}: {arguments:?}");
+        assert_eq!(arguments[..3], ["model", "1", "1"], "{function}");
+        let places = (0..count - 3).map(|place| format!("memory + {place}")).collect::<Vec<_>>();
+        assert_eq!(arguments[3..], places, "{function}");
+    }
+}
+
+/// The description of WGSL names the entry point of each function, and has a number for each field of the model in the order
+/// of the fields.
+#[test]
+fn the_description_of_wgsl_has_kernels_and_the_model() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    let files = package(&source, &options(Scalar::F32), Language::Wgsl).unwrap();
+    let code = text_of(&files, ".wgsl");
+    let described: serde_json::Value = serde_json::from_str(text_of(&files, "robot.json")).unwrap();
+    let functions = described["functions"].as_array().unwrap();
+    assert_eq!(functions.len(), FUNCTIONS.len());
+    for (function, name) in functions.iter().zip(FUNCTIONS) {
+        let kernel = function["kernel"].as_str().unwrap();
+        assert_eq!(kernel, format!("pendulum_{name}_kernel"));
+        assert!(code.contains(&format!("fn {kernel}(")), "{code}");
+    }
+    let fields =
+        code.split_once("struct pendulum_model_of_ {").unwrap().1.split_once('}').unwrap().0;
+    let fields: Vec<&str> =
+        fields.lines().filter_map(|line| Some(line.split_once(": f32")?.0.trim())).collect();
+    let model = described["model"].as_object().unwrap();
+    assert_eq!(model.keys().collect::<Vec<_>>(), fields);
+    assert!(fields.len() > 1 && model.values().all(serde_json::Value::is_number), "{model:?}");
+    // The pendulum's m l², for one.
+    assert!(model.values().any(|value| value.as_f64() == Some(2.0 * 0.25)), "{model:?}");
 }
 
 #[test]

@@ -56,6 +56,24 @@ fn a_tensor_about_the_origin_is_told() {
     assert_eq!(codes(&right), [""; 0]);
 }
 
+/// A body may overhang both ends of its link by its radius: between points that far apart and with its center in the
+/// middle, the mass may be spread as if half of it were at each.
+#[test]
+fn a_wide_body_overhangs_the_ends_of_its_link() {
+    for radius in [0.01, 0.1, 0.3_f64] {
+        let most = (0.2 + radius) * (0.2 + radius);
+        for (part, expected) in [(0.98, &[][..]), (1.02, &[code::ABOUT_ORIGIN])] {
+            let axial = radius * radius;
+            let across = 2.0 * most * part + axial / 2.0;
+            let text = arm(&format!(
+                "mass = 2\ncenter_of_mass = [0.2, 0, 0]\n\
+                 inertia = {{ xx = {axial:?}, yy = {across:?}, zz = {across:?} }}"
+            ));
+            assert_eq!(codes(&text), expected, "radius {radius}, {part} of the most");
+        }
+    }
+}
+
 #[test]
 fn centers_of_mass_are_looked_for_at_the_link() {
     let at = |x: &str| rod(2.0, 1.0, false).replace("[0.2, 0, 0]", &format!("[{x}, 0, 0]"));
@@ -134,6 +152,13 @@ fn copies_are_told_and_parameters_are_not() {
     assert_eq!(codes(&robot(&same(&["a", "b", "c"]))), [code::COPIED]);
     let masses = [link("a", "2", "0.02"), link("b", "1", "0.02")];
     assert_eq!(codes(&robot(&masses)), [code::COPIED]);
+    // Up to a hundredth apart, masses are the same.
+    for (mass, expected) in
+        [("101", &[][..]), ("99", &[]), ("102", &[code::COPIED]), ("98", &[code::COPIED])]
+    {
+        let masses = [link("a", "100", "2"), link("b", mass, "2")];
+        assert_eq!(codes(&robot(&masses)), expected, "{mass}");
+    }
     let symbols = ["a", "b", "c"].map(|name| link(name, "2", "\"J\""));
     assert_eq!(codes(&robot(&symbols)), [""; 0]);
 }

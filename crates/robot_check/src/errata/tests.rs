@@ -351,3 +351,17 @@ fn the_order_of_a_sum_is_taken_and_a_single_term_has_none() {
     // If a quantity is printed twice, the later equation counts.
     assert_eq!(order("Q2 = I2*qdd1 + I2*qdd2\nQ2 = I2*qdd2 + I2*qdd1\n"), forth);
 }
+
+/// A line begins behind the end of the one before it, which belongs to that one.
+#[test]
+fn every_byte_is_in_its_line() {
+    for text in ["a\nbc\n\nd", "\n\na", "abc", "", "é\nq\n"] {
+        let lines = Lines::of(text);
+        let mut line = 1;
+        for (place, byte) in text.bytes().enumerate() {
+            assert_eq!(lines.at(place), line, "{text:?}, {place}");
+            line += usize::from(byte == b'\n');
+        }
+        assert_eq!(lines.at(text.len()), line, "{text:?}");
+    }
+}

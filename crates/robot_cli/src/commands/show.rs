@@ -102,9 +102,9 @@ fn masses(robot: &Robot, snap: Option<f64>) -> Vec<Vec<String>> {
     without_zeros(rows)
 }
 
-/// Removes columns that are empty below the title.
+/// Removes columns that are empty below the title. The first column has names, which are not empty.
 fn without_empty(rows: Vec<Vec<String>>) -> Vec<Vec<String>> {
-    without(rows, |column, cell| column > 0 && cell.is_empty())
+    without(rows, |_, cell| cell.is_empty())
 }
 
 /// Removes columns after the mass that are 0 below the title.

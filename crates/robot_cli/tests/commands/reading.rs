@@ -299,3 +299,44 @@ fn values_that_are_not_finite_are_told_by_their_cause() {
     assert!(shown.contains("the mass matrix is singular in every configuration"), "{shown}");
     assert!(shown.contains("R0611"), "{shown}");
 }
+
+/// A robot with nothing that may be left out, neither tips nor parameters nor friction, is taken by every command.
+#[test]
+fn a_robot_of_one_link_is_taken_by_every_command() {
+    let text = "format = 1\n[robot]\nname = \"pendulum\"\n\
+        [[link]]\nname = \"rod\"\njoint = { type = \"revolute\", axis = \"y\" }\nmass = 2\n\
+        center_of_mass = [0.5, 0, 0]\ninertia = { xx = 0, yy = 0.1, zz = 0.1 }\n";
+    let file = written("reading-pendulum", "pendulum.toml", text);
+    let commands: [&[&str]; 11] = [
+        &["check"],
+        &["show"],
+        &["stats"],
+        &["base"],
+        &["generate"],
+        &["equations"],
+        &["document"],
+        &["diff", &file],
+        &["eval", "--function", "inverse_dynamics", "--q", "0", "--qd", "0", "--qdd", "1"],
+        &["simulate", "--time", "0.02"],
+        &["torques", "--expressions", "q1 = t^2/2", "--time", "0.01"],
+    ];
+    for command in commands {
+        let arguments = [&command[..1], &[file.as_str()], &command[1..]].concat();
+        let ran = run(&arguments);
+        assert_eq!(
+            (ran.code, ran.errors.contains("error")),
+            (0, false),
+            "{arguments:?}: {}",
+            ran.errors
+        );
+    }
+    // 2 kg at half a meter: 0.1 + 2·0.5² by inertia, −2·9.81·0.5 by gravity.
+    let arguments = ["torques", &file, "--expressions", "q1 = t^2/2", "--time", "0.01"];
+    let shown = output(&arguments, "");
+    let mut lines = shown.lines();
+    assert_eq!(lines.next(), Some("t,tau1,inertia1,coriolis1,gravity1"));
+    let first = lines.next().unwrap().split(',').map(|value| value.parse::<f64>().unwrap());
+    for (value, expected) in first.zip([0.0, -9.21, 0.6, 0.0, -9.81]) {
+        assert!((value - expected).abs() < 1e-12, "{shown}");
+    }
+}

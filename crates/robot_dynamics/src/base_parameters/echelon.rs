@@ -84,3 +84,64 @@ pub(super) fn closure<'g>(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_symbolic::{Graph, print};
+
+    fn rows<'g>(graph: &'g Graph, rows: &[&[&str]]) -> Vec<Row<'g>> {
+        let scalar = |text: &&str| Scalar::new(graph.parse(text).unwrap());
+        rows.iter().map(|row| row.iter().map(scalar).collect()).collect()
+    }
+
+    fn texts(row: &Row<'_>) -> Vec<String> {
+        row.iter().map(|entry| print::to_text(entry.expr).unwrap()).collect()
+    }
+
+    #[test]
+    fn each_pivot_is_one_with_zeros_above_and_below() {
+        let graph = Graph::new();
+        let found =
+            Echelon::of(rows(&graph, &[&["2", "4", "6"], &["1", "2", "4"], &["3", "6", "10"]]));
+        let shown: Vec<_> = found.rows.iter().map(|(pivot, row)| (*pivot, texts(row))).collect();
+        let text = |row: [&str; 3]| row.map(str::to_owned).to_vec();
+        assert_eq!(shown, [(0, text(["1", "2", "0"])), (2, text(["0", "0", "1"]))]);
+        assert_eq!(
+            found.into_rows().iter().map(texts).collect::<Vec<_>>(),
+            [text(["1", "2", "0"]), text(["0", "0", "1"])]
+        );
+    }
+
+    /// Nothing is divided by a parameter if a number is at hand, unless that is small beside the others.
+    #[test]
+    fn numbers_are_pivots_before_parameters() {
+        let graph = Graph::new();
+        let place = |column: &[&str]| {
+            let column: Vec<[&str; 1]> = column.iter().map(|entry| [*entry]).collect();
+            let column: Vec<&[&str]> = column.iter().map(|row| &row[..]).collect();
+            pivot(&rows(&graph, &column), 0)
+        };
+        assert_eq!(place(&["l", "1/4", "l"]), Some(1));
+        assert_eq!(place(&["l", "1/4", "-1/2", "1/3"]), Some(2));
+        assert_eq!(place(&["l", "1/1000"]), Some(0));
+        assert_eq!(place(&["0", "l/8", "l"]), Some(2));
+        assert_eq!(place(&["0", "0"]), None);
+    }
+
+    fn shifted<'g>(row: &Row<'g>) -> Row<'g> {
+        let zero = Scalar::integer(row[0], 0);
+        [zero].into_iter().chain(row[..row.len() - 1].iter().copied()).collect()
+    }
+
+    /// Moved by one place again and again, one row spans everything behind it.
+    #[test]
+    fn a_closure_holds_all_images() {
+        let graph = Graph::new();
+        for (row, size) in
+            [(["1", "l", "0", "2"], 4), (["0", "0", "3", "1"], 2), (["0", "0", "0", "0"], 0)]
+        {
+            assert_eq!(closure(rows(&graph, &[&row]), shifted).len(), size, "{row:?}");
+        }
+    }
+}

@@ -147,3 +147,78 @@ impl<'g> Div for Scalar<'g> {
         Scalar { expr: self.expr / other.expr, at: pairwise(self.at, other.at, f64::div) }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_symbolic::Graph;
+
+    fn scalar<'g>(graph: &'g Graph, text: &str) -> Scalar<'g> {
+        Scalar::new(graph.parse(text).unwrap())
+    }
+
+    /// What is 0 by algebra is the constant 0: of rational numbers, of parameters, and of irrational constants.
+    #[test]
+    fn what_vanishes_is_the_constant_zero() {
+        let graph = Graph::new();
+        let at = |text: &str| scalar(&graph, text);
+        let zeros = [
+            at("1/3") + at("1/6") - at("1/2"),
+            at("a + b") - at("b") - at("a"),
+            (at("a") + at("b")) * (at("a") - at("b")) - at("a^2") + at("b^2"),
+            at("sin(a)^2") + at("cos(a)^2") - at("1"),
+            at("sin(1)^2") + at("cos(1)^2") - at("1"),
+            at("sqrt(2)") * at("sqrt(3)") - at("sqrt(6)"),
+            at("a") / at("b") * at("b") - at("a"),
+            at("a*b - b*a"),
+        ];
+        for (place, zero) in zeros.into_iter().enumerate() {
+            assert!(zero.is_zero() && zero.is_constant(), "{place}: {zero:?}");
+        }
+    }
+
+    /// A value that is small at some points is not 0 for that.
+    #[test]
+    fn what_is_small_is_not_zero() {
+        let graph = Graph::new();
+        let at = |text: &str| scalar(&graph, text);
+        let tiny = ["1e-30", "1e-30*a", "a*1e-20 - b*1e-20"].map(at);
+        let rest =
+            [at("a") - at("b"), at("1 + 1e-12*a") - at("1"), at("sqrt(2)") - at("1.4142135")];
+        for value in tiny.into_iter().chain(rest) {
+            assert!(!value.is_zero(), "{value:?}");
+        }
+    }
+
+    /// A scalar carries the values of its expression, by which it is told from 0 and from others.
+    #[test]
+    fn values_follow_the_expression() {
+        let graph = Graph::new();
+        let [a, b] = ["2*a + 1", "b - 3"].map(|text| scalar(&graph, text));
+        for of in [a + b, a - b, a * b, a / b, -a, a + a * b, Scalar::integer(a, -7)] {
+            let known = Scalar::new(of.expr);
+            for (value, expected) in of.at.iter().zip(known.at) {
+                assert!((value - expected).abs() <= 1e-14 * expected.abs(), "{of:?} {known:?}");
+            }
+            assert_eq!(of.size(), of.at[0].abs());
+        }
+        assert!(a.at[0] != a.at[1] && a.at[1] != a.at[2] && a.at[0] != a.at[2]);
+        assert_ne!(scalar(&graph, "a").at, scalar(&graph, "b").at);
+        assert!(!a.is_constant() && scalar(&graph, "2/3").is_constant());
+    }
+
+    /// Brackets are multiplied out if nothing is divided by a sum, and if the result is short.
+    #[test]
+    fn short_expressions_are_tidied() {
+        let graph = Graph::new();
+        let tidy = |text: &str| {
+            robot_symbolic::print::to_text(tidied(graph.parse(text).unwrap())).unwrap()
+        };
+        assert_eq!(tidy("a*(b + c) - b*a"), "a*c");
+        assert_eq!(tidy("(a + b)*(a - b) + b*b"), "a^2");
+        for kept in ["a*(b + a)/(b + c)", "(a + b + c + d + e)^8"] {
+            let own = robot_symbolic::print::to_text(graph.parse(kept).unwrap()).unwrap();
+            assert_eq!(tidy(kept), own);
+        }
+    }
+}

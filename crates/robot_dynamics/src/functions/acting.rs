@@ -197,3 +197,73 @@ fn slope_of(function: Elementary, argument: f64, value: f64) -> f64 {
         Elementary::RecipPositive => -value * value,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_symbolic::Graph;
+
+    /// The slopes are those of differences, of every operation and function.
+    #[test]
+    fn slopes_are_those_of_differences() {
+        let graph = Graph::new();
+        let texts = [
+            "a + b",
+            "a - b",
+            "b - a",
+            "-a*b",
+            "a*b*b",
+            "a/b",
+            "b/(a*a)",
+            "(a + b)/(a + 3*b)",
+            "sin(a*b)",
+            "cos(a + 2*b)",
+            "sqrt(a*b)",
+            "abs(a - 5*b)",
+            "abs(b*a)",
+            "sign(a)*b",
+            "tanh(a - b)",
+        ];
+        let mut roots: Vec<Expr<'_>> =
+            texts.iter().map(|text| graph.parse(text).unwrap()).collect();
+        let inverse = roots[0].apply(Elementary::RecipPositive);
+        roots.push(inverse);
+        let [a, b] = ["a", "b"].map(|name| graph.symbol(name).as_symbol().unwrap());
+        for (place, root) in roots.iter().enumerate() {
+            for state in 0..STATES {
+                let found = slopes(&[*root], state);
+                let weight = Random::new(state).uniform(0.4, 1.6);
+                for symbol in [a, b] {
+                    let moved = |by: f64| {
+                        let at = |one: SymbolId| {
+                            let value = value(&graph.symbol_name(one), state);
+                            if one == symbol { value + by } else { value }
+                        };
+                        evaluate(&Evaluator::new(&[*root]), at)[0]
+                    };
+                    let expected = weight * (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                    let slope = found.get(&symbol).map_or(0.0, |slope| slope.sum);
+                    let off = (slope - expected).abs();
+                    assert!(off <= 1e-7 * expected.abs().max(1.0), "{place}: {slope} {expected}");
+                }
+            }
+        }
+    }
+
+    /// Terms that cancel have a slope that is small beside them; a slope adds the terms of all roots.
+    #[test]
+    fn terms_that_cancel_have_a_size() {
+        let graph = Graph::new();
+        let slope = |texts: &[&str], name: &str| {
+            let roots: Vec<Expr<'_>> =
+                texts.iter().map(|text| graph.parse(text).unwrap()).collect();
+            slopes(&roots, 1)[&graph.symbol(name).as_symbol().unwrap()]
+        };
+        let Slope { sum, size } = slope(&["a*(b + 1) - b*a"], "b");
+        assert!(sum.abs() < 1e-15 && size > 0.3, "{sum} {size}");
+        let Slope { sum, size } = slope(&["(a*b + c)/a - b"], "a");
+        assert!(sum.abs() > 0.1 && size > sum.abs(), "{sum} {size}");
+        let [first, both] = [&["3*a"][..], &["3*a", "3*a*1"][..]].map(|texts| slope(texts, "a"));
+        assert!(both.sum > first.sum && (both.sum - both.size).abs() < 1e-15);
+    }
+}

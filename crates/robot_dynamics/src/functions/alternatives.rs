@@ -69,3 +69,51 @@ fn others(plan: &Plan) -> Vec<Plan> {
     let others = [bare].into_iter().chain(uniform).filter(|other| other != plan);
     others.collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_model::functions::Effects;
+
+    /// The other plans regroup fully or are uniform, keep the unit of length, and are none that is tried already.
+    #[test]
+    fn other_plans_keep_the_unit_of_length() {
+        let link = LinkPlan { angle_sum: true, composite_sum: true, ..LinkPlan::BASIC };
+        for unit_length in [None, Some((1, 2))] {
+            let own = Plan { unit_length, ..Plan::uniform(3, &link) };
+            let found = others(&own);
+            assert_eq!(found.len(), 2, "{found:?}");
+            let mut held = own.clone();
+            held.links[1].residual[0] = Some(crate::economical::plan::Entry::ALL[0]);
+            let with_bare = others(&held);
+            assert_eq!(with_bare[0], own);
+            assert_eq!(with_bare[1..], found);
+            for other in found.iter().chain(&with_bare) {
+                assert_eq!((other.unit_length, other.links.len()), (unit_length, 3));
+                let is_bare = |link: &LinkPlan| link.composite_sum && link.residual == [None; 3];
+                assert!(other.links.iter().all(is_bare), "{other:?}");
+            }
+            assert_ne!(found[0], found[1]);
+        }
+    }
+
+    /// Functions with composites are tried under other plans, of many coordinates the mass matrix alone.
+    #[test]
+    fn composites_are_tried_under_other_plans() {
+        let tried = |coordinates: usize| {
+            let kinds = FunctionKind::ALL.iter().copied();
+            kinds.filter(|kind| depends(*kind, coordinates)).collect::<Vec<FunctionKind>>()
+        };
+        let (few, many) = (tried(MANY), tried(MANY + 1));
+        assert_eq!(many, [FunctionKind::MassMatrix, FunctionKind::MassMatrixLower]);
+        for kind in [FunctionKind::CoriolisMatrix, FunctionKind::ForwardDynamics(Effects::NONE)] {
+            assert!(few.contains(&kind));
+        }
+        for kind in [
+            FunctionKind::ForwardDynamics(Effects::FRICTION),
+            FunctionKind::InverseDynamics(Effects::NONE),
+        ] {
+            assert!(!few.contains(&kind));
+        }
+    }
+}

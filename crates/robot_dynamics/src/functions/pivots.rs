@@ -151,7 +151,7 @@ impl<'m> Search<'m> {
 }
 
 /// The smallest ratio of a pivot of M = Lᵀ D L to the diagonal entry of M; 0 if a pivot is not positive.
-fn smallest_part(mut matrix: Rows) -> f64 {
+pub(super) fn smallest_part(mut matrix: Rows) -> f64 {
     let diagonal: Vec<f64> = (0..matrix.len()).map(|row| matrix[row][row]).collect();
     let mut smallest = 1.0_f64;
     while let Some(pivot_row) = matrix.pop() {
@@ -169,4 +169,52 @@ fn smallest_part(mut matrix: Rows) -> f64 {
         }
     }
     smallest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_model::robot::Robot;
+    use robot_testing::{read, robot};
+
+    #[test]
+    fn pivots_are_relative_to_the_diagonal() {
+        assert_eq!(smallest_part(vec![vec![3.0, 0.0], vec![0.0, 5.0]]), 1.0);
+        // 8 − 4²/4 = 4, half of 8.
+        assert_eq!(smallest_part(vec![vec![8.0, 4.0], vec![4.0, 4.0]]), 0.5);
+        // From the last: 2; 3 − 1 = 2 and 9 − 2² = 5 without the last, 1 between them; 5 − 1/2.
+        let three = vec![vec![11.0, 3.0, 2.0], vec![3.0, 3.5, 1.0], vec![2.0, 1.0, 1.0]];
+        let pivots = [1.0, 3.5 - 1.0, 11.0 - 4.0 - (3.0_f64 - 2.0).powi(2) / 2.5];
+        assert_eq!(smallest_part(three), (pivots[2] / 11.0).min(pivots[1] / 3.5));
+        for wrong in [0.0, -1.0, f64::NAN] {
+            assert_eq!(smallest_part(vec![vec![1.0, 0.0], vec![0.0, wrong]]), 0.0);
+        }
+        assert_eq!(smallest_part(vec![vec![1.0, 2.0], vec![2.0, 1.0]]), 0.0);
+    }
+
+    /// A wrist of three joints whose axes meet, the outermost link with all of the inertia about its axis.
+    fn wrist(turned: &str, own: f64) -> Robot {
+        let link = |name: &str, axis: &str, mass: f64, own: f64| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"{axis}\" }}\n\
+                 mass = {mass}\ncenter_of_mass = [0, 0, 0]\ninertia = {{ xx = {own}, yy = {own}, zz = {own} }}\n"
+            )
+        };
+        let links =
+            [link("a", "z", 1.0, own), link("b", turned, 1.0, own), link("c", "z", 1.0, 1.0)];
+        read("wrist", &format!("format = 1\n[robot]\nname = \"wrist\"\n{}", links.concat()))
+    }
+
+    /// Where the first axis comes into line with the last, the pivot of the first is the little inertia that is not
+    /// of the last link.
+    #[test]
+    fn a_small_pivot_is_found_where_axes_come_into_line() {
+        assert!(may_be_small(&wrist("x", 1e-4)));
+        assert!(!may_be_small(&wrist("x", 0.5)));
+        // What is left of the first link is 2·10⁻³ of the diagonal, and a hundredth counts as small.
+        assert!(may_be_small(&wrist("x", 1e-3)));
+        for name in ["puma560", "scara", "planar_2r"] {
+            assert!(!may_be_small(&robot(name)), "{name}");
+        }
+    }
 }

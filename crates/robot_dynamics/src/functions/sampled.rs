@@ -186,3 +186,103 @@ fn sampled(
         reflected,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use robot_testing::read;
+
+    /// A revolute joint, a prismatic one on it, and on that a joint that follows the first, with ratio −2.
+    const ARM: &str = "format = 1
+[robot]
+name = \"arm\"
+[[link]]
+name = \"column\"
+joint = { type = \"revolute\", axis = \"z\" }
+origin = { xyz = [0, 0, 0.3] }
+mass = 2
+center_of_mass = [0.6, 0, 0.8]
+inertia = { xx = 0.3, yy = 0.2, zz = 0.1 }
+drive = { armature = 0.18 }
+[[link]]
+name = \"slide\"
+joint = { type = \"prismatic\", axis = \"x\" }
+origin = { xyz = [0, 0.4, 0] }
+mass = 3
+center_of_mass = [0, 0, 0.5]
+inertia = { xx = 0.2, yy = 0.2, zz = 0.1 }
+[[link]]
+name = \"hand\"
+joint = { type = \"revolute\", axis = \"y\", mimic = { joint = \"column\", ratio = -2 } }
+origin = { xyz = [0, 0, 0.5] }
+mass = 1
+center_of_mass = [0.3, 0, 0]
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+";
+
+    /// The largest part of the diagonal above which the pivots are known to be, to a ten thousandth.
+    fn bound(text: &str) -> f64 {
+        let matrix = SampledMassMatrix::new(&read("arm", text));
+        let known =
+            (1..10_000).take_while(|part| matrix.keeps_pivots_above(f64::from(*part) * 1e-4));
+        f64::from(known.last().unwrap_or_default()) * 1e-4
+    }
+
+    /// The bound by hand: what a coordinate moves in any case, over the most that it can move.
+    #[test]
+    fn the_own_inertias_over_the_largest_are_a_bound() {
+        // Of the column its own inertia and drive, and of the hand the own inertia, times the square of its ratio.
+        let least = (0.1 + 2.0 * 0.36) + 0.18 + 4.0 * (0.1 + 0.09);
+        // The slide may be as far out as the distances of all frames together.
+        let travel = 0.3 + 0.4 + 0.5;
+        let [column, hand] = [0.6 + 2.0, 4.0 * (0.3 + 0.09)];
+        let slide = 0.5 + 3.0 * (0.5_f64 + 0.4 + travel).powi(2);
+        let hand_at_column = 0.3 + (0.3_f64 + 0.5 + 0.4 + travel).powi(2);
+        let most = 0.18 + column + hand + slide + hand_at_column;
+        let found = bound(ARM);
+        assert!((found - least / most).abs() < 1e-4, "{found} {}", least / most);
+        // With a heavy drive of the column the slide decides: 3 kg of 4 kg.
+        let found = bound(&ARM.replace("armature = 0.18", "armature = 100"));
+        assert!((found - 0.75).abs() < 1e-4, "{found}");
+    }
+
+    /// A rotor that turns against its carrier may take inertia from it, and a link without mass has none.
+    #[test]
+    fn nothing_is_known_of_carriers_of_rotors_and_of_links_without_mass() {
+        let rotor =
+            "axis = \"x\" }\ndrive = { rotor_inertia = 0.001, gear_ratio = 10, gyroscopic = true }";
+        let carrier =
+            ARM.replace("axis = \"x\" }", rotor).replace("drive = { armature = 0.18 }\n", "");
+        // Of the column only the hand is left.
+        assert!(bound(&carrier) < bound(ARM));
+        let alone = carrier
+            .replace("{ joint = \"column\", ratio = -2 }", "{ joint = \"slide\", ratio = -2 }");
+        assert_eq!(bound(&alone), 0.0);
+    }
+
+    /// Over random robots and configurations no pivot is below the bound.
+    #[test]
+    fn no_pivot_is_below_the_bound() {
+        use robot_numeric::random::{Random as Seeded, Recipe};
+        let mut bounded = 0;
+        for seed in 0..30 {
+            let recipe =
+                Recipe { drives: true, mimic: true, ..Recipe::tree(1 + seed as usize % 4) };
+            let robot = robot_numeric::robots::robot(&mut Seeded::new(seed), &recipe);
+            let matrix = SampledMassMatrix::new(&robot);
+            let part = (1..100).map(|part| f64::from(part) * 1e-2);
+            let Some(part) = part.take_while(|part| matrix.keeps_pivots_above(*part)).last() else {
+                continue;
+            };
+            bounded += 1;
+            let mut random = Random::new(seed);
+            for _ in 0..20 {
+                let found = super::super::pivots::smallest_part(
+                    matrix.at(&matrix.joint_frame(&mut random)),
+                );
+                assert!(found >= part, "seed {seed}: {found} {part}");
+            }
+        }
+        assert!(bounded > 10, "{bounded}");
+    }
+}

@@ -1,10 +1,13 @@
 //! Compares every function that the numeric solver has, with the default plan and with random plans.
 
-use robot_dynamics::economical::Plan;
+use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
+use robot_dynamics::economical::{Plan, Solver};
 use robot_dynamics::functions::{Derivation, Output};
+use robot_dynamics::matrix::Pivots;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::{Effects, FunctionKind, coupled};
+use robot_model::functions::{Bundle, Effects, FunctionKind, coupled};
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::{Expr, Graph, operations};
@@ -44,7 +47,10 @@ fn functions_agree_with_the_numeric_solver() {
         let states: Vec<_> = (0..STATES).map(|_| state(&mut random, &solver, &robot)).collect();
         let graph = Graph::new();
         let usual = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let drawn: Vec<Plan> = (0..2).map(|_| random_plan(&mut random, &robot)).collect();
+        let mut drawn: Vec<Plan> = (0..2).map(|_| random_plan(&mut random, &robot)).collect();
+        // The file's frames, whose axes lie along any axis of the frame before.
+        let file = LinkPlan { origin: Origin::File, turn: Turn::File, ..LinkPlan::DEFAULT };
+        drawn.push(Plan::uniform(robot.links.len(), &file));
         let drawn: Vec<_> = drawn.iter().map(|plan| (usual.with_plan(plan), plan)).collect();
         for kind in kinds(&robot) {
             let expected: Vec<Vec<f64>> =
@@ -201,4 +207,161 @@ fn entries_between_branches_are_left_out() {
     assert_eq!(lower, of_full);
     let zeros = (0..16).filter(|place| full[*place].is_zero()).count();
     assert_eq!(zeros, 8);
+}
+
+/// Functions that have others in a bundle are made from them if that is cheaper: a bundle costs no more than its functions
+/// one by one, and with the same values.
+#[test]
+fn functions_of_a_bundle_share_their_work() {
+    use FunctionKind::{
+        Bias, CoriolisMatrix, Energies, ForwardDynamics, Gravity, InverseDynamics,
+        InverseDynamicsDerivatives, MassMatrix,
+    };
+    let [torques, accelerations] = [InverseDynamics(Effects::NONE), ForwardDynamics(Effects::NONE)];
+    let bundles = [
+        vec![torques, InverseDynamicsDerivatives],
+        vec![CoriolisMatrix, InverseDynamicsDerivatives],
+        vec![CoriolisMatrix, Gravity, Bias],
+        vec![MassMatrix, Bias, torques],
+        vec![MassMatrix, Bias, accelerations],
+        vec![MassMatrix, Energies],
+    ];
+    for name in ["puma560", "scara", "trttr1"] {
+        let robot = robot_testing::robot(name);
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let state =
+            state(&mut Random::new(9), &robot_numeric::Mechanism::nominal(&robot).unwrap(), &robot);
+        let cost = |roots: &[Expr<'_>]| operations(roots, |_| false).flops();
+        for functions in &bundles {
+            let bundle = Bundle { name: "several".to_owned(), functions: functions.clone() };
+            let of_bundle: Vec<Expr<'_>> =
+                derivation.bundle(&bundle).outputs.into_iter().flat_map(|one| one.values).collect();
+            let apart: Vec<Expr<'_>> = functions
+                .iter()
+                .flat_map(|kind| outputs(&derivation, *kind))
+                .flat_map(|one| one.values)
+                .collect();
+            let (values, expected) =
+                (evaluate(&robot, &of_bundle, &state), evaluate(&robot, &apart, &state));
+            let off = robot_testing::largest_difference(&values, &expected);
+            assert!(off <= TOLERANCE * magnitude(&expected), "{name}, {functions:?}: {off}");
+            let (shared, single) = (cost(&of_bundle), cost(&apart));
+            println!("{name} {functions:?}: {shared} {single}");
+            assert!(shared <= single, "{name}, {functions:?}: {shared} {single}");
+            // What is made from the others has at least a tenth fewer.
+            let is_made = functions.contains(&MassMatrix) || functions.contains(&CoriolisMatrix);
+            if name == "puma560" && is_made && !functions.contains(&accelerations) {
+                assert!(shared * 10 <= single * 9, "{name}, {functions:?}: {shared} {single}");
+            }
+        }
+        // Of the forms of the derivatives the one that goes best with the torques; parameters would cost nothing.
+        if !robot.parameters.is_empty() {
+            continue;
+        }
+        let torques = outputs(&derivation, torques).remove(0).values;
+        let forms = derivation.recursion.as_ref().unwrap().torque_derivatives();
+        let least = forms.iter().map(|form| {
+            cost(&[torques.clone(), form.positions.rows(), form.velocities.rows()].concat())
+        });
+        let bundle = Bundle { name: "both".to_owned(), functions: bundles[0].clone() };
+        let found = derivation.bundle(&bundle).outputs.into_iter().flat_map(|one| one.values);
+        let (found, least) = (cost(&found.collect::<Vec<_>>()), least.min().unwrap());
+        println!("{name}: {found} {least}");
+        assert!(found <= least, "{name}: {found} {least}");
+    }
+}
+
+/// What the documentation says of digits and of pivots is what the code does: a decomposition that is checked for every
+/// wrong pivot where it may have one, and articulated bodies where it would lose digits.
+#[test]
+fn forward_dynamics_says_how_it_solves() {
+    let doc = |robot: &Robot| {
+        let graph = Graph::new();
+        let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+        let kinds = [
+            FunctionKind::ForwardDynamics(Effects::NONE),
+            FunctionKind::ForwardDynamicsDerivatives,
+        ];
+        kinds.map(|kind| derivation.functions(kind).remove(0).doc.join(" "))
+    };
+    for said in doc(&robot_testing::robot("puma560")) {
+        assert!(said.contains("Digits are lost if a pivot of the mass matrix"), "{said}");
+        assert!(said.contains("does not check for one"), "{said}");
+    }
+    let link = |name: &str, axis: &str, body: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"{axis}\" }}\n{body}\n"
+        )
+    };
+    // Where the axes of the first and the last joint are one, nothing is left of the pivot of the first.
+    let hand = "mass = 0.8\ncenter_of_mass = [0.03, 0.02, 0.05]\ninertia = { xx = 0.004, yy = 0.003, zz = 0.002 }";
+    let links = [
+        link("roll", "z", "massless = true"),
+        link("tilt", "y", "massless = true"),
+        link("hand", "z", hand),
+    ];
+    let gimbals = format!("format = 1\n[robot]\nname = \"wrist\"\n{}", links.concat());
+    for said in doc(&robot_testing::read("wrist", &gimbals)) {
+        assert!(said.contains("Uses the articulated-body algorithm"), "{said}");
+        assert!(said.contains("are NaN"), "{said}");
+    }
+}
+
+/// Outputs of a bundle have the names of their functions, of functions with several outputs the outputs' own, with the
+/// function's before it where two have the same.
+#[test]
+fn outputs_of_a_bundle_have_names_of_their_own() {
+    use FunctionKind::{Energies, ForwardKinematics, FramePoses, Gravity};
+    let robot = robot_testing::robot("puma560");
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let names = |functions: &[FunctionKind]| -> Vec<String> {
+        let bundle = Bundle { name: "several".to_owned(), functions: functions.to_vec() };
+        derivation.bundle(&bundle).outputs.into_iter().map(|output| output.name).collect()
+    };
+    let own = |kind: FunctionKind| -> Vec<String> {
+        derivation.functions(kind).remove(0).outputs.into_iter().map(|one| one.name).collect()
+    };
+    assert_eq!(names(&[Gravity, Energies]), [vec!["gravity".to_owned()], own(Energies)].concat());
+    let prefixed = |kind: FunctionKind| -> Vec<String> {
+        own(kind).iter().map(|name| format!("{}_{name}", kind.name())).collect()
+    };
+    assert_eq!(own(ForwardKinematics), own(FramePoses));
+    let expected = [prefixed(ForwardKinematics), prefixed(FramePoses)].concat();
+    assert_eq!(names(&[ForwardKinematics, FramePoses]), expected);
+}
+
+/// Each way of solving M q̈ = τ − C q̇ − g gives the solver's accelerations, whether pivots are checked or not; joint by joint
+/// it applies if each coordinate moves one joint.
+#[test]
+fn every_way_of_solving_has_the_solvers_accelerations() {
+    let kind = FunctionKind::ForwardDynamics(Effects::NONE);
+    let (mut alone, mut shared) = (0, 0);
+    for (name, robot, seed) in crate::robots() {
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let Some(recursion) = &derivation.recursion else { continue };
+        let moved =
+            |index: usize| robot.links.iter().filter(|link| link.joint.coordinate == index).count();
+        let moves_one = (0..robot.degrees_of_freedom()).all(|index| moved(index) == 1);
+        *(if moves_one { &mut alone } else { &mut shared }) += 1;
+        let torques = robot.symbols(JointVariable::Torque);
+        let torques: Vec<Expr<'_>> = torques.iter().map(|name| graph.symbol(name)).collect();
+        let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+        let state = state(&mut Random::new(seed), &solver, &robot);
+        let expected = expected(&robot, &solver, kind, &state);
+        for method in [Solver::MassMatrix, Solver::ArticulatedBodies, Solver::SmallPivots] {
+            for pivots in [Pivots::Checked, Pivots::Positive] {
+                let found = recursion.forward_dynamics(&torques, false, method, pivots);
+                let applies = moves_one || method == Solver::MassMatrix;
+                assert_eq!(found.is_some(), applies, "{name}, {method:?}");
+                let Some(found) = found else { continue };
+                let values = evaluate(&robot, &found, &state);
+                let off = robot_testing::largest_difference(&values, &expected);
+                assert!(off <= TOLERANCE * magnitude(&expected), "{name}, {method:?}: {off}");
+            }
+        }
+    }
+    assert!(alone > 10 && shared > 3, "{alone} {shared}");
 }

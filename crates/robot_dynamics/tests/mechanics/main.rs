@@ -11,9 +11,10 @@ mod functions;
 mod parallel;
 mod recursions;
 
-use robot_model::robot::Robot;
+use robot_model::robot::{Axis, Move, Parameter, Placement, Robot};
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
+use robot_symbolic::{Formula, Rational};
 
 use robot_testing::with_free_axes;
 
@@ -24,7 +25,7 @@ const STATES: usize = 3;
 const TOLERANCE: f64 = 1e-11;
 
 /// Robots from files, chains, trees with drives, friction, mimic joints and fixed links, robots whose values are
-/// parameters, and robots whose joint axes are parameters, each with a name and a seed for states.
+/// parameters, robots whose placements are, and robots whose joint axes are, each with a name and a seed for states.
 fn robots() -> Vec<(String, Robot, u64)> {
     let files = ["trttr1", "scara", "stanford", "puma560"];
     let files = files.map(|name| (name.to_owned(), robot_testing::robot(name), 3));
@@ -45,7 +46,41 @@ fn robots() -> Vec<(String, Robot, u64)> {
     });
     let free =
         (3000..3003).map(|seed| (format!("free axes, seed {seed}"), with_free_axes(seed), seed));
-    files.into_iter().chain(chains).chain(trees).chain(parameters).chain(free).collect()
+    let turned = (4000..4004).map(|seed| (format!("turned, seed {seed}"), turned(seed), seed));
+    files
+        .into_iter()
+        .chain(chains)
+        .chain(trees)
+        .chain(parameters)
+        .chain(turned)
+        .chain(free)
+        .collect()
+}
+
+/// A chain of joints about z whose placements depend on parameters: turned about z by an angle, and of every second
+/// robot about x by another, with a distance between.
+fn turned(seed: u64) -> Robot {
+    let mut random = Random::new(seed);
+    let mut robot = robots::robot(&mut random, &Recipe::serial(2 + seed as usize % 3));
+    let numbers = |axis: [i64; 3]| axis.map(|one| Formula::number(&Rational::integer(one)));
+    for (number, link) in (1..).zip(&mut robot.links) {
+        let [turn, tilt, reach] =
+            ["turn", "tilt", "reach"].map(|name| Formula::symbol(&format!("{name}{number}")));
+        let [zero, ..] = numbers([0; 3]);
+        let tilt = if seed.is_multiple_of(2) { tilt } else { zero.clone() };
+        link.joint.axis = numbers([0, 0, 1]);
+        link.placement = Placement(vec![
+            Move::Translate([reach, zero.clone(), zero]),
+            Move::Rotate(Axis::X, tilt),
+            Move::Rotate(Axis::Z, turn),
+        ]);
+        for name in ["turn", "tilt", "reach"] {
+            let value = Rational::new(2 + random.index(9) as i64, 7);
+            let name = format!("{name}{number}");
+            robot.parameters.push(Parameter { name, value, unit: None, latex: None, doc: None });
+        }
+    }
+    robot
 }
 
 #[test]

@@ -179,7 +179,8 @@ mod tests {
         for name in ["l1", "_x", "Jx1", "a_very_long_name_0"] {
             assert!(is_identifier(name), "{name}");
         }
-        let long = "x".repeat(65);
+        let [most, long] = [64, 65].map(|length| "x".repeat(length));
+        assert!(is_identifier(&most) && is_label(&most));
         for name in ["", "_", "__", "1a", "a-b", "é", "a b", "}fn x(){}", "a\u{202e}", &long] {
             assert!(!is_identifier(name), "{name}");
         }

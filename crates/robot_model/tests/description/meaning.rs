@@ -337,3 +337,45 @@ fn frames_of_base_parameters_are_chosen_by_a_word() {
     let found = errors(&text("base_frames = \"dh\""));
     assert_eq!(found.iter().next().unwrap().code, code::UNKNOWN_WORD, "{found}");
 }
+
+/// The words of other descriptions for types of joints are told the word to use.
+#[test]
+fn types_of_joints_of_other_formats_are_known() {
+    let advice = [
+        ("write \"revolute\" and leave out `limits`", vec!["continuous"]),
+        ("write \"revolute\"", vec!["rotation", "rotational", "hinge", "R"]),
+        (
+            "write \"prismatic\"",
+            vec!["translation", "translational", "linear", "slide", "slider", "P"],
+        ),
+        ("only robots with a fixed base", vec!["floating", "free"]),
+        ("use two prismatic joints and a revolute one", vec!["planar"]),
+        ("use three revolute joints", vec!["spherical", "ball"]),
+        ("use revolute and prismatic joints", vec!["cylindrical", "screw", "universal"]),
+        ("use one of `revolute`, `prismatic` and `fixed`", vec!["Revolute", "r", "sliding"]),
+    ];
+    for (help, words) in advice {
+        for word in words {
+            let joint = format!("joint = {{ type = \"{word}\", axis = \"z\" }}");
+            let found = errors(&arm(&link("1", &joint)));
+            let error = found.iter().next().unwrap();
+            assert_eq!((found.len(), error.code), (1, code::UNKNOWN_WORD), "{word}: {found}");
+            let told = error.help.as_deref().unwrap_or_default();
+            assert!(told.starts_with(help), "{word}: {told}");
+        }
+    }
+}
+
+/// The parameters of the payload are where the payload is.
+#[test]
+fn parameters_of_the_payload_are_at_its_table() {
+    let text = arm(&format!("{}\n[payload]\n", revolute("1", "")));
+    let described = read(&text);
+    let (parameters, places) = (&described.robot.parameters, &described.locations.parameters);
+    assert_eq!((parameters.len(), places.len()), (10, 10));
+    for (parameter, place) in parameters.iter().zip(places) {
+        assert!(parameter.name.starts_with("payload_"), "{}", parameter.name);
+        assert_eq!(&text[place.name.clone()], "payload", "{}", parameter.name);
+        assert!(parameter.unit.is_some() && parameter.doc.is_some());
+    }
+}

@@ -1,6 +1,7 @@
 //! The robot files that import writes.
 
 use robot_model::description::{Options, import, read_toml};
+use robot_model::robot::Robot;
 
 use crate::text::BODY;
 
@@ -88,4 +89,29 @@ fn masses_on_the_base_are_left_out() {
     );
     let described = read_toml("arm.toml", &text).unwrap_or_else(|found| panic!("{found}"));
     assert!(described.warnings.is_empty(), "{}", described.warnings);
+}
+
+/// Of several limbs each begins at the base, and each link stands on the one that it stands on in the source.
+#[test]
+fn limbs_begin_where_they_begin_in_the_source() {
+    let joints = [("base", "a"), ("a", "b"), ("base", "c"), ("c", "d"), ("a", "e")];
+    let links = joints.map(|(_, child)| format!("<link name=\"{child}\">{BODY}</link>")).concat();
+    let joints = joints.map(|(parent, child)| {
+        format!(
+            "<joint name=\"to_{child}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+             <axis xyz=\"0 1 0\"/></joint>"
+        )
+    });
+    let source =
+        format!("<robot name=\"limbs\"><link name=\"base\"/>{links}{}</robot>", joints.concat());
+    let robot = crate::read(&source).robot;
+    let text = toml(&source, &Options::default());
+    let imported = read_toml("limbs.toml", &text).unwrap_or_else(|found| panic!("{found}")).robot;
+    let parents = |robot: &Robot| -> Vec<(String, Option<String>)> {
+        let name = |index: usize| robot.links[index].name.clone();
+        let links = robot.links.iter().map(|link| (link.name.clone(), link.parent.map(name)));
+        links.collect()
+    };
+    assert_eq!(parents(&imported), parents(&robot));
+    assert_eq!(parents(&robot).iter().filter(|(_, parent)| parent.is_none()).count(), 2);
 }

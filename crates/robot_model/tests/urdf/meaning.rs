@@ -1,7 +1,7 @@
 //! The meaning of URDF files.
 
 use robot_model::description::{Format, Options, read};
-use robot_model::diagnostic::{Diagnostics, code};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, code};
 use robot_model::robot::{JointKind, Robot};
 use robot_numeric::Mechanism;
 
@@ -239,4 +239,57 @@ fn places_point_at_the_text() {
     assert_eq!(shown(link.bodies[0].mass.as_ref().unwrap()), "2");
     assert_eq!(shown(link.bodies[0].center_of_mass.as_ref().unwrap()), "0 0 0.1");
     assert!(shown(link.bodies[0].inertia.as_ref().unwrap()).starts_with("<inertia ixx"));
+}
+
+/// Content that acts on the dynamics and is not read is counted, wherever it stands; other content is not.
+#[test]
+fn what_a_simulator_adds_is_counted() {
+    let transmission = |what: &str| {
+        format!("<transmission name=\"t\"><actuator name=\"m\">{what}</actuator></transmission>")
+    };
+    let (gear, plain) = (
+        transmission("<mechanicalReduction> 50 </mechanicalReduction>"),
+        transmission("<mechanicalReduction>1</mechanicalReduction>"),
+    );
+    let (off, on) = (
+        "<gazebo><turnGravityOff>true</turnGravityOff></gazebo>",
+        "<gazebo><turnGravityOff>false</turnGravityOff></gazebo>",
+    );
+    let spring = "<gazebo><springStiffness>3</springStiffness></gazebo>";
+    let cases = [
+        (String::new(), vec![]),
+        (format!("{plain}{on}"), vec![]),
+        (gear.clone(), vec!["the drives of 1 transmission"]),
+        (format!("{gear}{plain}{gear}"), vec!["the drives of 2 transmissions"]),
+        (off.to_owned(), vec!["gravity, springs or damping of 1 Gazebo element"]),
+        (format!("{off}{on}{spring}"), vec!["gravity, springs or damping of 2 Gazebo elements"]),
+        (
+            format!("{gear}{off}"),
+            vec!["the drives of 1 transmission", "gravity, springs or damping of 1 Gazebo element"],
+        ),
+    ];
+    let urdf = one_link(BODY, "<axis xyz=\"0 0 1\"/>");
+    for (added, told) in cases {
+        let described = crate::read(&urdf.replace("</robot>", &format!("{added}</robot>")));
+        assert_eq!(described.left_out, told, "{added}");
+        let is_told = |one: &&Diagnostic| one.message.contains("not part of the robot");
+        let notes = described.choices.iter().filter(is_told).count();
+        assert_eq!(notes, told.len(), "{added}: {}", described.choices);
+    }
+    // Within links and joints, too.
+    let within = urdf
+        .replace("</link>", &format!("{off}</link>"))
+        .replace("</joint>", &format!("{spring}</joint>"));
+    assert_eq!(crate::read(&within).left_out, ["gravity, springs or damping of 2 Gazebo elements"]);
+    // Limits of forces and rates are counted by kind.
+    let limits = |limit: &str| format!("type=\"continuous\"><axis xyz=\"0 0 1\"/>{limit}");
+    let both = "<limit effort=\"5\" velocity=\"2\"/>";
+    let joints = [limits(both), limits(""), limits("<limit effort=\"5\"/>")];
+    let described = crate::read(&chain(joints.each_ref().map(String::as_str)));
+    for message in [
+        "2 joints: `effort` of `<limit>` is ignored",
+        "1 joint: `velocity` of `<limit>` is ignored",
+    ] {
+        assert!(has(&described.choices, code::LEFT_OUT, message), "{}", described.choices);
+    }
 }

@@ -309,6 +309,11 @@ fn what_no_body_has_is_taken_where_that_is_asked_for() {
     let shown = message(&builder(&package), &["robots/a.toml"]);
     assert!(shown.contains("error[R0501]: the mass is -"), "{shown}");
     builder(&package).allow_unphysical(true).compile(&["robots/a.toml"]).unwrap();
+    let link = "\n[[link]]\nname = \"2\"\njoint = { type = \"revolute\", axis = \"y\" }\n";
+    fs::write(package.join("robots/a.toml"), format!("{ARM}{link}")).unwrap();
+    let shown = message(&builder(&package).allow_unphysical(true), &["robots/a.toml"]);
+    assert!(shown.contains("mass"), "{shown}");
+    builder(&package).allow_massless(true).compile(&["robots/a.toml"]).unwrap();
 }
 
 #[test]

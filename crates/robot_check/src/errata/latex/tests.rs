@@ -1,5 +1,6 @@
 use robot_document::math::Math;
 use robot_document::{SymbolTable, Trigonometry, latex};
+use robot_symbolic::formula::MAX_DEPTH;
 use robot_symbolic::{Formula, Graph, Random, polynomial};
 
 use super::{symbol_key, to_infix};
@@ -161,4 +162,16 @@ fn a_long_formula_is_not_a_deep_one() {
     }
     let deep = format!("{}q_1{}", "(".repeat(2000), ")".repeat(2000));
     assert!(to_infix(&deep, &names).unwrap_err().message.contains("nested deeper"));
+}
+
+/// As many levels as are allowed are read, the sum itself among them, and one more is not.
+#[test]
+fn the_deepest_formula_is_read() {
+    let brackets = |count: usize| format!("{}q_1{}", "(".repeat(count), ")".repeat(count));
+    let roots = |count: usize| format!("{}q_1{}", r"\sqrt{".repeat(count), "}".repeat(count));
+    assert!(to_infix(&brackets(MAX_DEPTH - 1), &names).is_ok());
+    assert!(to_infix(&brackets(MAX_DEPTH), &names).is_err());
+    // An argument is a level, and the sum in it another.
+    assert!(to_infix(&roots((MAX_DEPTH - 1) / 2), &names).is_ok());
+    assert!(to_infix(&roots(MAX_DEPTH / 2), &names).is_err());
 }

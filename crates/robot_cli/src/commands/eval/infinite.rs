@@ -92,3 +92,30 @@ fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State<'_>) -> Optio
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The first entry that is not finite, counted from 1: of an array over the joints with the joint, of a matrix by its
+    /// row and column.
+    #[test]
+    fn the_first_entry_without_a_value_is_named() {
+        let robot = robot_testing::robot("planar_2r");
+        let joint = |index: usize| &robot.coordinates[index].joint;
+        let told = |shape: &[usize], wrong: &[usize]| {
+            let mut values = vec![1.0; shape.iter().product()];
+            wrong.iter().for_each(|place| values[*place] = f64::NAN);
+            entries(&robot, &OutputValues { name: String::new(), shape: shape.to_vec(), values })
+        };
+        assert_eq!(told(&[2], &[]), "");
+        assert_eq!(told(&[2], &[0, 1]), format!(" at entry 1 (joint `{}`)", joint(0)));
+        assert_eq!(told(&[2], &[1]), format!(" at entry 2 (joint `{}`)", joint(1)));
+        // Six numbers are not two joints, nor is one.
+        assert_eq!([told(&[6], &[1]), told(&[1], &[0])], [" at entry 2", " at entry 1"]);
+        assert_eq!(told(&[2, 3], &[0]), " at row 1, column 1");
+        assert_eq!(told(&[2, 3], &[5, 4]), " at row 2, column 2");
+        assert_eq!(told(&[2, 2], &[3]), " at row 2, column 2");
+        assert_eq!(told(&[], &[0]), "");
+    }
+}

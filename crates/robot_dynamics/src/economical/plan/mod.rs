@@ -201,3 +201,22 @@ impl Plan {
         Plan { links: vec![plan.clone(); links], unit_length: None }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plan_fits_if_all_that_it_names_is_there() {
+        let plan = Plan::uniform(3, &LinkPlan::BASIC);
+        assert!(plan.fits(3) && !plan.fits(2) && !plan.fits(4));
+        for (unit, fits) in [((2, 2), true), ((3, 0), false), ((0, 3), false)] {
+            assert_eq!(Plan { unit_length: Some(unit), ..plan.clone() }.fits(3), fits, "{unit:?}");
+        }
+        for (link, fits) in [(0, true), (2, true), (3, false)] {
+            let mut projected = plan.clone();
+            projected.links[1].projected_at = Some(Place { link, turned: false });
+            assert_eq!(projected.fits(3), fits, "{link}");
+        }
+    }
+}

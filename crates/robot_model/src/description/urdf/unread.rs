@@ -129,3 +129,54 @@ fn has_force(name: &str, text: &str) -> bool {
         _ => false,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What leaves the dynamics as they are says nothing: a reduction of 1, a motor without inertia.
+    #[test]
+    fn gears_and_motors_that_act_are_told_from_those_that_do_not() {
+        for name in ["mechanicalReduction", "mechanical_reduction"] {
+            for (text, acts) in
+                [("1", false), ("1.0", false), ("50", true), ("0", true), ("-1", true), ("", true)]
+            {
+                assert_eq!(has_gear(name, text), acts, "{name} {text}");
+            }
+        }
+        for name in ["motorInertia", "motor_inertia", "rotorInertia", "rotor_inertia"] {
+            for (text, acts) in
+                [("0", false), ("0.0", false), ("1", true), ("1e-5", true), ("${j}", true)]
+            {
+                assert_eq!(has_gear(name, text), acts, "{name} {text}");
+            }
+        }
+        assert!(!has_gear("hardwareInterface", "50"));
+    }
+
+    #[test]
+    fn forces_of_a_simulator_are_told_from_its_other_settings() {
+        for (name, text, acts) in [
+            ("turnGravityOff", "1", true),
+            ("turnGravityOff", "true", true),
+            ("turnGravityOff", "True", true),
+            ("turnGravityOff", "0", false),
+            ("turnGravityOff", "false", false),
+            ("gravity", "0", true),
+            ("gravity", "false", true),
+            ("gravity", "FALSE", true),
+            ("gravity", "1", false),
+            ("gravity", "true", false),
+            ("springStiffness", "0", false),
+            ("springStiffness", "2.5", true),
+            ("spring_stiffness", "0.0", false),
+            ("spring_stiffness", "1", true),
+            ("dampingFactor", "0", false),
+            ("dampingFactor", "0.1", true),
+            ("dampingFactor", "?", true),
+            ("material", "1", false),
+        ] {
+            assert_eq!(has_force(name, text), acts, "{name} {text}");
+        }
+    }
+}

@@ -272,7 +272,8 @@ impl<'m, 'g> Search<'m, 'g> {
     }
 
     /// Plans from which to start a descent, the cheapest first: one with the options of `held` for all links, and
-    /// several with other options for the links that are searched.
+    /// several with other options for the links that are searched. Plans that give wrong values are left out, unless
+    /// all do.
     fn ranked(&mut self, held: Option<Plan>) -> Vec<(usize, Plan)> {
         let links = self.mechanism.links.len();
         let under = held.clone().unwrap_or_else(|| Plan::uniform(links, &LinkPlan::BASIC));
@@ -282,8 +283,14 @@ impl<'m, 'g> Search<'m, 'g> {
             self.searched.iter().for_each(|link| plan.links[*link].clone_from(&start));
             plans.push(plan);
         }
-        let mut ranked: Vec<(usize, Plan)> =
-            plans.into_iter().map(|plan| (self.cost(&plan), plan)).collect();
+        let (mut right, mut wrong) = (vec![], vec![]);
+        for plan in plans {
+            let candidate = self.candidate(&plan);
+            let cost = self.cost_of(&plan, &candidate);
+            let list = if self.is_accurate(&candidate.checked) { &mut right } else { &mut wrong };
+            list.push((cost, plan));
+        }
+        let mut ranked = if right.is_empty() { wrong } else { right };
         ranked.sort_by_key(|(cost, _)| *cost);
         ranked
     }
@@ -476,3 +483,6 @@ fn test_state(state: usize, symbols: usize) -> Vec<f64> {
     let value = |symbol: usize| ((state * 131 + symbol + 1) as f64 * GOLDEN).fract() + 0.4;
     (0..symbols).map(value).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,71 @@
+//! What stands around the code in a package: how it is used, built and tested. The code itself is in the goldens of
+//! `robot_codegen`.
+//!
+//! `UPDATE_SNAPSHOTS=1` writes the files anew; read the difference before it is kept.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use robot_build::languages::{Language, package_of};
+use robot_build::{Options, Scalar, Source, programs};
+use robot_model::functions::{FunctionKind, Functions};
+
+/// A pendulum whose length has no nominal value: functions with and without inputs need the model.
+const PENDULUM: &str = r#"format = 1
+[robot]
+name = "pendulum"
+[parameters]
+l = { unit = "m", doc = "length" }
+[[link]]
+name = "rod"
+joint = { type = "revolute", axis = "y" }
+mass = 2
+center_of_mass = ["l", 0, 0]
+inertia = { xx = 0, yy = 0.1, zz = 0.1 }
+"#;
+
+/// The files of a package other than its code, one behind the other.
+fn around_the_code(language: Language) -> String {
+    let source = Source { name: "pendulum.toml".to_owned(), text: PENDULUM.to_owned() };
+    let single = [Language::Wgsl, Language::Arduino].contains(&language);
+    let kinds =
+        ["mass_matrix", "base_parameters"].map(|name| FunctionKind::from_name(name).unwrap());
+    let options = Options {
+        functions: Functions::Chosen(kinds.to_vec()),
+        scalar: if single { Scalar::F32 } else { Scalar::F64 },
+        ..Options::default()
+    };
+    let found = programs(&source, &options).unwrap();
+    let mut shown = String::new();
+    for file in package_of(&found, &source, &options, language).unwrap() {
+        let path = Path::new(&file.path);
+        let is_code = path.file_stem().is_some_and(|stem| stem == "pendulum")
+            || file.path.starts_with("src/");
+        let Some(text) = file.contents.text().filter(|_| !is_code) else { continue };
+        write!(shown, "---- {}\n{}\n", file.path, text.trim_end()).unwrap();
+    }
+    // A release changes nothing else of it.
+    shown.replace(&format!("robot_build {}", env!("CARGO_PKG_VERSION")), "robot_build VERSION")
+}
+
+#[test]
+fn packages_are_those_that_were_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/languages/packages");
+    let update = std::env::var_os("UPDATE_SNAPSHOTS").is_some();
+    let mut differing = vec![];
+    for language in Language::ALL {
+        let path = folder.join(format!("{}.txt", language.name()));
+        let found = around_the_code(*language);
+        if update {
+            std::fs::create_dir_all(&folder).unwrap();
+            std::fs::write(&path, &found).unwrap();
+        }
+        let expected = std::fs::read_to_string(&path).unwrap_or_default();
+        let mut lines = expected.lines().zip(found.lines()).zip(1..);
+        if expected != found {
+            let place = lines.find(|((before, now), _)| before != now);
+            differing.push(format!("{}, {place:?}", path.display()));
+        }
+    }
+    assert!(differing.is_empty(), "UPDATE_SNAPSHOTS=1 writes them: {differing:#?}");
+}
