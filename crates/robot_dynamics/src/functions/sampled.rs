@@ -278,7 +278,7 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
             let mut random = Random::new(seed);
             for _ in 0..20 {
                 let found = super::super::pivots::smallest_part(
-                    matrix.at(&matrix.joint_frame(&mut random)),
+                    matrix.at(&matrix.configuration(&mut random)),
                 );
                 assert!(found >= part, "seed {seed}: {found} {part}");
             }
