@@ -92,7 +92,7 @@ fn snapping_and_a_payload_are_what_the_file_says() {
         assert_eq!(one.values[0], None);
         one.values[1].clone().unwrap()
     };
-    assert_eq!(said(&snapping, "angles snapped within"), "1e-4 rad");
+    assert_eq!(said(&snapping, "snapping tolerance"), "1e-4 rad");
     assert!(said(&carrying, "payload").starts_with("payload_mass, "));
 }
 
