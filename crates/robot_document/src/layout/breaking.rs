@@ -51,9 +51,12 @@ pub(crate) fn right_side(
     }
     let rest = available - number - INDENT;
     let first = available - number - EQUALS;
-    let whole = broken(&equation.right, available - EQUALS, available - INDENT).ok();
-    let whole = whole.filter(|lines| lines.len() > 1).and_then(|lines| beside(lines, rest));
-    match (broken(&equation.right, first, rest), whole) {
+    let lines = broken(&equation.right, first, rest);
+    // On one line, or without a number, the wider lines would not be fewer.
+    let is_settled = number <= 0.0 || lines.as_ref().is_ok_and(|lines| lines.len() == 1);
+    let wider = || broken(&equation.right, available - EQUALS, available - INDENT).ok();
+    let whole = (!is_settled).then(wider).flatten().filter(|lines| lines.len() > 1);
+    match (lines, whole.and_then(|lines| beside(lines, rest))) {
         (Ok(lines), Some(whole)) if whole.len() >= lines.len() => Ok(lines),
         (_, Some(whole)) => Ok(whole),
         (lines, None) => lines.map_err(|wide| Error::Narrow {
