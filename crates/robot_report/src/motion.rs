@@ -31,10 +31,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
             return vec![holding("p", words).class("note").into()];
         }
     };
-    let name = |name| if name == "coriolis" { "Coriolis" } else { name };
-    let contributions = found.named();
-    let contributions: Vec<_> =
-        contributions.into_iter().map(|(column, samples)| (name(column), samples)).collect();
+    let contributions = found.titled();
     let mut columns = vec!["Coordinate", "Unit"];
     columns.extend(contributions.iter().map(|(name, _)| *name));
     let mut table = Table::new("The largest magnitudes along the trajectory", columns);

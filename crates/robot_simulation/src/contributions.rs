@@ -67,6 +67,13 @@ impl TorqueContributions {
         contributions
     }
 
+    /// The contributions by their names in tables and plots.
+    #[must_use]
+    pub fn titled(&self) -> Vec<(&'static str, &Series)> {
+        let title = |name| if name == "coriolis" { "Coriolis" } else { name };
+        self.named().into_iter().map(|(name, series)| (title(name), series)).collect()
+    }
+
     /// Appends the contributions at later times.
     pub fn append(&mut self, next: TorqueContributions) {
         let TorqueContributions { t, total, inertia, coriolis, gravity, friction, wrench } = next;

@@ -94,16 +94,18 @@ impl Arguments {
         } else {
             compiled(source, options)?
         };
-        let live = !self.without_live;
-        Ok(report(&Input {
-            source,
-            options,
-            snap: PRINT_SNAP,
-            compiled: &compiled,
-            compare: compare_with_solver,
-            live,
-        })?)
+        Ok(report(&input(source, options, &compiled, !self.without_live))?)
     }
+}
+
+/// What a page is made from; `live` says whether the robot moves in it.
+pub(crate) fn input<'a>(
+    source: &'a Source,
+    options: &'a Options,
+    compiled: &'a Compiled,
+    live: bool,
+) -> Input<'a> {
+    Input { source, options, snap: PRINT_SNAP, compiled, compare: compare_with_solver, live }
 }
 
 /// Opens a file with the system's program for such files.
@@ -116,7 +118,7 @@ fn show(path: &Path) -> Result<(), Failure> {
 }
 
 /// Compares the programs with the numeric solver; returns the largest deviations.
-pub(crate) fn compare_with_solver(programs: &Programs) -> Result<Accuracy, String> {
+fn compare_with_solver(programs: &Programs) -> Result<Accuracy, String> {
     let worst = robot_check::accuracy::worst(programs)?;
     let worst = worst.into_iter().map(|(function, error)| (function.to_owned(), error)).collect();
     Ok(Accuracy { states: robot_check::accuracy::states(), worst })

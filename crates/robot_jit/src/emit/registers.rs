@@ -117,13 +117,8 @@ pub(super) fn emit(list: &List, bytes: &mut Bytes) -> u32 {
                 body.free_slot(freed);
             }
             Step::StorePair(a, b, target) => {
-                let kept = [*a, *b];
-                let first = body.loaded(*a, &kept);
-                let second = body.operand(*b, &kept, true);
-                let freed = body.release(&kept);
-                let to = body.vacant(*a, &[]);
-                body.bytes.pair(to, first, second);
-                body.bytes.store_pair(*target, to);
+                let (pair, freed) = body.paired(*a, *a, *b);
+                body.bytes.store_pair(*target, pair);
                 body.free_slot(freed);
             }
         }
@@ -282,18 +277,25 @@ impl Body<'_> {
         freed
     }
 
+    /// Puts two values side by side in a register that suits `result`. Returns the register, which has no value yet, and
+    /// the slots of operands that are not needed any more.
+    fn paired(&mut self, result: Id, a: Id, b: Id) -> (u8, [Option<Freed>; 3]) {
+        let kept = [a, b];
+        let first = self.loaded(a, &kept);
+        let second = self.operand(b, &kept, true);
+        let freed = self.release(&kept);
+        let to = self.vacant(result, &[]);
+        self.bytes.pair(to, first, second);
+        (to, freed)
+    }
+
     fn compute(&mut self, result: Id, instruction: Instruction) {
         let freed = match instruction {
             Instruction::Home(_) => return,
             Instruction::Binary(binary, a, b) => self.binary(result, binary, a, b),
             Instruction::MulAdd(a, b, c) => self.multiply_add(result, a, b, c),
             Instruction::Pair(a, b) => {
-                let kept = [a, b];
-                let first = self.loaded(a, &kept);
-                let second = self.operand(b, &kept, true);
-                let freed = self.release(&kept);
-                let to = self.vacant(result, &[]);
-                self.bytes.pair(to, first, second);
+                let (to, freed) = self.paired(result, a, b);
                 self.bind(result, to);
                 freed
             }

@@ -126,6 +126,13 @@ pub(crate) enum Step {
     StorePair(Id, Id, u32),
 }
 
+impl Step {
+    /// Whether the step stores results.
+    fn is_store(self) -> bool {
+        matches!(self, Step::Store(..) | Step::StorePair(..))
+    }
+}
+
 /// The number of numbers in a wide value.
 pub(crate) const WIDE: usize = 4;
 

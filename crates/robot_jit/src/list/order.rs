@@ -35,7 +35,7 @@ pub(crate) fn operands(step: Step) -> impl Iterator<Item = Id> {
 pub(crate) fn needed(list: &List) -> Vec<bool> {
     let mut needed = vec![false; list.steps.len()];
     for (position, step) in list.steps.iter().enumerate().rev() {
-        needed[position] |= matches!(step, Step::Store(..) | Step::StorePair(..));
+        needed[position] |= step.is_store();
         if needed[position] {
             operands(*step).for_each(|value| needed[value.index()] = true);
         }
@@ -74,7 +74,7 @@ impl List {
         let mut done = vec![false; self.steps.len()];
         let (mut order, mut pending) = (vec![], vec![]);
         for (position, step) in self.steps.iter().enumerate() {
-            if matches!(step, Step::Store(..) | Step::StorePair(..)) {
+            if step.is_store() {
                 pending.push(position);
             }
             while let Some(top) = pending.last().copied() {

@@ -52,14 +52,14 @@ pub fn motion_figure(
 pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {
         let curve = |(name, series): (&str, &Vec<Vec<f64>>)| Curve {
-            name: if name == "coriolis" { "Coriolis".to_owned() } else { name.to_owned() },
+            name: name.to_owned(),
             values: entries(series, index),
             is_sum: name == "total",
         };
         Panel {
             quantity: name(JointVariable::Torque, Some(index)),
             unit: JointVariable::Torque.unit(kind).to_owned(),
-            curves: contributions.named().into_iter().map(curve).collect(),
+            curves: contributions.titled().into_iter().map(curve).collect(),
         }
     };
     let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind).enumerate();

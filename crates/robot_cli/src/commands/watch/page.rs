@@ -5,11 +5,10 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use robot_build::{Errors, Options, Output, Ownership, Source, Writer, shown};
-use robot_report::{Compiled, Input, Reloading, reloading};
+use robot_report::{Compiled, Reloading, reloading};
 
-use crate::commands::report::compare_with_solver;
+use crate::commands::report::input;
 use crate::failure::Failure;
-use crate::robot::PRINT_SNAP;
 
 /// A page that reloads itself, and the picture next to it that triggers the reload.
 pub(super) struct Page {
@@ -51,15 +50,7 @@ impl Page {
         let reason = "the page was made without a compiler, because `watch` wrote it.".to_owned();
         let compiled = Compiled::Unread { reason };
         // A page that reloads itself would lose the positions of its sliders.
-        let live = false;
-        reloading(&Input {
-            source,
-            options,
-            snap: PRINT_SNAP,
-            compiled: &compiled,
-            compare: compare_with_solver,
-            live,
-        })
+        reloading(&input(source, options, &compiled, false))
     }
 
     /// Describes the file at the path if a page cannot be made.

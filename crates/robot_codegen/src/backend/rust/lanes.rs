@@ -216,18 +216,10 @@ impl Methods<'_, '_> {
             let length = Literal::usize_unsuffixed(*length);
             parse_quote!(let #name = &[0.0; #length];)
         });
-        let (arguments, unused): (Vec<&Ident>, Vec<Stmt>) = (arguments.collect(), unused.collect());
-        let loops = stores.iter().map(|stores| -> Stmt {
-            parse_quote! {
-                for lane in 0..#lanes {
-                    #(#states)*
-                    #(#unused)*
-                    let result = self.#method(#(#arguments),*);
-                    #(#stores)*
-                }
-            }
-        });
-        loops.collect()
+        let mut computes = states;
+        computes.extend(unused);
+        computes.push(parse_quote!(let result = self.#method(#(#arguments),*);));
+        loop_each(lanes, &computes, stores)
     }
 
     /// Prints the whole function in one loop for each group of stores; a loop does not compute what it does not store.
@@ -243,19 +235,11 @@ impl Methods<'_, '_> {
         let (method, circular) = (self.arithmetic_method(), self.number.circular_each());
         let (s, c) = (&slices.variables.sines, &slices.variables.cosines);
         let inputs = slices.variables.chosen(&used_inputs(self.function, &self.function.core));
-        let lanes = &slices.lanes;
-        let loops = stores.iter().map(|stores| -> Stmt {
-            parse_quote! {
-                for lane in 0..#lanes {
-                    #(#states)*
-                    #(#takes)*
-                    let (#s, #c) = #circular(#angles);
-                    let result = self.#method(&#s, &#c, #(#inputs),*);
-                    #(#stores)*
-                }
-            }
-        });
-        loops.collect()
+        let mut computes = states;
+        computes.extend(takes);
+        computes.push(parse_quote!(let (#s, #c) = #circular(#angles);));
+        computes.push(parse_quote!(let result = self.#method(&#s, &#c, #(#inputs),*);));
+        loop_each(&slices.lanes, &computes, stores)
     }
 
     /// Prints two loops. Sines and cosines of the standard library have a loop of their own, because they are calls,
@@ -315,4 +299,11 @@ impl Methods<'_, '_> {
         };
         vec![stores.map(store).collect()]
     }
+}
+
+/// Prints a loop over the states of a block for each group of stores: the statements that compute `result`, then the stores.
+fn loop_each(lanes: &Literal, computes: &[Stmt], stores: &[Vec<Stmt>]) -> Vec<Stmt> {
+    let over_lanes =
+        |stores: &Vec<Stmt>| parse_quote!(for lane in 0..#lanes { #(#computes)* #(#stores)* });
+    stores.iter().map(over_lanes).collect()
 }
