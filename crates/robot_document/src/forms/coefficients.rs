@@ -8,7 +8,9 @@ use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 use super::compact::definitions;
 use super::definitions::Root;
 use super::naming::named_length;
-use super::{Equation, Group, Writer, aliases, generalized_force, letters, references, shapes};
+use super::{
+    Equation, Group, Writer, aliases, generalized_force, letters, numbers, references, shapes,
+};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -49,8 +51,8 @@ impl<'g> Coefficient<'g> {
         Coefficient { name: shapes::indexed_name(letter, numbers), shape, value }
     }
 
-    fn root(&self) -> Root<'g> {
-        Root { name: self.name.clone(), look: self.shape.clone(), value: self.value }
+    fn root(&self, value: Expr<'g>) -> Root<'g> {
+        Root { name: self.name.clone(), look: self.shape.clone(), value }
     }
 }
 
@@ -118,13 +120,13 @@ pub(super) fn limit<'g>(
     if writer.options.references {
         references::refer(writer, sections, &mut printed);
     }
-    let coefficients = || sections.iter().flat_map(|section| &section.coefficients);
+    let values = with_decimals(writer, sections);
     let total = |most: usize| {
         let (mut written, mut named) = (0, vec![]);
-        for (coefficient, shown) in coefficients().zip(printed.iter().flatten()) {
+        for (value, shown) in values.iter().zip(printed.iter().flatten()) {
             match shown {
                 Shown::Short { terms, .. } if length(terms) <= most => written += length(terms),
-                Shown::Short { .. } | Shown::Long { .. } => named.push(coefficient.value),
+                Shown::Short { .. } | Shown::Long { .. } => named.push(*value),
                 Shown::Zero | Shown::Earlier => {}
             }
         }
@@ -141,6 +143,12 @@ pub(super) fn limit<'g>(
             *shown = Shown::Long { value: Some(value.clone()) };
         }
     }
+}
+
+/// The values of all coefficients as they are divided into named parts: long numbers with roots are decimals.
+fn with_decimals<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Expr<'g>> {
+    let values: Vec<Expr<'g>> = all(sections).map(|coefficient| coefficient.value).collect();
+    numbers::with_decimals(&values, writer.graph)
 }
 
 /// The joint torques as sums of products of named coefficients, and the definitions of these. Short coefficients are
@@ -215,20 +223,24 @@ pub(super) fn definitions_of<'g>(
     sections: &[Section<'g>],
     shown: &[Vec<Shown<'g>>],
 ) -> Result<Vec<Group>, Error> {
-    let is_long = |(section, shown): (&Section<'g>, &Vec<Shown<'g>>)| {
-        let long = section.coefficients.iter().zip(shown);
-        let long =
-            long.filter(|(_, shown)| !section.by_symbols && matches!(shown, Shown::Long { .. }));
-        long.map(|(coefficient, _)| coefficient.root()).collect::<Vec<_>>()
-    };
-    let long: Vec<Root<'g>> = sections.iter().zip(shown).flat_map(is_long).collect();
+    let values = with_decimals(writer, sections);
+    let by_symbols = sections
+        .iter()
+        .flat_map(|section| std::iter::repeat_n(section.by_symbols, section.coefficients.len()));
+    let long = all(sections).zip(&values).zip(shown.iter().flatten()).zip(by_symbols);
+    let long =
+        long.filter(|((_, shown), by_symbols)| !by_symbols && matches!(shown, Shown::Long { .. }));
+    let long: Vec<Root<'g>> =
+        long.map(|(((coefficient, value), _), _)| coefficient.root(*value)).collect();
     let target = Graph::new();
     let (mut groups, named) = definitions(writer, long, &target)?;
     let defined = groups.iter().flat_map(|group| &group.equations);
     let defined: Vec<String> = defined.map(|equation| equation.name.clone()).collect();
+    let mut values = values.into_iter();
     for (section, shown) in sections.iter().zip(shown) {
         let mut equations = vec![];
-        for (coefficient, shown) in section.coefficients.iter().zip(shown) {
+        for ((coefficient, shown), value) in section.coefficients.iter().zip(shown).zip(&mut values)
+        {
             let (name, left) = (coefficient.name.clone(), coefficient.shape.clone());
             equations.push(match shown {
                 Shown::Zero | Shown::Earlier => continue,
@@ -237,9 +249,7 @@ pub(super) fn definitions_of<'g>(
                 Shown::Long { .. } if section.by_symbols => {
                     writer.of_expression(name, left, coefficient.value)?
                 }
-                Shown::Long { .. } => {
-                    writer.of_expression(name, left, named.rewritten(coefficient.value))?
-                }
+                Shown::Long { .. } => writer.of_expression(name, left, named.rewritten(value))?,
             });
         }
         groups.push(Group::of_definitions(section.title, equations));

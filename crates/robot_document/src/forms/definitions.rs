@@ -312,7 +312,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
 }
 
 /// Returns the expression without minus signs before it.
-fn positive(mut expr: Expr<'_>) -> Expr<'_> {
+pub(super) fn positive(mut expr: Expr<'_>) -> Expr<'_> {
     while let View::Neg(inside) = expr.view() {
         expr = inside;
     }

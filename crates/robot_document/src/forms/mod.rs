@@ -13,6 +13,7 @@ mod letters;
 mod loads;
 mod matrices;
 mod naming;
+mod numbers;
 mod options;
 pub(crate) mod paper;
 mod parts;
@@ -33,7 +34,7 @@ use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
 use robot_model::snap;
 use robot_model::variable::JointVariable;
-use robot_symbolic::collected::{Collector, ParallelAngles};
+use robot_symbolic::collected::{Collector, ParallelAngles, length};
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
 
@@ -357,7 +358,16 @@ impl<'g> Writer<'_, 'g> {
     /// angles that make it shortest.
     ///
     /// In the form [`Form::Collected`], the parts of whole quantities are collected separately.
+    /// Long numbers with roots become decimals if that is shorter.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
+        let exact = self.collected_exactly(value);
+        match numbers::without_functions(value).map(|value| self.collected_exactly(&value)) {
+            Some(decimal) if length(&decimal) < length(&exact) => decimal,
+            _ => exact,
+        }
+    }
+
+    fn collected_exactly(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
         let factors = !self.options.expand && self.options.form != Form::Expanded;
         if !factors && self.parallel.is_empty() {
             return value.arranged(|atom| self.order.rank(atom));

@@ -1,5 +1,7 @@
 //! The recursive form: the paper's iterations link by link, with each quantity in terms of earlier ones.
 
+use robot_dynamics::mechanism::Mechanism;
+use robot_dynamics::newton_euler::newton_euler;
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
@@ -7,19 +9,21 @@ use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions, View};
 use rustc_hash::FxHashSet;
 
 use super::compact::{definitions, tidy};
-use super::definitions::Root;
+use super::definitions::{Root, positive};
 use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
-use super::{Cell, Equation, Group, Writer, generalized_force, shapes};
+use super::{Cell, Equation, Group, Writer, generalized_force, numbers, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let effects = Effects { wrench: true, friction: writer.options.friction };
-    let iterations = writer.iterations(effects);
+    let mut mechanism = writer.derivation().mechanism;
+    numbers::write_as_decimals(&mut mechanism);
+    let iterations = newton_euler(&mechanism, effects);
     let target = Graph::new();
-    let (mut groups, mut named) = link_values(writer, &target)?;
+    let (mut groups, mut named) = link_values(writer, &mechanism, &target)?;
     let mut printed = FxHashSet::default();
     for (index, motion) in iterations.motions.iter().enumerate() {
         let number = index + 1;
@@ -56,9 +60,9 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
 /// symbol.
 fn link_values<'h>(
     writer: &mut Writer<'_, '_>,
+    mechanism: &Mechanism<'_>,
     target: &'h Graph,
 ) -> Result<(Vec<Group>, Named<'h>), Error> {
-    let mechanism = writer.derivation().mechanism;
     let letter = writer.symbols.free_letter(&candidates::LINK_MASS);
     let mut link_values: Vec<(String, Math, Expr<'_>)> = vec![];
     for (link, number) in mechanism.links.iter().zip(1..) {
@@ -75,12 +79,16 @@ fn link_values<'h>(
         }
     }
     let digits = writer.options.digits;
-    link_values.retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(*value, digits));
+    link_values
+        .retain(|(_, _, value)| !is_leaf(*value) || is_long_constant(positive(*value), digits));
     let mut roots = vec![];
     for (name, shape, value) in &link_values {
         writer.define(name, shape.clone())?;
         roots.push(Root { name: name.clone(), look: shape.clone(), value: *value });
     }
+    // Numbers do not depend on each other.
+    let is_plain = link_values.iter().all(|(_, _, value)| is_leaf(*value));
+    let order: Vec<String> = link_values.iter().map(|(name, _, _)| name.clone()).collect();
     let (groups, mut named) = definitions(writer, roots, target)?;
     let mut all: Vec<Equation> = groups.into_iter().flat_map(|group| group.equations).collect();
     for (name, left, expr) in link_values {
@@ -89,6 +97,9 @@ fn link_values<'h>(
             all.push(tidy(writer, name.clone(), left, value)?);
             named.name(expr, &name);
         }
+    }
+    if is_plain {
+        all.sort_by_key(|equation| order.iter().position(|name| *name == equation.name));
     }
     Ok((vec![Group::of_definitions("Parameters of the links", all)], named))
 }

@@ -1,0 +1,209 @@
+//! Long numbers with roots, such as `0.007735484874 - 0.00365 √2`, which are printed as one decimal.
+
+use std::collections::BTreeMap;
+
+use robot_dynamics::mechanism::Mechanism;
+use robot_symbolic::{
+    Expr, Function, Graph, Id, Number, Polynomial, PolynomialOptions, Rational, View, walk,
+};
+use rustc_hash::FxHashMap;
+
+/// The largest number of digits of a number that stays in a sum with roots, as in `1 + √2`. People do not write longer
+/// ones.
+const MOST_DIGITS: usize = 6;
+
+/// A part of an expression that contains no symbol.
+#[derive(Clone, Copy)]
+struct Constant {
+    value: f64,
+    /// Whether it contains a function of a number, such as √2 or sin(0.3).
+    has_function: bool,
+    /// The number of sums in it.
+    sums: usize,
+    /// The largest number of digits of a number in it.
+    digits: usize,
+}
+
+impl Constant {
+    /// Whether the constant is printed as a decimal.
+    fn is_decimal(&self) -> bool {
+        let is_long = self.digits > MOST_DIGITS || self.sums > 1;
+        self.has_function && self.sums > 0 && is_long && self.value.is_finite()
+    }
+}
+
+/// Replaces the parts of expressions that are long sums with functions of numbers by the nearest doubles.
+pub(super) fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
+    let mut constants: FxHashMap<Id, Constant> = FxHashMap::default();
+    for expr in walk::reachable(roots) {
+        if let Some(constant) = constant(expr, &constants) {
+            constants.insert(expr.id(), constant);
+        }
+    }
+    if !constants.values().any(Constant::is_decimal) {
+        return roots.to_vec();
+    }
+    walk::rebuild_above(roots, graph, |part| {
+        let constant = constants.get(&part.id()).filter(|constant| constant.is_decimal())?;
+        // The same constant in two forms has the same decimal.
+        let exact = Polynomial::of(part, &PolynomialOptions::default()).ok();
+        let value = exact.map_or(constant.value, |exact| exact.evaluate(|_| f64::NAN));
+        Some(graph.number(decimal(value)?))
+    })
+}
+
+/// Writes the long numbers with functions in the masses, centers of mass and inertia tensors of links as decimals.
+pub(super) fn write_as_decimals(mechanism: &mut Mechanism<'_>) {
+    for link in &mut mechanism.links {
+        let own = std::iter::once(&mut link.mass).chain(&mut link.center_of_mass.0);
+        for value in own.chain(link.inertia.0.iter_mut().flatten()) {
+            let decimal = with_decimals(&[*value], value.graph());
+            *value = decimal.first().copied().unwrap_or(*value);
+        }
+    }
+}
+
+/// The properties of an expression without symbols, from those of its operands.
+fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant> {
+    if let View::Number(number) = expr.view() {
+        let (value, digits) = (number.to_f64(), digits(&number));
+        return Some(Constant { value, has_function: false, sums: 0, digits });
+    }
+    let operands: Option<Vec<Constant>> =
+        expr.operands().iter().map(|operand| known.get(&operand.id()).copied()).collect();
+    let operands = operands?;
+    let value = match (expr.view(), operands.as_slice()) {
+        (View::Neg(_), [a]) => -a.value,
+        (View::Add(..), [a, b]) => a.value + b.value,
+        (View::Sub(..), [a, b]) => a.value - b.value,
+        (View::Mul(..), [a, b]) => a.value * b.value,
+        (View::Div(..), [a, b]) => a.value / b.value,
+        (View::Call(function, _), [a]) => function.apply(a.value),
+        _ => return None,
+    };
+    let is_sum = matches!(expr.view(), View::Add(..) | View::Sub(..));
+    let has_function = matches!(expr.view(), View::Call(..));
+    Some(Constant {
+        value,
+        has_function: has_function || operands.iter().any(|one| one.has_function),
+        sums: usize::from(is_sum) + operands.iter().map(|one| one.sums).sum::<usize>(),
+        digits: operands.iter().map(|one| one.digits).max().unwrap_or_default(),
+    })
+}
+
+/// The number of significant digits of a decimal.
+fn digits(number: &Number) -> usize {
+    let text = format!("{:e}", number.to_f64().abs());
+    text.chars().take_while(|c| *c != 'e').filter(char::is_ascii_digit).count()
+}
+
+/// The shortest decimal that is read as the double.
+fn decimal(value: f64) -> Option<Number> {
+    Rational::from_decimal(&format!("{value:e}")).map(Number::Rational)
+}
+
+/// Writes functions of numbers as decimals in all terms if some coefficient of a product of symbols is a sum of such
+/// functions and long numbers; `None` if there is none.
+pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial<'g>> {
+    let graph = value.graph();
+    let is_of_number = |atom: Id| {
+        matches!(graph.expr(atom).view(), View::Call(Function::Sqrt | Function::Sin | Function::Cos, argument)
+            if matches!(argument.view(), View::Number(_)))
+    };
+    let mut coefficients: BTreeMap<Vec<(Id, i32)>, Constant> = BTreeMap::new();
+    for (monomial, number) in value.terms() {
+        let (mut has_function, mut key) = (false, vec![]);
+        for factor in monomial.factors() {
+            match is_of_number(factor.atom()) {
+                true => has_function = true,
+                false => key.push((factor.atom(), factor.exponent())),
+            }
+        }
+        let digits = digits(number);
+        let new = Constant { value: 0.0, has_function, sums: 0, digits };
+        coefficients
+            .entry(key)
+            .and_modify(|known| {
+                known.has_function |= has_function;
+                known.sums += 1;
+                known.digits = known.digits.max(digits);
+            })
+            .or_insert(new);
+    }
+    if !coefficients.values().any(Constant::is_decimal) {
+        return None;
+    }
+    let sum = value.terms().fold(graph.zero(), |sum, (monomial, number)| {
+        let factors = monomial.factors().iter().map(|factor| {
+            let atom = graph.expr(factor.atom());
+            let number = is_of_number(factor.atom()).then(|| decimal(atom.evaluate(|_| f64::NAN)));
+            number.flatten().map_or(atom, |number| graph.number(number)).powi(factor.exponent())
+        });
+        sum + factors.fold(graph.number(number.clone()), |product, factor| product * factor)
+    });
+    Polynomial::of(sum, &PolynomialOptions::default()).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn decimals(text: &str) -> String {
+        let graph = Graph::new();
+        let parsed = graph.parse(text).unwrap();
+        let [written] = with_decimals(&[parsed], &graph)[..] else { panic!("one expression") };
+        robot_symbolic::print::to_text(written).unwrap()
+    }
+
+    #[test]
+    fn long_numbers_with_roots_are_one_decimal() {
+        let value = 0.007_735_484_874 - 0.003_65 * 2.0_f64.sqrt();
+        let expected = format!("{value}*sin(q1)");
+        assert_eq!(decimals("(0.007735484874 - 0.00365*sqrt(2))*sin(q1)"), expected);
+        let negative = format!("-{expected}");
+        assert_eq!(decimals("(0.00365*sqrt(2) - 0.007735484874)*sin(q1)"), negative);
+        // Several short numbers are long together.
+        let value = (1.0 + 2.0_f64.sqrt()) * (0.5 - 3.0_f64.sqrt());
+        let shown: f64 = decimals("(1 + sqrt(2))*(0.5 - sqrt(3)) + q1")
+            .split_whitespace()
+            .find_map(|word| word.parse().ok())
+            .unwrap();
+        assert!((shown.abs() - value.abs()).abs() < 1e-15, "{shown}, {value}");
+    }
+
+    #[test]
+    fn short_numbers_products_and_parameters_stay() {
+        for text in [
+            "(1 + sqrt(2))*sin(q1)",
+            "0.007735484874*sqrt(2)*sin(q1)",
+            "0.007735484874*sin(q1) + sqrt(2)*l1",
+            "(0.007735484874 + l1*sqrt(2))*sin(q1)",
+        ] {
+            let graph = Graph::new();
+            let parsed = graph.parse(text).unwrap();
+            assert_eq!(with_decimals(&[parsed], &graph), [parsed], "{text}");
+        }
+    }
+
+    #[test]
+    fn terms_have_decimals_if_a_coefficient_is_a_long_sum_with_roots() {
+        let graph = Graph::new();
+        let polynomial = |text: &str| {
+            Polynomial::of(graph.parse(text).unwrap(), &PolynomialOptions::default()).unwrap()
+        };
+        let mixed = polynomial("0.0005*sqrt(2)*(sin(q1) - cos(q1)) - 0.001672482662*sin(q1)");
+        let written = without_functions(&mixed).unwrap();
+        assert_eq!(written.len(), 2);
+        for q1 in [0.3, -1.7] {
+            let [exact, decimal] = [&mixed, &written].map(|it| it.evaluate(|_| q1));
+            assert!((exact - decimal).abs() < 1e-17, "{exact}, {decimal}");
+        }
+        for text in [
+            "0.0005*sqrt(2)*(sin(q1) - cos(q1)) - 0.001672482662*sin(q1)*cos(q1)",
+            "(1 + sqrt(2))*sin(q1) + 0.001672482662*cos(q1)",
+            "0.001672482662*l1 + 0.5*l1*l2",
+        ] {
+            assert!(without_functions(&polynomial(text)).is_none(), "{text}");
+        }
+    }
+}
