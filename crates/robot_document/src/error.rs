@@ -60,6 +60,15 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// A letter that was chosen for the torques, the mass matrix, the velocity terms or the gravity terms is a symbol of
+    /// the robot.
+    #[error(
+        "the letter {letter} is a symbol of this robot; choose another letter for the equations"
+    )]
+    TakenLetter {
+        /// The letter.
+        letter: String,
+    },
     /// Two symbols are printed in the same way.
     #[error(
         "`{name}` and `{other}` are both printed as {latex}; give one of them another `latex` in \

@@ -6,8 +6,9 @@ use robot_model::diagnostic::Source;
 use crate::driver::programs::Programs;
 use crate::error::Errors;
 
-/// Entries of inputs, used in turn: short decimals of either sign.
-const ENTRIES: [f64; 8] = [0.3, -0.5, 0.7, -0.2, 0.9, -0.4, 0.6, -0.8];
+/// Entries of inputs, used in turn: short decimals of either sign. No sum of up to five successive ones with any signs is
+/// near a multiple of π/2, so that no sine or cosine of a sum of joint angles is 0 or 1 at the stated state.
+const ENTRIES: [f64; 8] = [0.53, 0.31, 0.78, -0.64, -0.21, 1.05, -1.19, 0.79];
 /// Values for parameters without nominal values, used in turn.
 const PARAMETERS: [f64; 5] = [1.5, 0.8, 1.2, 0.6, 1.1];
 
@@ -81,4 +82,25 @@ fn stated_inputs(programs: &Programs, function: &str) -> Vec<(String, Vec<f64>)>
         (input.name.clone(), entries.collect())
     });
     inputs.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_sum_of_successive_entries_is_a_special_angle() {
+        for start in 0..ENTRIES.len() {
+            for signs in 0..16_u32 {
+                let mut sum = 0.0;
+                for count in 0..5 {
+                    let entry = ENTRIES[(start + count) % ENTRIES.len()];
+                    let negative = count > 0 && signs >> (count - 1) & 1 == 1;
+                    sum += if negative { -entry } else { entry };
+                    let quarters = sum / std::f64::consts::FRAC_PI_2;
+                    assert!((quarters - quarters.round()).abs() > 0.02, "{start} {count} {signs}");
+                }
+            }
+        }
+    }
 }

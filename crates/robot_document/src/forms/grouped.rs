@@ -55,8 +55,10 @@ fn terms<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = (Term, &'s
 
 fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
     let rates = match writer.options.christoffel {
-        true => "Christoffel symbols of the first kind",
-        false => "coefficients of the products of joint velocities",
+        true => "Christoffel symbols of the first kind for the Coriolis and centrifugal terms",
+        false => {
+            "Coriolis and centrifugal terms or the coefficients of the velocity products in them"
+        }
     };
     let equal = match is_united {
         true => {
@@ -65,9 +67,9 @@ fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
         false => "",
     };
     format!(
-        "These are the coefficients of the accelerations (the entries of the symmetric mass matrix), the {rates} \
-         for the Coriolis and centrifugal terms, and the gravity terms. They depend only on the coordinates; those \
-         that are zero have no equation of their own.{equal}"
+        "These are the entries of the symmetric mass matrix, which multiply the accelerations, the {rates}, and the \
+         gravity terms. Entries and coefficients depend only on the coordinates; those that are zero have no \
+         equation of their own.{equal}"
     )
 }
 
@@ -104,7 +106,7 @@ fn velocities<'g>(
     let christoffel = writer.options.christoffel;
     let (letters, title) = match christoffel {
         true => (&candidates::CHRISTOFFEL, "Christoffel symbols"),
-        false => (&candidates::VELOCITY, "Coriolis and centrifugal coefficients"),
+        false => (&candidates::VELOCITY, "Coriolis and centrifugal terms"),
     };
     let letter = writer.letter(writer.options.letters.velocity.as_deref(), letters);
     let graph = writer.graph;

@@ -5,6 +5,7 @@ use robot_model::signs;
 use robot_model::variable::JointVariable;
 
 use super::{Equation, Writer};
+use crate::error::Error;
 use crate::math::{Math, Script};
 
 /// Letters of what the forms define, the preferred one first: the first that no symbol of the robot has is taken.
@@ -103,9 +104,27 @@ pub(super) fn character(name: &str) -> char {
 }
 
 impl Writer<'_, '_> {
-    /// The letter that is given, or one that no symbol has.
+    /// The letter that is given, or one that no symbol has. A letter of the gravity terms may also be that of the
+    /// acceleration of gravity, as usual.
     pub(super) fn letter(&self, given: Option<&str>, candidates: &[&'static str]) -> String {
-        given.unwrap_or_else(|| self.symbols.free_letter(candidates)).to_owned()
+        let free = || match candidates == candidates::GRAVITY {
+            true => self.symbols.free_letter(candidates),
+            false => self.symbols.free_letter_alone(candidates),
+        };
+        given.map_or_else(|| free().to_owned(), str::to_owned)
+    }
+
+    /// Returns an error if a given letter is a symbol of the robot.
+    pub(super) fn check_letters(&self) -> Result<(), Error> {
+        let Letters { torque, mass, velocity, gravity } = &self.options.letters;
+        let [usual, ..] = candidates::GRAVITY;
+        let gravity = gravity.as_ref().filter(|letter| *letter != usual);
+        let given = [torque.as_ref(), mass.as_ref(), velocity.as_ref(), gravity];
+        let is_symbol = |letter: &&String| self.symbols.is_symbol(letter);
+        match given.into_iter().flatten().find(is_symbol) {
+            Some(letter) => Err(Error::TakenLetter { letter: letter.clone() }),
+            None => Ok(()),
+        }
     }
 
     /// Gives the joint torques their letter.

@@ -40,13 +40,7 @@ pub(super) fn wrenches<'g>(
             *value += slope * component;
         }
     }
-    single(
-        writer,
-        "Wrenches of the tips",
-        writer.symbols.free_letter(&candidates::WRENCH),
-        values,
-        sums,
-    )
+    single(writer, "Wrenches of the tips", &writer.letter(None, &candidates::WRENCH), values, sums)
 }
 
 /// One coefficient for each joint torque.
@@ -83,7 +77,7 @@ pub(super) fn frictions<'g>(
     if !writer.options.friction {
         return vec![];
     }
-    let (joints, values) = friction_contributions(writer, part);
+    let (mut joints, values) = friction_contributions(writer, part);
     let mut contributions = Section { title, by_symbols: true, coefficients: vec![] };
     for (index, (value, sum)) in values.into_iter().zip(sums).enumerate() {
         if !value.is_zero() {
@@ -96,6 +90,13 @@ pub(super) fn frictions<'g>(
             contributions.coefficients.push(Coefficient { name, shape, value });
         }
     }
+    // Friction does not depend on all components of a joint force.
+    let values: Vec<Expr<'g>> =
+        contributions.coefficients.iter().map(|coefficient| coefficient.value).collect();
+    let used = walk::symbols(&values);
+    joints
+        .coefficients
+        .retain(|force| used.iter().any(|symbol| writer.graph.symbol_name(*symbol) == force.name));
     vec![joints, contributions]
 }
 

@@ -228,6 +228,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
     }
+    writer.check_letters()?;
     let groups = match options.form {
         Form::Expanded | Form::Collected => expanded::groups(&mut writer),
         Form::Grouped => grouped::groups(&mut writer),

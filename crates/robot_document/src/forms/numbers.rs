@@ -1,4 +1,4 @@
-//! Long numbers with roots, such as `0.007735484874 - 0.00365 √2`, which are printed as one decimal.
+//! Long numbers with roots or sines, such as `0.007735484874 - 0.00365 √2`, which are printed as one decimal.
 
 use std::collections::BTreeMap;
 
@@ -18,6 +18,8 @@ struct Constant {
     value: f64,
     /// Whether it contains a function of a number, such as √2 or sin(0.3).
     has_function: bool,
+    /// The number of sines, cosines and other functions except roots in it.
+    angles: usize,
     /// The number of sums in it.
     sums: usize,
     /// The largest number of digits of a number in it.
@@ -27,8 +29,9 @@ struct Constant {
 impl Constant {
     /// Whether the constant is printed as a decimal.
     fn is_decimal(&self) -> bool {
-        let is_long = self.digits > MOST_DIGITS || self.sums > 1;
-        self.has_function && self.sums > 0 && is_long && self.value.is_finite()
+        let is_long = self.digits > MOST_DIGITS || self.sums > 1 || self.angles > 1;
+        let is_product = self.sums == 0 && self.angles < 2;
+        self.has_function && is_long && !is_product && self.value.is_finite()
     }
 }
 
@@ -67,7 +70,7 @@ pub(super) fn write_as_decimals(mechanism: &mut Mechanism<'_>) {
 fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant> {
     if let View::Number(number) = expr.view() {
         let (value, digits) = (number.to_f64(), digits(&number));
-        return Some(Constant { value, has_function: false, sums: 0, digits });
+        return Some(Constant { value, has_function: false, angles: 0, sums: 0, digits });
     }
     let operands: Option<Vec<Constant>> =
         expr.operands().iter().map(|operand| known.get(&operand.id()).copied()).collect();
@@ -83,9 +86,11 @@ fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant>
     };
     let is_sum = matches!(expr.view(), View::Add(..) | View::Sub(..));
     let has_function = matches!(expr.view(), View::Call(..));
+    let is_angle = has_function && !matches!(expr.view(), View::Call(Function::Sqrt, _));
     Some(Constant {
         value,
         has_function: has_function || operands.iter().any(|one| one.has_function),
+        angles: usize::from(is_angle) + operands.iter().map(|one| one.angles).sum::<usize>(),
         sums: usize::from(is_sum) + operands.iter().map(|one| one.sums).sum::<usize>(),
         digits: operands.iter().map(|one| one.digits).max().unwrap_or_default(),
     })
@@ -112,19 +117,24 @@ pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial
     };
     let mut coefficients: BTreeMap<Vec<(Id, i32)>, Constant> = BTreeMap::new();
     for (monomial, number) in value.terms() {
-        let (mut has_function, mut key) = (false, vec![]);
+        let (mut has_function, mut angles, mut key) = (false, 0, vec![]);
         for factor in monomial.factors() {
             match is_of_number(factor.atom()) {
-                true => has_function = true,
+                true => {
+                    has_function = true;
+                    let view = graph.expr(factor.atom()).view();
+                    angles += usize::from(!matches!(view, View::Call(Function::Sqrt, _)));
+                }
                 false => key.push((factor.atom(), factor.exponent())),
             }
         }
         let digits = digits(number);
-        let new = Constant { value: 0.0, has_function, sums: 0, digits };
+        let new = Constant { value: 0.0, has_function, angles, sums: 0, digits };
         coefficients
             .entry(key)
             .and_modify(|known| {
                 known.has_function |= has_function;
+                known.angles += angles;
                 known.sums += 1;
                 known.digits = known.digits.max(digits);
             })
@@ -162,6 +172,8 @@ mod tests {
         assert_eq!(decimals("(0.007735484874 - 0.00365*sqrt(2))*sin(q1)"), expected);
         let negative = format!("-{expected}");
         assert_eq!(decimals("(0.00365*sqrt(2) - 0.007735484874)*sin(q1)"), negative);
+        let value = 0.1_f64.sin() * 0.3_f64.sin();
+        assert_eq!(decimals("sin(0.1)*sin(0.3)*l1"), format!("{value}*l1"));
         // Several short numbers are long together.
         let value = (1.0 + 2.0_f64.sqrt()) * (0.5 - 3.0_f64.sqrt());
         let shown: f64 = decimals("(1 + sqrt(2))*(0.5 - sqrt(3)) + q1")
@@ -178,6 +190,7 @@ mod tests {
             "0.007735484874*sqrt(2)*sin(q1)",
             "0.007735484874*sin(q1) + sqrt(2)*l1",
             "(0.007735484874 + l1*sqrt(2))*sin(q1)",
+            "1.962*cos(0.3)*cos(q2)",
         ] {
             let graph = Graph::new();
             let parsed = graph.parse(text).unwrap();

@@ -124,21 +124,37 @@ impl SymbolTable {
     /// the last candidate if all are used. An index such as x in M_x cannot be mistaken for that of M_12.
     #[must_use]
     pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {
-        let taken = |letter: &str| {
-            let is_number = |tail: &str| {
-                tail.trim_start_matches(['_', '{']).starts_with(|c: char| c.is_ascii_digit())
-            };
-            let sine = self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c");
-            sine || self.entries.iter().any(|(name, Entry { latex, .. })| {
-                let tail = name.strip_prefix(letter);
-                tail.is_some_and(is_number)
-                    || latex.strip_prefix(letter).is_some_and(|tail| {
-                        tail.starts_with('^') || tail.starts_with('_') && is_number(tail)
-                    })
-            })
-        };
-        let free = candidates.iter().find(|letter| !taken(letter));
+        let free = candidates.iter().find(|letter| !self.is_taken(letter));
         free.or(candidates.last()).copied().unwrap_or("x")
+    }
+
+    /// Returns the first candidate that no symbol uses with a number as its first index, and that is not itself a
+    /// symbol: a letter for a matrix or column, which is also printed without indices.
+    #[must_use]
+    pub fn free_letter_alone(&self, candidates: &[&'static str]) -> &'static str {
+        let is_free = |letter: &str| !self.is_taken(letter) && !self.is_symbol(letter);
+        let free = candidates.iter().find(|letter| is_free(letter));
+        free.copied().unwrap_or_else(|| self.free_letter(candidates))
+    }
+
+    /// Whether a letter is the name or the layout of a symbol.
+    #[must_use]
+    pub fn is_symbol(&self, letter: &str) -> bool {
+        self.entries.iter().any(|(name, entry)| name == letter || entry.latex == letter)
+    }
+
+    fn is_taken(&self, letter: &str) -> bool {
+        let is_number = |tail: &str| {
+            tail.trim_start_matches(['_', '{']).starts_with(|c: char| c.is_ascii_digit())
+        };
+        let sine = self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c");
+        sine || self.entries.iter().any(|(name, Entry { latex, .. })| {
+            let tail = name.strip_prefix(letter);
+            tail.is_some_and(is_number)
+                || latex.strip_prefix(letter).is_some_and(|tail| {
+                    tail.starts_with('^') || tail.starts_with('_') && is_number(tail)
+                })
+        })
     }
 
     /// The layout of a symbol; if the table does not contain it, the layout follows from its name.

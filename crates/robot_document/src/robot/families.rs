@@ -160,10 +160,10 @@ fn of_vector(group: &Group, part: &Equations, name: &str, letters: &Letters) -> 
 fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Option<Cell> {
     let text = match (group.title.as_str(), family) {
         ("Standard parameters" | "Base parameters", _) => return None,
-        ("Coriolis and centrifugal coefficients", _) if numbers == 3 => {
+        ("Coriolis and centrifugal terms", _) if numbers == 3 => {
             return Some(product(letters));
         }
-        ("Coriolis and centrifugal coefficients", _) => "Coriolis and centrifugal term of joint i",
+        ("Coriolis and centrifugal terms", _) => "Coriolis and centrifugal term of joint i",
         ("Mass matrix", _) => "entry of the mass matrix",
         ("Christoffel symbols", _) if numbers == 2 => {
             "entry of the matrix of the Coriolis and centrifugal terms"

@@ -17,6 +17,9 @@ pub struct Page {
     pub width: f64,
 }
 
+/// The width of A4, and the least margin beside text that is wider than usual, in cm.
+const A4: f64 = 21.0;
+const MARGIN: f64 = 1.0;
 /// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
 /// The struts that separate the first row from a rule above it, and the last row from one below.
@@ -67,9 +70,13 @@ impl Writer {
     fn head(&mut self, document: &Document) {
         let columns = if self.page.columns > 1 { ",twocolumn" } else { "" };
         let width = self.page.text_width();
+        let paper = match width + 2.0 * MARGIN > A4 {
+            true => format!("paperwidth={:.3}cm,paperheight=29.7cm", width + 2.0 * MARGIN),
+            false => "a4paper".to_owned(),
+        };
         self.line(&format!("\\documentclass[10pt,fleqn{columns}]{{article}}"));
         self.line(&format!(
-            "\\usepackage[a4paper,textwidth={width:.3}cm,textheight=24cm,columnsep={GAP}cm]{{geometry}}"
+            "\\usepackage[{paper},textwidth={width:.3}cm,textheight=24cm,columnsep={GAP}cm]{{geometry}}"
         ));
         self.line("\\usepackage{amsmath}");
         if document.blocks.iter().any(|block| matches!(block, Block::Figure(_))) {
