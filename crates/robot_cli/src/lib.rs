@@ -73,8 +73,8 @@ struct Cli {
 
 /// The streams of a command.
 pub struct Terminal<'a> {
-    /// Standard input.
-    pub input: &'a mut dyn Read,
+    /// Standard input, which can be read by a thread of its own.
+    pub input: &'a mut (dyn Read + Send),
     /// Standard output.
     pub output: &'a mut dyn Write,
     /// Standard error.
@@ -92,7 +92,7 @@ impl Terminal<'_> {
     fn without_input<'t>(
         &'t mut self,
         nothing: &'t mut std::io::Empty,
-    ) -> (&'t mut dyn Read, Terminal<'t>) {
+    ) -> (&'t mut (dyn Read + Send), Terminal<'t>) {
         let (output, errors) = (&mut *self.output, &mut *self.errors);
         let Terminal { colors, progress, screen, .. } = *self;
         (&mut *self.input, Terminal { input: nothing, output, errors, colors, progress, screen })

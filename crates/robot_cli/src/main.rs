@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let (mut input, mut output, mut errors) =
-        (std::io::stdin().lock(), std::io::stdout().lock(), std::io::stderr().lock());
+        (std::io::stdin(), std::io::stdout().lock(), std::io::stderr().lock());
     let is_terminal = std::io::stderr().is_terminal();
     let no_color = std::env::var_os("NO_COLOR");
     let screen = std::io::stdout().is_terminal().then(|| robot_cli::Screen {

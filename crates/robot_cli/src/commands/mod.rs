@@ -12,6 +12,7 @@ mod eval;
 mod generate;
 mod import;
 mod init;
+mod lsp;
 mod man;
 mod package;
 mod prove;
@@ -73,6 +74,8 @@ pub(crate) enum Command {
     Watch(watch::Arguments),
     /// Print the JSON schema of robot files, for editors
     Schema(schema::Arguments),
+    /// Show errors and likely mistakes in an editor while robot files are written
+    Lsp(lsp::Arguments),
     /// Show the contents of a robot file
     Show(show::Arguments),
     /// Print a completion script for a shell
@@ -114,6 +117,7 @@ impl Command {
             Command::Diff(arguments) => arguments.run(terminal),
             Command::Watch(arguments) => arguments.run(terminal),
             Command::Schema(arguments) => arguments.run(terminal),
+            Command::Lsp(arguments) => arguments.run(terminal),
             Command::Show(arguments) => arguments.run(terminal),
             Command::Completions(arguments) => arguments.run(terminal),
             Command::Man(arguments) => arguments.run(terminal),

@@ -26,9 +26,9 @@ fn example(command: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Marks of examples that are not run, because they need other programs, targets that may not be installed, or a
-/// browser.
-const ELSEWHERE: [&str; 3] = ["cargo ", "--target", "--open"];
+/// Marks of examples that are not run, because they need other programs, targets that may not be installed, a browser
+/// or an editor.
+const ELSEWHERE: [&str; 4] = ["cargo ", "--target", "--open", " lsp "];
 
 #[test]
 fn the_examples_of_every_command_run() {

@@ -17,6 +17,7 @@ mod functions;
 mod help;
 mod interrupted;
 mod json_schema;
+mod lsp;
 mod outputs;
 mod paper;
 mod people;

@@ -1,18 +1,18 @@
 //! Long inputs of `eval` and `torques`: how much is in memory, and what remains after an error near the end.
 
-use std::cell::Cell;
 use std::fs;
 use std::io::{Read, Write};
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 use crate::{complaint, folder, output, output_beside_files, robot, run, run_with};
 
 /// The numbers of lines that have been read and printed.
 #[derive(Default)]
 struct Lines {
-    read: Cell<usize>,
-    printed: Cell<usize>,
+    read: AtomicUsize,
+    printed: AtomicUsize,
     /// The largest number of lines that were read but not yet printed.
-    behind: Cell<usize>,
+    behind: AtomicUsize,
 }
 
 /// A header and lines of states, which are made when they are read.
@@ -24,15 +24,15 @@ struct States<'l> {
 
 impl Read for States<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let read = self.lines.read.get();
+        let read = self.lines.read.load(Relaxed);
         if self.waiting.is_empty() && read <= self.count {
             self.waiting = match read {
                 0 => b"q1,q2\n".to_vec(),
                 _ => format!("0.{read},-1.{read}\n").into_bytes(),
             };
-            self.lines.read.set(read + 1);
-            let behind = (read + 1).saturating_sub(self.lines.printed.get());
-            self.lines.behind.set(self.lines.behind.get().max(behind));
+            self.lines.read.store(read + 1, Relaxed);
+            let behind = (read + 1).saturating_sub(self.lines.printed.load(Relaxed));
+            self.lines.behind.fetch_max(behind, Relaxed);
         }
         let length = self.waiting.len().min(buffer.len());
         buffer[..length].copy_from_slice(&self.waiting[..length]);
@@ -47,7 +47,7 @@ struct Printed<'l>(&'l Lines);
 impl Write for Printed<'_> {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
         let lines = bytes.iter().filter(|byte| **byte == b'\n').count();
-        self.0.printed.set(self.0.printed.get() + lines);
+        self.0.printed.fetch_add(lines, Relaxed);
         Ok(bytes.len())
     }
 
@@ -80,9 +80,9 @@ fn few_states_are_in_memory() {
         screen: None,
     };
     assert_eq!(robot_cli::run(arguments, &mut terminal), 0);
-    assert_eq!((lines.read.get(), lines.printed.get()), (count + 1, count + 1));
+    assert_eq!((lines.read.load(Relaxed), lines.printed.load(Relaxed)), (count + 1, count + 1));
     // At most a block of states, 64 KiB of input and 64 KiB of output are in memory.
-    assert!(lines.behind.get() < 8000, "{}", lines.behind.get());
+    assert!(lines.behind.load(Relaxed) < 8000, "{}", lines.behind.load(Relaxed));
 }
 
 /// Many states, of which the last is invalid.

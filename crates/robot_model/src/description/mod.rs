@@ -26,6 +26,7 @@ mod joint;
 mod latex;
 mod link;
 mod locations;
+pub mod meaning;
 mod mimic;
 mod names;
 mod options;

@@ -1,23 +1,23 @@
 //! `check`: errors and likely mistakes in robot files.
 
+mod examination;
 mod json;
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use robot_build::{Error, RobotFile};
-use robot_check::doctor::{self, Examination};
-use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, code};
+use robot_check::doctor::Examination;
+use robot_model::diagnostic::{Severity, Style, code};
 
 use crate::Terminal;
 use crate::delivery::answered;
-use crate::failure::{Failure, in_command_words};
+use crate::failure::Failure;
 use crate::format::Format;
 use crate::options::in_flags;
-use crate::plan::is_of_pin;
-use crate::reading::ReadingArguments;
 use crate::suggested::CODE;
-use crate::text;
+pub(super) use examination::ExaminationArguments;
+use examination::unknown;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -41,15 +41,11 @@ pub(crate) struct Arguments {
     /// Fail on warnings too
     #[arg(long, value_enum)]
     deny: Option<Deny>,
-    /// Hide warnings and notes with these codes
-    #[arg(long, value_name = "CODE", value_delimiter = ',', value_parser = CODE,
-          hide_possible_values = true)]
-    allow: Vec<String>,
+    #[command(flatten)]
+    examination: ExaminationArguments,
     /// Show the page of a code
     #[arg(long, value_name = "CODE", exclusive = true, value_parser = CODE, hide_possible_values = true)]
     explain: Option<String>,
-    #[command(flatten)]
-    reading: ReadingArguments,
 }
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
@@ -72,15 +68,7 @@ impl Arguments {
         if let Some(wanted) = &self.explain {
             return explain(wanted, terminal);
         }
-        let wrong: Vec<String> = self
-            .allow
-            .iter()
-            .filter(|code| code::page(code).is_none())
-            .map(|code| unknown(code))
-            .collect();
-        if !wrong.is_empty() {
-            return Err(Failure::Usage(wrong));
-        }
+        self.examination.check()?;
         let reports: Vec<Report> = self.files.iter().map(|file| self.report(file)).collect();
         match self.format {
             Format::Text => {
@@ -96,51 +84,21 @@ impl Arguments {
     }
 
     fn report(&self, path: &std::path::Path) -> Report {
-        let options = self.reading.options().reading();
-        let examination = match RobotFile::read(path) {
-            Ok(file) => {
-                let examination = doctor::check(&file.source.name, &file.source.text, &options);
-                with_pin(examination, &file)
-            }
+        match RobotFile::read(path) {
+            Ok(file) => Report::Examined(self.examination.of_file(&file)),
             Err(errors) => match errors.as_slice() {
                 // The bytes are not text.
-                [Error::Robot(found)] => Examination::refused((**found).clone()),
+                [Error::Robot(found)] => Report::Examined(
+                    self.examination.wanted(Examination::refused((**found).clone())),
+                ),
                 others => {
                     let file = path.to_string_lossy().into_owned();
                     let reasons: Vec<String> = others.iter().map(ToString::to_string).collect();
-                    return Report::Unread { file, reason: reasons.join("; ") };
+                    Report::Unread { file, reason: reasons.join("; ") }
                 }
             },
-        };
-        let Examination { found, choices } = examination;
-        Report::Examined(Examination { found: self.wanted(&found), choices: self.wanted(&choices) })
+        }
     }
-
-    /// Removes warnings that the command line allows; errors always stay.
-    fn wanted(&self, found: &Diagnostics) -> Diagnostics {
-        let wanted = found.iter().filter(|one| {
-            one.severity == Severity::Error || self.allow.iter().all(|code| code != one.code)
-        });
-        Diagnostics::new(found.source().clone(), wanted.cloned().collect())
-    }
-}
-
-/// Adds a warning if builds would reject the pinned plan of the file.
-fn with_pin(examination: Examination, file: &RobotFile) -> Examination {
-    let Err(errors) = file.with_pin(&robot_build::Options::default()) else { return examination };
-    if !is_of_pin(&errors) {
-        // Errors of the file itself have already been found.
-        return examination;
-    }
-    let Examination { found, choices } = examination;
-    let pins = errors.as_slice().iter().map(|error| {
-        Diagnostic::warning(code::PIN, in_command_words(error)).help(
-            "until then, no code is generated from the file, and other commands search for a \
-             plan at each call",
-        )
-    });
-    let list = found.iter().cloned().chain(pins).collect();
-    Examination { found: Diagnostics::new(found.source().clone(), list), choices }
 }
 
 impl Report {
@@ -178,11 +136,6 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         writeln!(terminal.errors, "{}", in_flags(found.render(style).trim_end()))?;
     }
     Ok(())
-}
-
-fn unknown(wanted: &str) -> String {
-    let known: Vec<&str> = code::TABLE.iter().map(|(code, _)| *code).collect();
-    text::unknown("code", wanted, &known)
 }
 
 fn explain(wanted: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
