@@ -204,6 +204,24 @@ fn tables_have_headings_and_drawings_have_names() {
     }
 }
 
+/// Without scripts there is no search; with them, its field has a name and its count is read out.
+#[test]
+fn the_search_field_is_hidden_until_the_script_shows_it() {
+    let page = page_of("planar_2r");
+    let document = parsed(&page);
+    let with_role = |role: &'static str| {
+        document.descendants().filter(move |node| node.attribute("role") == Some(role))
+    };
+    let [search] = with_role("search").collect::<Vec<_>>()[..] else { panic!("not one search") };
+    assert_eq!(search.attribute("hidden"), Some("hidden"));
+    let named =
+        |name: &'static str| search.descendants().filter(move |node| node.has_tag_name(name));
+    assert_eq!((named("input").count(), named("button").count()), (1, 2));
+    assert!(named("input").chain(named("button")).all(|one| one.attribute("aria-label").is_some()));
+    assert!(with_role("status").any(|count| count.parent() == Some(search)));
+    assert!(search.ancestors().any(|node| node.has_tag_name("nav")), "nav is not printed");
+}
+
 /// The terms of an equation of a page, given by the tokens that they refer to.
 fn terms(page: &str, equation: &str) -> Vec<String> {
     let document = parsed(page);
