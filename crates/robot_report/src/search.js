@@ -64,7 +64,11 @@
     }
     at = (to + hits.length) % hits.length;
     const { one, folded } = hits[at] ?? {};
-    if (folded) { open(folded); go(at); return; }
+    if (folded) {
+      open(folded);
+      if (!folded.isConnected) go(at);
+      return;
+    }
     // The smallest elements with the text are marked.
     const mark = (element, isNow) => {
       const inside = [...element.children].filter((child) => wanted.test(flat(child)));
