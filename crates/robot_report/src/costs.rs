@@ -2,11 +2,38 @@
 
 use robot_build::ablation::Ablation;
 use robot_codegen::{Counts, Module};
-use robot_document::markup::{Element, holding};
+use robot_document::markup::{Element, element, holding};
 
 use crate::table::Table;
 
 const COLUMNS: [&str; 6] = ["×", "+ −", "÷", "√", "sin, cos", "× + ÷ together"];
+
+/// The operations of one function in a sentence.
+pub(crate) fn summary(module: &Module, function: &str) -> Option<Element> {
+    let Counts { mul, add, div, sqrt, sin, cos, .. } =
+        module.counts(module.function(function)?).call;
+    let counts = [
+        (mul, "multiplication"),
+        (add, "addition"),
+        (div, "division"),
+        (sqrt, "square root"),
+        (sin + cos, "sine or cosine"),
+    ];
+    let counts =
+        counts.into_iter().filter(|(count, _)| *count > 0).map(|(count, name)| match name {
+            _ if count == 1 => format!("1 {name}"),
+            "sine or cosine" => format!("{count} sines and cosines"),
+            _ => format!("{count} {name}s"),
+        });
+    let counts: Vec<String> = counts.collect();
+    let listed = match counts.split_last() {
+        None => "no operation".to_owned(),
+        Some((only, [])) => only.clone(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+    };
+    let code = holding("code", function);
+    Some(element("p").with("A call of ").with(code).with(format!(" takes {listed}.")))
+}
 
 /// The operations of each function, per call and once per set of parameters.
 pub(crate) fn functions(module: &Module) -> Element {

@@ -35,6 +35,7 @@ use robot_dynamics::mechanism::{self, Snap};
 use robot_model::robot::Robot;
 use robot_model::snap;
 
+use folded::folded;
 use formula::Symbols;
 use live::{Live, live};
 use page::{Section, page};
@@ -237,7 +238,8 @@ fn structure(robot: &Robot) -> Section {
 fn costs(input: &Input<'_>, programs: &Programs, notes: [Option<String>; 2]) -> Section {
     let functions = Functions::Chosen(vec![FUNCTION]);
     let options = match ablation(input.source, &Options { functions, ..input.options.clone() }) {
-        Ok(found) => costs::options(&found, FUNCTION.name()),
+        Ok(found) => costs::options(&found, FUNCTION.name())
+            .map(|table| folded("Savings of each option and pass", [table])),
         Err(errors) => {
             let words = format!("The savings of the options are not shown: {errors}");
             Some(holding("p", words).class("note"))
@@ -245,10 +247,12 @@ fn costs(input: &Input<'_>, programs: &Programs, notes: [Option<String>; 2]) -> 
     };
     let [lacking, omitted] = notes.map(|note| note.map(|note| holding("p", note).class("note")));
     let parts = [
+        costs::summary(&programs.module, FUNCTION.name()),
         lacking,
         omitted,
-        Some(costs::functions(&programs.module)),
-        costs::passes(&programs.module, FUNCTION.name()),
+        Some(folded("Operations of each function", [costs::functions(&programs.module)])),
+        costs::passes(&programs.module, FUNCTION.name())
+            .map(|table| folded("Operations after each stage of the compiler", [table])),
         options,
     ];
     let body = parts.into_iter().flatten().map(Node::from).collect();

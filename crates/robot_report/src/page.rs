@@ -11,7 +11,7 @@ use crate::live::{self, Live};
 use crate::reload::Stamp;
 
 const STYLE: &str = include_str!("style.css");
-const SCRIPT: &str = include_str!("script.js");
+const SCRIPT: &str = concat!(include_str!("script.js"), include_str!("search.js"));
 /// The script that reloads the page.
 const RELOAD: &str = include_str!("reload.js");
 
@@ -41,8 +41,10 @@ pub(crate) fn page(
     let entry = holding("li", holding("a", "Live").attribute("href", "#live"));
     let entry = live.map(|_| entry.attribute("data-live", "").attribute("hidden", "hidden"));
     let contents = entry.into_iter().chain(contents);
-    let contents =
-        element("nav").attribute("aria-label", "Contents").with(element("ol").with_all(contents));
+    let contents = element("nav")
+        .attribute("aria-label", "Contents")
+        .with(element("ol").with_all(contents))
+        .with(search());
     let main = sections.into_iter().map(|section| {
         let heading = format!("{}-heading", section.id);
         element("section")
@@ -124,6 +126,37 @@ fn header(robot: &Robot) -> Element {
         Some(words) => header.with(holding("p", words.as_str())),
         None => header,
     }
+}
+
+/// The field that searches the page; the script shows it.
+fn search() -> Element {
+    let button = |sign: &'static str, step: &'static str, name: &'static str| {
+        holding("button", sign)
+            .attribute("type", "button")
+            .attribute("value", step)
+            .attribute("aria-label", name)
+            .attribute("title", name)
+    };
+    let field = element("input")
+        .attribute("type", "search")
+        .attribute("aria-label", "Search the page: symbol, link, joint, parameter or word")
+        .attribute("placeholder", "Search: l_4, gravity, …")
+        .attribute(
+            "title",
+            "Press / to search, Enter and Shift+Enter to move between hits, Escape to clear",
+        )
+        .attribute("enterkeyhint", "search")
+        .attribute("autocapitalize", "none")
+        .attribute("autocomplete", "off")
+        .attribute("spellcheck", "false");
+    element("div")
+        .class("search")
+        .attribute("role", "search")
+        .attribute("hidden", "hidden")
+        .with(field)
+        .with(element("span").attribute("role", "status"))
+        .with(button("‹", "-1", "Previous hit"))
+        .with(button("›", "1", "Next hit"))
 }
 
 fn footer() -> Element {

@@ -145,7 +145,7 @@ fn grid(caption: &str, rows: &[Vec<Entry>]) -> Element {
     });
     let table = element("table")
         .class("grid")
-        .with(holding("caption", caption))
+        .with(holding("caption", holding("span", caption)))
         .with(holding("thead", title))
         .with(element("tbody").with_all(rows));
     element("div")

@@ -16,7 +16,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     let columns = ["Link", "Parent", "Joint", "Type", "Axis", "Pose at q = 0", "Limits"];
     let caption = "Links and joints. A pose is a sequence of displacements in the parent frame, \
         each in the frame reached by the preceding ones; lengths in m, angles in rad.";
-    let mut table = Table::new(caption, columns);
+    let mut table = Table::stacked(caption, columns);
     for (index, row) in rows::links(robot).enumerate() {
         let LinkRow { link, parent, kind, limits, .. } = &row;
         let limits = limits.map(|limits| limits.each_ref().map(Rational::to_f64));
@@ -41,7 +41,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
 pub(crate) fn frames(robot: &Robot) -> Option<Element> {
     let caption = "Frames. A tip exerts the wrench with these components on its surroundings; \
         the external wrench, which acts on the tip, is its negative.";
-    let mut table = Table::new(caption, ["Frame", "Fixed to", "Pose", "Wrench"]);
+    let mut table = Table::stacked(caption, ["Frame", "Fixed to", "Pose", "Wrench"]);
     for FrameRow { frame, link, wrench } in rows::frames(robot) {
         let pose = text::pose(robot, &frame.placement);
         let cells = [link.to_owned(), pose, wrench.unwrap_or_default()];
@@ -57,7 +57,7 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     let columns = columns.into_iter().chain(Inertia::NAMES);
     let caption = "Masses and moments of inertia, kg·m². The moments are about the center of \
         mass, in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
-    let mut table = Table::new(caption, columns);
+    let mut table = Table::stacked(caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
         for Body { name, mass, placement, inertia } in &link.bodies {
             let place = match text::pose(robot, placement) {
@@ -76,7 +76,8 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
 /// The table of parameters with their values and units; `None` if there are none.
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols in the equations, fields of the generated code.";
-    let mut table = Table::new(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
+    let mut table =
+        Table::stacked(caption, ["Name", "Symbol", "Value", "Unit", "Meaning", "Used by"]);
     for ParameterRow { parameter, value, unit, meaning } in rows::parameters(robot) {
         let name = &parameter.name;
         let links = parts::links_of_parameter(robot, name).into_iter();

@@ -204,6 +204,75 @@ fn tables_have_headings_and_drawings_have_names() {
     }
 }
 
+/// Without scripts there is no search; with them, its field has a name and its count is read out.
+#[test]
+fn the_search_field_is_hidden_until_the_script_shows_it() {
+    let page = page_of("planar_2r");
+    let document = parsed(&page);
+    let with_role = |role: &'static str| {
+        document.descendants().filter(move |node| node.attribute("role") == Some(role))
+    };
+    let [search] = with_role("search").collect::<Vec<_>>()[..] else { panic!("not one search") };
+    assert_eq!(search.attribute("hidden"), Some("hidden"));
+    let named =
+        |name: &'static str| search.descendants().filter(move |node| node.has_tag_name(name));
+    assert_eq!((named("input").count(), named("button").count()), (1, 2));
+    assert!(named("input").chain(named("button")).all(|one| one.attribute("aria-label").is_some()));
+    assert!(with_role("status").any(|count| count.parent() == Some(search)));
+    assert!(search.ancestors().any(|node| node.has_tag_name("nav")), "nav is not printed");
+}
+
+/// One sentence says what a call costs; the tables about it are folded.
+#[test]
+fn the_tables_of_operations_are_folded() {
+    let page = page_of("trttr1");
+    let document = parsed(&page);
+    let costs = document.descendants().find(|node| node.attribute("id") == Some("costs")).unwrap();
+    let tables: Vec<_> = costs.descendants().filter(|node| node.has_tag_name("table")).collect();
+    assert_eq!(tables.len(), 3);
+    let is_shown = |table: &Node<'_, '_>| loaded(&document).any(|node| node == *table);
+    assert!(!tables.iter().any(is_shown));
+    let summary = costs.children().find(|node| node.has_tag_name("p")).unwrap();
+    let texts = summary.descendants().filter(Node::is_text).filter_map(|node| node.text());
+    let words: String = texts.collect();
+    // The same numbers are in the row of the function.
+    let rows = tables.iter().flat_map(Node::descendants).filter(|node| node.has_tag_name("tr"));
+    let mut rows = rows.map(|row| {
+        let texts = row.descendants().filter(Node::is_text);
+        texts.filter_map(|node| node.text()).collect::<Vec<_>>()
+    });
+    let row = rows.find(|row| row.first() == Some(&"inverse_dynamics")).unwrap();
+    let numbers: Vec<&str> = row.into_iter().filter(|text| text.parse::<usize>().is_ok()).collect();
+    let takes = format!("takes {} multiplications, {} additions", numbers[0], numbers[1]);
+    assert!(words.starts_with(&format!("A call of inverse_dynamics {takes}")), "{words}");
+}
+
+/// On phones, each value of a wide table follows the name of its column.
+#[test]
+fn values_of_wide_tables_have_the_names_of_their_columns() {
+    let page = page_of("trttr1");
+    let document = parsed(&page);
+    let stacked = document.descendants().filter(|node| node.attribute("class") == Some("stacked"));
+    let stacked: Vec<_> = stacked.collect();
+    assert_eq!(stacked.len(), 4);
+    for table in stacked {
+        let named =
+            |name: &'static str| table.descendants().filter(move |node| node.has_tag_name(name));
+        let columns: Vec<_> = named("thead")
+            .flat_map(|head| head.descendants())
+            .filter(|node| node.has_tag_name("th"))
+            .map(|column| column.text())
+            .skip(1)
+            .collect();
+        let rows = named("tbody").flat_map(|body| body.children());
+        for row in rows.filter(|node| node.has_tag_name("tr")) {
+            let cells = row.children().filter(|node| node.has_tag_name("td"));
+            let names: Vec<_> = cells.map(|cell| cell.attribute("data-name")).collect();
+            assert_eq!(names, columns);
+        }
+    }
+}
+
 /// The terms of an equation of a page, given by the tokens that they refer to.
 fn terms(page: &str, equation: &str) -> Vec<String> {
     let document = parsed(page);
