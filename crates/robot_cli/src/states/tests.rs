@@ -124,8 +124,9 @@ impl std::io::Read for Slow<'_> {
 fn read_slowly(bytes: &[u8], most: usize) -> std::result::Result<Collected, String> {
     let (layout, mut collected) = (layout(), Collected::default());
     let mut source = Slow { bytes, most };
-    let mut input = Input::open(Path::new("-"), &mut source).map_err(|error| error.to_string())?;
-    input.read(layout, &mut collected).map_err(|error| error.to_string())?;
+    let mut input =
+        Input::open(Path::new("-"), &mut source).map_err(|error| format!("{error:?}"))?;
+    input.read(layout, &mut collected).map_err(|error| format!("{error:?}"))?;
     Ok(collected)
 }
 

@@ -2,6 +2,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use robot_build::{Options, RobotFile, Source, Writer, pin_path, pin_text};
+use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::LinkPlan;
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
