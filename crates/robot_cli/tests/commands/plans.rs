@@ -218,16 +218,16 @@ fn without_a_pin_code_has_the_form_that_a_search_finds() {
     let arm = unpinned("plans_without", "stanford");
     let file = robot_build::RobotFile::read(arm.as_ref()).unwrap();
     let default = robot_build::generate(&file.source, &robot_build::Options::default()).unwrap();
-    let commands = [&["generate", &arm][..], &["generate", &arm, "--fused"], &["stats", &arm]];
+    let commands = [&["generate", &arm][..], &["generate", &arm, "--fused"]];
     let before = commands.map(|arguments| output(arguments, ""));
     assert_ne!(before[0], default.code);
     let eval = ["eval", &arm, "--function", "inverse_dynamics", "--states", "-"];
     let states =
         "[{\"q\": [1, 1, 1, 1, 1, 1], \"qd\": [1, 1, 1, 1, 1, 1], \"qdd\": [1, 1, 1, 1, 1, 1]}]";
     let torques = crate::run_with(&eval, states.as_bytes()).output;
+    assert!(torques.contains("inverse_dynamics"), "{torques}");
     output(&["search", &arm], "");
     assert_eq!(output(commands[0], ""), before[0]);
-    assert_eq!(output(commands[2], ""), before[2]);
     assert_eq!(crate::run_with(&eval, states.as_bytes()).output, torques);
     output(&["search", &arm, "--fused"], "");
     assert_eq!(output(commands[1], ""), before[1]);
