@@ -153,7 +153,9 @@ fn what_is_not_text_is_refused_however_it_comes() {
                 Ok(Collected { errors, .. }) => errors.join(" "),
                 Err(error) => error,
             };
-            assert!(found.contains("UTF-8"), "{wrong:?}, {most}: {found}");
+            let place = format!("from index {}", start.len());
+            assert!(found.contains("is not UTF-8"), "{wrong:?}, {most}: {found}");
+            assert!(found.ends_with(&place), "{wrong:?}, {most}: {found}");
         }
     }
 }
