@@ -129,10 +129,8 @@ mod tests {
             assert!(plot_path(name).is_err_and(|error| error.contains(".svg or .png")), "{name}");
         }
         let figure = Figure { t: vec![0.0, 1.0], ..Figure::default() };
-        let starts = [("a.svg", &b"<svg"[..]), ("a.png", b"\x89PNG")];
-        for (name, start) in starts {
-            let bytes = picture(Path::new(name), &figure).unwrap();
-            assert!(bytes.starts_with(start), "{name}");
-        }
+        let bytes = |name| picture(Path::new(name), &figure).unwrap();
+        assert!(String::from_utf8(bytes("a.svg")).unwrap().contains("<svg "));
+        assert!(bytes("a.png").starts_with(b"\x89PNG"));
     }
 }
