@@ -5,7 +5,8 @@
 use std::path::{Path, PathBuf};
 
 use robot_build::{
-    Functions, Options, RobotFile, Source, Trigonometry, generate, package, programs,
+    Commands, Functions, OPTIONS, OptionSpec, Options, RobotFile, Source, Trigonometry, generate,
+    package, programs,
 };
 
 fn robot_files() -> Vec<PathBuf> {
@@ -108,4 +109,29 @@ fn hostile_text_stays_text() {
             assert!(!line.contains("```"), "{line}");
         }
     }
+}
+
+/// Each option of code changes the module, and the options of the table are set apart from each other.
+#[test]
+fn every_option_of_code_reaches_the_module() {
+    const QUADRUPED: &str = include_str!("../../../tests/fixtures/limbs/quadruped.toml");
+    let source = Source { name: "quadruped.toml".to_owned(), text: QUADRUPED.to_owned() };
+    let batches = Options { batch: Some(8), ..Options::default() };
+    let plain = generate(&source, &Options::default()).unwrap().code;
+    let plain_batches = generate(&source, &batches).unwrap().code;
+    let mut codes = vec![plain.clone(), plain_batches.clone()];
+    let is_of_code =
+        |option: &&OptionSpec| matches!(option.commands, Commands::Code | Commands::Module);
+    for option in OPTIONS.iter().filter(is_of_code) {
+        let example = if option.name == "runtime" { "\"crate::rt\"" } else { option.example };
+        // Functions and bundles are in tests of their own.
+        let Some(value) = option.value(example) else { continue };
+        let mut options =
+            if option.requires.is_some() { batches.clone() } else { Options::default() };
+        option.set(&mut options, value).unwrap();
+        let code = generate(&source, &options).unwrap().code;
+        assert!(!codes.contains(&code), "{}", option.name);
+        codes.push(code);
+    }
+    assert_eq!(codes.len(), 2 + 8);
 }

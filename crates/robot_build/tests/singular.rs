@@ -236,3 +236,68 @@ fn a_joint_without_mass_is_the_reason() {
     let found = robot_build::programs(&source, &options).unwrap_err().to_string();
     assert!(found.contains("the mass matrix is singular"), "{found}");
 }
+
+/// Two arms, each of which is a wrist; `q2` and `q5` are their tilts.
+fn two_wrists() -> Robot {
+    let (start, links) = WRIST.split_once("[[link]]").unwrap();
+    let links = format!("[[link]]{links}");
+    let other = ["roll", "tilt", "hand"].iter().fold(links.clone(), |text, name| {
+        text.replace(&format!("\"{name}\""), &format!("\"other_{name}\""))
+    });
+    let other =
+        other.replacen("name = \"other_roll\"", "name = \"other_roll\"\nparent = \"base\"", 1);
+    let source = Source { name: "two.toml".to_owned(), text: format!("{start}{links}{other}") };
+    robot_build::read(&source).unwrap().robot
+}
+
+/// The decomposition starts with the last row, so of equal pivots the last is named.
+#[test]
+fn the_smallest_pivot_is_named() {
+    let robot = two_wrists();
+    let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
+    let at = |q2: f64, q5: f64| pivots.smallest(&[0.3, q2, 0.4, 0.3, q5, 0.4]).unwrap();
+    let joint = |q2, q5| at(q2, q5).unwrap().joint;
+    let [first, last] = [0, 3].map(|index| robot.coordinates[index].joint.clone());
+    assert_ne!(first, last);
+    assert_eq!(at(1.0, 1.0), None);
+    assert_eq!([joint(1e-5, 1.0), joint(1.0, 1e-5)], [first.clone(), last.clone()]);
+    assert_eq!([joint(1e-6, 1e-5), joint(1e-5, 1e-6)], [first, last.clone()]);
+    assert_eq!(joint(0.0, 0.0), last);
+    // Sums are rounded in different orders in the two arms, so that only some pivots are exactly equal.
+    let part = |q2, q5| at(q2, q5).unwrap().part;
+    let tilts = (1..200).map(|index| 1e-7 * f64::from(index));
+    let equal: Vec<f64> = tilts.filter(|tilt| part(*tilt, 1.0) == part(1.0, *tilt)).collect();
+    assert!(equal.len() > 5, "{equal:?}");
+    for tilt in equal {
+        assert_eq!(joint(tilt, tilt), last, "{tilt}");
+    }
+}
+
+/// A module lists the other functions of its robot; functions that solve with the mass matrix are not among them if it
+/// is always singular.
+#[test]
+fn a_module_lists_what_else_the_robot_has() {
+    let idle = format!(
+        "{WRIST}\n[[link]]\nname = \"idle\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\nmassless = true\n"
+    );
+    let mass_matrix = || Functions::Chosen(vec![FunctionKind::MassMatrix]);
+    for (text, solves) in [(WRIST, true), (&idle, false), (PENDULUM, true)] {
+        let source = Source { name: "wrist.toml".to_owned(), text: text.to_owned() };
+        for functions in [Functions::Usual, mass_matrix()] {
+            let has_matrix = functions == mass_matrix();
+            let options = Options { functions, ..Options::default() };
+            let code = robot_build::generate(&source, &options).unwrap().code;
+            let lists = |name: &str| {
+                let start = code.find("Also available").unwrap();
+                let end = code[start..].find("pub mod").unwrap();
+                code[start..start + end].contains(&format!("`{name}`"))
+            };
+            for name in ["forward_dynamics", "forward_dynamics_derivatives"] {
+                assert_eq!(lists(name), solves, "{name} of {}", source.text);
+            }
+            assert_eq!(lists("mass_matrix"), !has_matrix);
+            assert_eq!(lists("inverse_dynamics"), has_matrix);
+            assert!(lists("forward_kinematics"));
+        }
+    }
+}

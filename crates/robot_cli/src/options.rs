@@ -178,4 +178,40 @@ mod tests {
         assert_eq!(found.batch, Some(robot_build::DEFAULT_BATCH));
         assert!(<Arguments as clap::Parser>::try_parse_from(["name", "--parallel"]).is_err());
     }
+
+    #[test]
+    fn arguments_take_the_words_of_the_table_and_no_others() {
+        for option in OPTIONS {
+            assert_eq!(
+                (help(option.name), value_name(option.name)),
+                (option.help, option.value_name)
+            );
+            let argument = Arg::new("one").long("one").value_parser(choice(option.name));
+            let command = Command::new("name").arg(argument);
+            let parsed = |word: &str| {
+                let found = command.clone().try_get_matches_from(["name", "--one", word]).ok()?;
+                found.get_one::<String>("one").cloned()
+            };
+            let words = if let Kind::Choice(words) = option.kind { words } else { &[] };
+            for (word, _) in words {
+                assert_eq!(parsed(word).as_deref(), Some(*word), "{}", option.name);
+            }
+            for other in ["", "other", "true", option.example] {
+                assert_eq!(parsed(other), None, "{}", option.name);
+            }
+        }
+        assert_eq!((help("none"), value_name("none")), ("", ""));
+    }
+
+    #[test]
+    fn messages_name_flags() {
+        for option in OPTIONS {
+            let message = in_flags(&format!("use the option `{}` here", option.name));
+            assert_eq!(message, format!("use `{}` here", option.flag()));
+        }
+        for (words, flag) in OTHERS {
+            assert_eq!(in_flags(&format!("Please {words}.")), format!("Please {flag}."));
+        }
+        assert_eq!(in_flags("the option `none`"), "the option `none`");
+    }
 }

@@ -87,3 +87,50 @@ fn picture(path: &Path, figure: &Figure) -> Result<Vec<u8>, Failure> {
     let is_svg = path.extension().is_some_and(|extension| extension == "svg");
     Ok(if is_svg { figure.svg()?.into_bytes() } else { figure.png()? })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tables_of_motions_are_recognized_and_others_are_not() {
+        let motion = "t,q1,q2,qd1,qd2,tau1,tau2,kinetic,potential,energy";
+        let torques = "t,tau1,tau2,inertia1,inertia2,coriolis1,coriolis2,gravity1,gravity2";
+        let single = ["t,q1,qd1,kinetic,potential,energy", "t,tau1,inertia1,coriolis1,gravity1"];
+        for header in [motion, torques].into_iter().chain(single) {
+            assert!(is_header(header), "{header}");
+            assert!(!is_header(&header[1..]) && !is_header(&format!(" {header}")), "{header}");
+        }
+        for other in [
+            "",
+            "t,q1,q2,qd1,qd2,qdd1,qdd2",
+            "a,q1,kinetic,potential,energy",
+            "t,kinetic,potential,energy",
+            "t,q1,kinetic,potential,energy,note",
+            "t,tau1,tau2",
+            "t,tau1,inertia1,coriolis1",
+            "t,tau1,coriolis1,gravity1",
+            "t,inertia1,gravity1",
+            "a,tau1,inertia1,gravity1",
+            // Half of one and half of the other.
+            "t,q1,inertia1,gravity1",
+            "t,tau1,kinetic,potential,energy",
+        ] {
+            assert!(!is_header(other), "{other}");
+        }
+    }
+
+    #[test]
+    fn pictures_are_svg_or_png() {
+        for name in ["a.svg", "a.png", "b/a.b.svg"] {
+            assert_eq!(plot_path(name), Ok(PathBuf::from(name)));
+        }
+        for name in ["a", "svg", "a.pdf", "a.svg.txt", "a.SVG", ""] {
+            assert!(plot_path(name).is_err_and(|error| error.contains(".svg or .png")), "{name}");
+        }
+        let figure = Figure { t: vec![0.0, 1.0], ..Figure::default() };
+        let bytes = |name| picture(Path::new(name), &figure).unwrap();
+        assert!(String::from_utf8(bytes("a.svg")).unwrap().contains("<svg "));
+        assert!(bytes("a.png").starts_with(b"\x89PNG"));
+    }
+}

@@ -214,6 +214,29 @@ mod tests {
     }
 
     #[test]
+    fn lists_are_broken_after_commas_at_the_last_column_that_fits() {
+        assert_eq!(list("names", &[]), "names:\n");
+        assert_eq!(list("names", &["a"]), "names: a\n");
+        assert_eq!(list("names", &["a", "b", "c"]), "names: a, b, c\n");
+        // The second name ends in the last column, or one after it; characters are counted, not bytes.
+        for (length, breaks) in [(COLUMNS - 11, false), (COLUMNS - 10, true)] {
+            let long = "ä".repeat(length);
+            let names = ["ab", &long];
+            let between = if breaks { "\n    " } else { " " };
+            assert_eq!(list("names", &names), format!("names: ab,{between}{long}\n"), "{length}");
+            // With a comma behind it, the name is a character longer.
+            let shown = list("names", &["ab", &long[2..], "c"]);
+            assert!(shown.starts_with(&format!("names: ab,{between}{},", &long[2..])), "{shown}");
+        }
+        // All lines are as full as they can be.
+        let words = ["word"; 100];
+        for line in list("t", &words).lines() {
+            assert!(line.chars().count() <= COLUMNS && !line.ends_with(' '), "{line}");
+        }
+        assert_eq!(list("t", &words).lines().count(), 7);
+    }
+
+    #[test]
     fn sums_are_broken_before_signs() {
         let lines = wrapped("Q = aa + bb*(c - d - e) - f + gggg", 12);
         assert_eq!(lines, ["Q = aa", "+ bb*(c - d", "- e) - f", "+ gggg"]);

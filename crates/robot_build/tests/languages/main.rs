@@ -283,3 +283,15 @@ fn no_text_of_a_robot_file_becomes_code() {
     // Counted over the eight names and three texts of each robot.
     assert!(hostile > 600 && texts > 150, "{hostile} names and {texts} texts were tried");
 }
+
+#[test]
+fn languages_are_found_by_their_names_alone() {
+    for language in Language::ALL {
+        assert_eq!(Language::named(language.name()), Some(*language));
+        for other in [language.title().to_owned(), language.name().to_uppercase(), String::new()] {
+            assert_eq!(Language::named(&other), None, "{other}");
+        }
+        let same = |other: &&Language| other.title() == language.title();
+        assert_eq!(Language::ALL.iter().filter(same).count(), 1);
+    }
+}

@@ -106,3 +106,56 @@ fn everything_that_is_wrong_with_csv_is_named() {
     ];
     assert_eq!(found, expected);
 }
+
+/// A source that gives few bytes at a time, as pipes do.
+struct Slow<'b> {
+    bytes: &'b [u8],
+    most: usize,
+}
+
+impl std::io::Read for Slow<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let most = self.most.min(buffer.len());
+        self.bytes.read(&mut buffer[..most])
+    }
+}
+
+/// Reads states that come in pieces; returns them with the messages, or the error that ended the reading.
+fn read_slowly(bytes: &[u8], most: usize) -> std::result::Result<Collected, String> {
+    let (layout, mut collected) = (layout(), Collected::default());
+    let mut source = Slow { bytes, most };
+    let mut input =
+        Input::open(Path::new("-"), &mut source).map_err(|error| format!("{error:?}"))?;
+    input.read(layout, &mut collected).map_err(|error| format!("{error:?}"))?;
+    Ok(collected)
+}
+
+/// Characters of two, three and four bytes come in parts.
+#[test]
+fn a_character_may_come_in_parts() {
+    let text = "[\n{\"q\": [1, 2], \"ä€🦾\": 0},\n{\"q\": [3, 4]}]";
+    for most in [1, 2, 3, 5, text.len()] {
+        let Collected { states, errors } = read_slowly(text.as_bytes(), most).unwrap();
+        assert_eq!(errors.len(), 1, "{most}: {errors:?}");
+        assert!(errors[0].starts_with("state 1: there is no key `ä€🦾`."), "{most}: {errors:?}");
+        assert_eq!(states.last().unwrap().array("q"), Some(&[3.0, 4.0][..]));
+    }
+}
+
+/// The end of a character that is missing is an error, and so is a byte that starts none.
+#[test]
+fn what_is_not_text_is_refused_however_it_comes() {
+    let start = b"[\n{\"q\": [1, 2]},\n{\"";
+    for wrong in [&b"\xc3"[..], b"\xe2\x82", b"\xf0\x9f\xa6", b"\xff", b"\xc3\": [1, 2]}]"] {
+        let bytes = [&start[..], wrong].concat();
+        for most in [1, 2, 3, bytes.len()] {
+            let found = match read_slowly(&bytes, most) {
+                Ok(Collected { errors, .. }) => errors.join(" "),
+                Err(error) => error,
+            };
+            let place = format!("from index {}", start.len());
+            assert!(found.contains("is not UTF-8"), "{wrong:?}, {most}: {found}");
+            assert!(found.contains(&place), "{wrong:?}, {most}: {found}");
+        }
+    }
+}

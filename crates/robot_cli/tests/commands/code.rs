@@ -118,3 +118,49 @@ fn bundles_are_functions_of_their_own() {
     let shown = complaint(2, &generate("bias=mass_matrix"), "");
     assert!(shown.contains("the bundle `bias`: the name is not allowed"), "{shown}");
 }
+
+/// Options for reading the robot change the code as the builder's do.
+#[test]
+fn options_of_the_robot_reach_the_code() {
+    let link = |name: &str, angle: &str, rest: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"z\" }}\n\
+             origin = {{ xyz = [0.3, 0, 0.1], rpy = [{angle}, 0, 0] }}\n{rest}\n"
+        )
+    };
+    let solid =
+        "mass = 1\ncenter_of_mass = [0.2, 0.1, 0]\ninertia = { xx = 0.01, yy = 0.12, zz = 0.12 }";
+    let light = solid.replace("0.12, zz = 0.12", "0.02, zz = 0.9");
+    let start = "format = 1\n[robot]\nname = \"arm\"\ngravity = [0, 0, -9.81]\n";
+    let arm = |first: &str, second: &str| {
+        format!("{start}{}{}", link("1", "0.3", first), link("2", "1.5708", second))
+    };
+    let wanted = |options| robot_build::Options { search: true, ..options };
+    let usual = robot_build::Options::default;
+    let snapped = robot_build::Options { snap: Some(1e-3), ..usual() };
+    let base_frames = Some(robot_build::BaseFrames::DenavitHartenberg);
+    let frames = robot_build::Options { base_frames, ..usual() };
+    let unphysical = robot_build::Options { allow_unphysical: true, ..usual() };
+    let massless = robot_build::Options { allow_massless: true, ..usual() };
+    let folder = folder("code_of_robot");
+    let path = folder.join("arm.toml");
+    let at = path.to_str().unwrap();
+    let functions = ["inverse_dynamics", "regressor_base"];
+    for (text, flags, options) in [
+        (arm(solid, solid), &["--snap", "1e-3"][..], snapped),
+        (arm(solid, solid), &["--base-frames", "denavit_hartenberg"], frames),
+        (arm(solid, &light), &["--allow-unphysical"], unphysical),
+        (arm("", solid), &["--allow-massless"], massless),
+    ] {
+        fs::write(&path, &text).unwrap();
+        let source = robot_build::RobotFile::read(&path).unwrap().source;
+        let robot = robot_build::read_with(&source, &options).unwrap().robot;
+        let functions = functions.map(str::to_owned);
+        let functions = robot_build::functions_named(&functions, &robot).unwrap();
+        let options = wanted(robot_build::Options { functions, ..options });
+        let code = robot_build::generate(&source, &options).unwrap().code;
+        let generate = ["generate", at, "--function", "inverse_dynamics,regressor_base"];
+        assert_eq!(run(&[&generate[..], flags].concat()).output, code, "{flags:?}");
+        assert_ne!(run(&generate).output, code, "{flags:?}");
+    }
+}

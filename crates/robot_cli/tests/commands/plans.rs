@@ -204,3 +204,77 @@ fn a_tuned_plan_is_one_of_those_with_the_fewest_operations() {
     assert!(fewest || pin.contains("tuned = true"), "{pin}");
     output(&["generate", &arm], "");
 }
+
+/// The text of a robot file of this project, in a folder without its plan.
+fn unpinned(test: &str, name: &str) -> String {
+    let path = folder(test).join(format!("{name}.toml")).to_str().unwrap().to_owned();
+    std::fs::copy(crate::robot(name), &path).unwrap();
+    path
+}
+
+/// Without a pin, a plan is searched for each call. It is the one that `search` pins.
+#[test]
+fn without_a_pin_code_has_the_form_that_a_search_finds() {
+    let arm = unpinned("plans_without", "stanford");
+    let file = robot_build::RobotFile::read(arm.as_ref()).unwrap();
+    let default = robot_build::generate(&file.source, &robot_build::Options::default()).unwrap();
+    let commands = [&["generate", &arm][..], &["generate", &arm, "--fused"]];
+    let before = commands.map(|arguments| output(arguments, ""));
+    assert_ne!(before[0], default.code);
+    let eval = ["eval", &arm, "--function", "inverse_dynamics", "--states", "-"];
+    let states =
+        "[{\"q\": [1, 1, 1, 1, 1, 1], \"qd\": [1, 1, 1, 1, 1, 1], \"qdd\": [1, 1, 1, 1, 1, 1]}]";
+    let torques = crate::run_with(&eval, states.as_bytes()).output;
+    assert!(torques.contains("\"tau\":["), "{torques}");
+    output(&["search", &arm], "");
+    assert_eq!(output(commands[0], ""), before[0]);
+    assert_eq!(crate::run_with(&eval, states.as_bytes()).output, torques);
+    output(&["search", &arm, "--fused"], "");
+    assert_eq!(output(commands[1], ""), before[1]);
+}
+
+/// The numbers of operations in the table of times, in order.
+fn timed_operations(output: &str) -> Vec<Vec<String>> {
+    let rows = output.lines().skip_while(|line| !line.contains("ns per call")).skip(1);
+    let rows = rows.take_while(|line| !line.trim().is_empty()).map(|row| {
+        let row = row.trim_start_matches(|sign: char| !sign.is_ascii_digit());
+        row.split_whitespace().take(2).map(str::to_owned).collect::<Vec<_>>()
+    });
+    let mut rows: Vec<_> = rows.collect();
+    rows.sort();
+    rows
+}
+
+/// The plans and the code that is timed are those of the snapped robot.
+#[test]
+fn a_search_snaps_angles_as_it_is_told() {
+    let exact = "format = 1\n[robot]\nname = \"gantry\"\ngravity = [0, 0, -9.81]\n\
+        [[link]]\nname = \"1\"\njoint = { type = \"prismatic\", axis = \"x\" }\nmass = 1\n\
+        center_of_mass = [0, 0, 0]\ninertia = { xx = 0.1, yy = 0.12, zz = 0.13 }\n\
+        [[link]]\nname = \"2\"\njoint = { type = \"prismatic\", axis = \"z\" }\n\
+        origin = { xyz = [0.2, 0, 0], rpy = [\"pi/2\", 0, 0] }\nmass = 1\n\
+        center_of_mass = [0.1, 0, 0]\ninertia = { xx = 0.1, yy = 0.12, zz = 0.13 }\n";
+    let path = folder("plans_snap").join("gantry.toml");
+    let at = path.to_str().unwrap();
+    let found = |text: &str, more: &[&str]| {
+        std::fs::write(&path, text).unwrap();
+        let outcome = run(&[&["search", at, "--dry-run"][..], more].concat());
+        assert!(!path.with_extension("plan").exists());
+        outcome
+    };
+    let plan = |text: &str, more: &[&str]| found(text, more).output.replace("\n\n", "\n");
+    let counts =
+        |text: &str, more: &[&str]| plan(text, more).split("; ").next().unwrap().to_owned();
+    let rounded = exact.replace("\"pi/2\"", "1.5708");
+    assert_eq!(counts(&rounded, &["--snap", "1e-3"]), counts(exact, &[]));
+    assert_ne!(counts(&rounded, &[]), counts(exact, &[]));
+    let tuned = found(exact, &["--tune"]);
+    if robot_jit::Registers::detect().is_err() {
+        return;
+    }
+    assert_eq!(tuned.code, 0, "{}", tuned.errors);
+    let snapped = found(&rounded, &["--tune", "--snap", "1e-3"]).output;
+    assert_eq!(timed_operations(&snapped), timed_operations(&tuned.output));
+    assert_eq!(timed_operations(&snapped).len(), 1, "{snapped}");
+    assert!(timed_operations(&found(&rounded, &["--tune"]).output).len() > 1);
+}

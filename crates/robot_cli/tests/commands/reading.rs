@@ -340,3 +340,31 @@ fn a_robot_of_one_link_is_taken_by_every_command() {
         assert!((value - expected).abs() < 1e-12, "{shown}");
     }
 }
+
+/// With other values of parameters, warnings that the values cause are added to those of the file. None is shown twice.
+#[test]
+fn warnings_of_values_are_added_to_those_of_the_file() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let spare = |count: usize| {
+        let name = |index| format!("spare{index} = {{ value = 1.0, unit = \"m\" }}\n");
+        let spares: String = (0..count).map(name).collect();
+        text.replace("[parameters]\n", &format!("[parameters]\n{spares}"))
+    };
+    let file = folder("warnings_of_values").join("arm.toml");
+    let at = file.to_str().unwrap();
+    for known in [0, 1, 2] {
+        std::fs::write(&file, spare(known)).unwrap();
+        let eval = ["eval", at, "--function", "gravity", "--states", "-", "--allow-unphysical"];
+        let warnings = |more: &[&str]| {
+            let outcome = run_with(&[&eval[..], more].concat(), STATE.as_bytes());
+            assert_eq!(outcome.code, 0, "{}", outcome.errors);
+            let of = |code: &str| outcome.errors.matches(&format!("warning[{code}]")).count();
+            (of("R0601"), outcome.errors.matches("warning[").count())
+        };
+        assert_eq!(warnings(&[]), (known, known));
+        assert_eq!(warnings(&["--set", "m2=2.5"]), (known, known));
+        let (same, all) = warnings(&["--set", "m2=-1"]);
+        assert_eq!(same, known);
+        assert!(all > known, "{known}: {all}");
+    }
+}

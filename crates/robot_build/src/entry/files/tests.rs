@@ -326,3 +326,37 @@ fn a_file_that_comes_in_parts_is_there_when_it_is_whole() {
     assert!(edited(b"new").is_err());
     assert_eq!(folder.names(), ["below", "mine.csv"]);
 }
+
+#[test]
+fn what_is_out_of_date_is_said() {
+    let folder = Folder::new("stale");
+    let wanted = "one\ntwo\nthree\n";
+    assert_eq!(staleness(&folder.path("none"), wanted.as_bytes()), Ok(Some(Staleness::Missing)));
+    let differs = |line| Ok(Some(Staleness::Differs { line }));
+    for (present, expected) in [
+        (wanted, Ok(None)),
+        ("one\r\ntwo\r\nthree", Ok(None)),
+        ("", differs(1)),
+        ("One\ntwo\nthree\n", differs(1)),
+        ("one\ntwo\nThree\n", differs(3)),
+        ("one\ntwo\n", differs(3)),
+        ("one\ntwo\nthree\nfour\n", differs(4)),
+    ] {
+        let path = folder.put("text", present);
+        assert_eq!(staleness(&path, wanted.as_bytes()), expected, "{present:?}");
+    }
+    // Bytes that are not text are equal or not; line ends in them are bytes, too.
+    let wanted = [0, 255, b'\n', 1];
+    for (present, expected) in [
+        (&[0, 255, b'\n', 1][..], None),
+        (&[0, 255, b'\n', 2], Some(Staleness::Bytes)),
+        (&[0, 255, b'\r', b'\n', 1], Some(Staleness::Bytes)),
+        (&[], Some(Staleness::Bytes)),
+        (b"text\n", Some(Staleness::Bytes)),
+    ] {
+        let path = folder.path("bytes");
+        fs::write(&path, present).unwrap();
+        assert_eq!(staleness(&path, &wanted), Ok(expected), "{present:?}");
+    }
+    assert!(staleness(&folder.path(""), &wanted).is_err());
+}

@@ -211,4 +211,39 @@ mod tests {
         assert_eq!(fastest(&timed(&[50.0, 60.0, 45.0, 48.0])), 2);
         assert_eq!(fastest(&timed(&[50.0])), 0);
     }
+
+    #[test]
+    fn the_table_has_the_fastest_plans_and_the_one_with_the_fewest_operations() {
+        let calls: Vec<f64> = [90.0].into_iter().chain((1..=12).map(f64::from)).collect();
+        let mut plans = timed(&calls);
+        for (index, plan) in plans.iter_mut().enumerate() {
+            plan.found.operations = 100 + index;
+            plan.found.instructions = 200 + index;
+            plan.state = 0.5 * plan.call;
+        }
+        let table = rows(&plans, 1);
+        assert_eq!(table[0].len(), 5);
+        // The plan with the fewest operations is the slowest, and is shown after the ten fastest.
+        assert_eq!(table.len(), 1 + ROWS + 1);
+        let first = ["chosen", "101", "201", "1.0", "0.50"].map(str::to_owned).to_vec();
+        assert_eq!(table[1], first);
+        for (place, row) in table[2..=ROWS].iter().enumerate() {
+            let index = place + 2;
+            let expected = [
+                String::new(),
+                format!("{}", 100 + index),
+                format!("{}", 200 + index),
+                format!("{index}.0"),
+                format!("{:.2}", 0.5 * index as f64),
+            ];
+            assert_eq!(row[..], expected);
+        }
+        let last = ["fewest operations", "100", "200", "90.0", "45.00"].map(str::to_owned).to_vec();
+        assert_eq!(table.last(), Some(&last));
+        // Nothing is shown twice.
+        let few = rows(&timed(&[3.0, 2.0, 1.0]), 0);
+        let marks: Vec<&str> = few[1..].iter().map(|row| row[0].as_str()).collect();
+        assert_eq!(marks, ["", "", "chosen"]);
+        assert_eq!(rows(&timed(&[3.0]), 0).len(), 2);
+    }
 }

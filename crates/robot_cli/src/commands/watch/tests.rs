@@ -2,6 +2,8 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use robot_build::{Options, RobotFile, Source, Writer, pin_path, pin_text};
+use robot_dynamics::economical::Plan;
+use robot_dynamics::economical::plan::LinkPlan;
 use robot_dynamics::economical::search::{Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
 use tempfile::TempDir;
@@ -156,6 +158,33 @@ fn a_stale_plan_is_no_change_of_the_robot() {
     assert!(is_good && !output.contains("operations per call"), "{output}");
     assert!(errors.starts_with("warning: ") && errors.contains("plan is stale"), "{errors}");
     assert!(output.contains("\ngone: warning: "), "{output}");
+}
+
+/// Counts are those of the plans if both robots have one or the file is the same, otherwise those of the default plan.
+#[test]
+fn operations_are_counted_under_the_plans_of_both_or_of_none() {
+    const STANFORD: &str = include_str!("../../../../../robots/stanford.toml");
+    let links = STANFORD.matches("[[link]]").count();
+    let plan = |links_plan| Some(Plan::uniform(links, links_plan));
+    let [basic, usual] = [&LinkPlan::BASIC, &LinkPlan::DEFAULT].map(plan);
+    let remarked = format!("{STANFORD}# a remark\n");
+    let look = |text: &str, plan: &Option<Plan>| Look { plan: Ok(plan.clone()), ..look(text) };
+    for (before, now, differs) in [
+        (look(STANFORD, &basic), look(&remarked, &usual), true),
+        (look(STANFORD, &basic), look(&remarked, &basic), false),
+        (look(STANFORD, &basic), look(&remarked, &None), false),
+        (look(STANFORD, &None), look(&remarked, &basic), false),
+        (look(STANFORD, &None), look(&remarked, &None), false),
+        (look(STANFORD, &basic), look(STANFORD, &usual), true),
+        (look(STANFORD, &basic), look(STANFORD, &None), true),
+    ] {
+        let case =
+            [&before, &now].map(|look| format!("{:?}", look.plan.as_ref().map(Option::is_some)));
+        let (_, output, errors) = followed([before, now]);
+        assert_eq!(errors, "");
+        assert_eq!(output.contains("operations per call\n"), differs, "{case:?}: {output}");
+        assert_eq!(output.ends_with("no changes in the robot\n"), !differs, "{output}");
+    }
 }
 
 /// A watched file; the test fails if an expected change does not occur within a minute.
