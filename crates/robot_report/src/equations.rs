@@ -29,7 +29,7 @@ const LINE: f64 = 470.0;
 
 /// The forms in the order of the page, except that the open form comes first.
 const FORMS: [(Form, &str); 6] = [
-    (Form::Grouped, "Grouped: Q = M(q) q̈ + C(q, q̇) q̇ + g(q)"),
+    (Form::Grouped, "Grouped: mass matrix, Coriolis and centrifugal terms, gravity"),
     (Form::Collected, "Collected: common factors in front of parentheses, without friction"),
     (Form::Recursive, "Recursive: the iterations link by link"),
     (Form::Compact, "Compact: names for repeated expressions"),

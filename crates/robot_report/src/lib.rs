@@ -225,7 +225,7 @@ fn parameters(robot: &Robot, symbols: &Symbols) -> Section {
 }
 
 /// The explanation of the grids.
-const STRUCTURE: &str = "The darker an entry, the more coordinates it depends on; entries marked \
+const STRUCTURE: &str = "The stronger the color of an entry, the more coordinates it depends on; entries marked \
     const depend only on parameters. An entry counts as independent of a coordinate if no other \
     value of the coordinate changes it, at random values of all symbols, including parameters.";
 

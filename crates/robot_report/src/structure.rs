@@ -161,7 +161,7 @@ fn cell(entry: &Entry, count: usize) -> Element {
         Entry::Zero => ("zero".to_owned(), "0".to_owned()),
         Entry::Of(list) if list.is_empty() => ("shade-0".to_owned(), "const".to_owned()),
         Entry::Of(list) => {
-            // The darkest shade is for an entry that depends on all coordinates.
+            // The strongest shade is for an entry that depends on all coordinates.
             let shade = (list.len() * SHADES).div_ceil(count.max(1));
             let names =
                 list.iter().map(|index| text::symbol(&JointVariable::Position.symbol(*index)));

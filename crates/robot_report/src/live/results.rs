@@ -77,7 +77,7 @@ pub(super) fn mass_matrix(robot: &Robot) -> Element {
         let cells = (0..n).map(|_| holding("td", "0"));
         element("tr").with(holding("th", name.as_str()).attribute("scope", "row")).with_all(cells)
     });
-    let caption = "The mass matrix M(q), in kg·m², kg·m or kg; the darker an entry, the larger.";
+    let caption = "The mass matrix M(q), in kg·m², kg·m or kg; the stronger the color of an entry, the larger it is.";
     let table = element("table")
         .class("grid mass")
         .with(holding("caption", holding("span", caption)))
