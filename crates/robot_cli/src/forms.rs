@@ -62,7 +62,7 @@ pub(crate) struct EquationArguments {
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
     /// Significant digits of decimals in equations [default: 10]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=i64::from(ALL_DIGITS)))]
     digits: Option<u8>,
     /// Include friction in the joint torques
     #[arg(long)]
@@ -311,9 +311,13 @@ impl EquationArguments {
             order: TermOrder::default(),
             letters: self.letters.clone().unwrap_or_default(),
             digits: Some(self.digits().unwrap_or(DIGITS)),
+            rounds_roots: self.digits().is_none_or(|digits| digits < ALL_DIGITS),
         })
     }
 }
+
+/// The number of significant digits with which a double is printed exactly.
+const ALL_DIGITS: u8 = 17;
 
 /// The message that JSON does not have rounded digits.
 pub(crate) const NO_DIGITS: &str =

@@ -138,7 +138,9 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     // In the expanded form, dry friction would have whole joint forces under a root, which would fill pages.
     let friction = robot.has_friction() && !matches!(form, Form::Expanded | Form::Collected);
     let digits = Some(DIGITS);
-    let options = EquationOptions { form, friction, digits, ..EquationOptions::default() };
+    let rounds_roots = true;
+    let options =
+        EquationOptions { form, friction, digits, rounds_roots, ..EquationOptions::default() };
     let found =
         equations(robot, &options).map_err(|error| format!("This form is not shown: {error}."))?;
     let length = length(&found);

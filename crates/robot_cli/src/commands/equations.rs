@@ -70,6 +70,7 @@ impl Arguments {
         let mut options = self.equations.options(&self.robot, form)?;
         let robot = self.robot.printed(terminal)?;
         options.order = self.equations.order(&self.robot, &robot)?;
+        options.rounds_roots &= !matches!(self.format, Format::Json);
         self.robot.check_base_frames(&forms, terminal)?;
         self.equations.check_friction(&self.robot, &robot)?;
         let failed = |error| self.equations.failed(&self.robot, &error);

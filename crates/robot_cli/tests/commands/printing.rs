@@ -67,7 +67,7 @@ fn rounded_right_angles_are_right_in_print_and_said() {
 fn a_tolerance_that_is_given_is_taken_and_code_keeps_its_own() {
     let file = rounded("given_tolerance");
     for snap in ["0", "1e-9"] {
-        let shown = output(&["equations", &file, "--snap", snap], "");
+        let shown = output(&["equations", &file, "--snap", snap, "--digits", "17"], "");
         assert!(shown.contains("sin(1.5708)"), "{shown}");
     }
     assert!(!output(&["equations", &file, "--snap", "1e-4"], "").contains("1.57"));

@@ -148,7 +148,7 @@ pub(super) fn limit<'g>(
 /// The values of all coefficients as they are divided into named parts: long numbers with roots are decimals.
 fn with_decimals<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Expr<'g>> {
     let values: Vec<Expr<'g>> = all(sections).map(|coefficient| coefficient.value).collect();
-    numbers::with_decimals(&values, writer.graph)
+    numbers::rounded(writer, &values)
 }
 
 /// The joint torques as sums of products of named coefficients, and the definitions of these. Short coefficients are

@@ -26,7 +26,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     }
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let values = with_short_parameters(writer, &values);
-    let values = numbers::with_decimals(&values, writer.graph);
+    let values = numbers::rounded(writer, &values);
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;
     }

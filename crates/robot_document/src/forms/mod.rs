@@ -359,10 +359,12 @@ impl<'g> Writer<'_, 'g> {
     /// angles that make it shortest.
     ///
     /// In the form [`Form::Collected`], the parts of whole quantities are collected separately.
-    /// Long numbers with roots become decimals if that is shorter.
+    /// Long numbers with roots become decimals if that is shorter and [`EquationOptions::rounds_roots`] is set.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
         let exact = self.collected_exactly(value);
-        match numbers::without_functions(value).map(|value| self.collected_exactly(&value)) {
+        let decimal =
+            self.options.rounds_roots.then(|| numbers::without_functions(value)).flatten();
+        match decimal.map(|value| self.collected_exactly(&value)) {
             Some(decimal) if length(&decimal) < length(&exact) => decimal,
             _ => exact,
         }

@@ -8,6 +8,8 @@ use robot_symbolic::{
 };
 use rustc_hash::FxHashMap;
 
+use super::Writer;
+
 /// The largest number of digits of a number that stays in a sum with roots, as in `1 + √2`. People do not write longer
 /// ones.
 const MOST_DIGITS: usize = 6;
@@ -35,8 +37,16 @@ impl Constant {
     }
 }
 
-/// Replaces the parts of expressions that are long sums with functions of numbers by the nearest doubles.
-pub(super) fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
+/// The expressions as they are printed: the parts that are long sums with functions of numbers are the nearest doubles if
+/// [`rounds_roots`](super::EquationOptions::rounds_roots) is set.
+pub(super) fn rounded<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    match writer.options.rounds_roots {
+        true => with_decimals(roots, writer.graph),
+        false => roots.to_vec(),
+    }
+}
+
+fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     let mut constants: FxHashMap<Id, Constant> = FxHashMap::default();
     for expr in walk::reachable(roots) {
         if let Some(constant) = constant(expr, &constants) {
@@ -55,12 +65,12 @@ pub(super) fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Exp
     })
 }
 
-/// Writes the long numbers with functions in the masses, centers of mass and inertia tensors of links as decimals.
-pub(super) fn write_as_decimals(mechanism: &mut Mechanism<'_>) {
+/// Replaces the long numbers with functions in the masses, centers of mass and inertia tensors of links in the same way.
+pub(super) fn round_links<'g>(writer: &Writer<'_, 'g>, mechanism: &mut Mechanism<'g>) {
     for link in &mut mechanism.links {
         let own = std::iter::once(&mut link.mass).chain(&mut link.center_of_mass.0);
         for value in own.chain(link.inertia.0.iter_mut().flatten()) {
-            let decimal = with_decimals(&[*value], value.graph());
+            let decimal = rounded(writer, &[*value]);
             *value = decimal.first().copied().unwrap_or(*value);
         }
     }

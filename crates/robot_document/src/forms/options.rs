@@ -86,6 +86,9 @@ pub struct EquationOptions {
     pub letters: Letters,
     /// The largest number of significant digits of printed decimals; the text of equations stays exact.
     pub digits: Option<usize>,
+    /// Whether long sums of numbers with roots, or with sines of constant angles, become the nearest double. The
+    /// equations, also as text, are then exact only to the digits of doubles.
+    pub rounds_roots: bool,
 }
 
 /// The default options: the joint torques, expanded, without friction.
@@ -105,6 +108,7 @@ impl Default for EquationOptions {
             order: TermOrder::default(),
             letters: Letters::default(),
             digits: None,
+            rounds_roots: false,
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::math::Math;
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let effects = Effects { wrench: true, friction: writer.options.friction };
     let mut mechanism = writer.derivation().mechanism;
-    numbers::write_as_decimals(&mut mechanism);
+    numbers::round_links(writer, &mut mechanism);
     let iterations = newton_euler(&mechanism, effects);
     let target = Graph::new();
     let (mut groups, mut named) = link_values(writer, &mechanism, &target)?;

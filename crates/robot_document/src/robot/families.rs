@@ -132,7 +132,7 @@ fn of_name(text: &str) -> Option<Cell> {
 fn of_array(group: &Group, part: &Equations, name: &str, letters: &Letters) -> Option<Cell> {
     let text = match group.title.as_str() {
         "Mass matrix" => "mass matrix",
-        "Coriolis and centrifugal coefficients" => "Coriolis and centrifugal terms",
+        "Coriolis and centrifugal terms" => "Coriolis and centrifugal terms",
         "Christoffel symbols" => "matrix of the Coriolis and centrifugal terms",
         "Gravity" => "gravity terms",
         "Wrenches of the tips" => "contributions of the wrenches of the tips",
