@@ -311,7 +311,7 @@ impl EquationArguments {
             order: TermOrder::default(),
             letters: self.letters.clone().unwrap_or_default(),
             digits: Some(self.digits().unwrap_or(DIGITS)),
-            rounds_roots: self.digits().is_none_or(|digits| digits < ALL_DIGITS),
+            rounds_roots: self.digits.is_none_or(|digits| digits < ALL_DIGITS),
         })
     }
 }

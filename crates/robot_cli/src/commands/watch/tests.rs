@@ -163,20 +163,20 @@ fn a_stale_plan_is_no_change_of_the_robot() {
 /// Counts are those of the plans if both robots have one or the file is the same, otherwise those of the default plan.
 #[test]
 fn operations_are_counted_under_the_plans_of_both_or_of_none() {
-    const STANFORD: &str = include_str!("../../../../../robots/stanford.toml");
-    let links = STANFORD.matches("[[link]]").count();
+    const TRTTR1: &str = include_str!("../../../demo/trttr1.toml");
+    let links = TRTTR1.matches("[[link]]").count();
     let plan = |links_plan| Some(Plan::uniform(links, links_plan));
     let [basic, usual] = [&LinkPlan::BASIC, &LinkPlan::DEFAULT].map(plan);
-    let remarked = format!("{STANFORD}# a remark\n");
+    let remarked = format!("{TRTTR1}# a remark\n");
     let look = |text: &str, plan: &Option<Plan>| Look { plan: Ok(plan.clone()), ..look(text) };
     for (before, now, differs) in [
-        (look(STANFORD, &basic), look(&remarked, &usual), true),
-        (look(STANFORD, &basic), look(&remarked, &basic), false),
-        (look(STANFORD, &basic), look(&remarked, &None), false),
-        (look(STANFORD, &None), look(&remarked, &basic), false),
-        (look(STANFORD, &None), look(&remarked, &None), false),
-        (look(STANFORD, &basic), look(STANFORD, &usual), true),
-        (look(STANFORD, &basic), look(STANFORD, &None), true),
+        (look(TRTTR1, &basic), look(&remarked, &usual), true),
+        (look(TRTTR1, &basic), look(&remarked, &basic), false),
+        (look(TRTTR1, &basic), look(&remarked, &None), false),
+        (look(TRTTR1, &None), look(&remarked, &basic), false),
+        (look(TRTTR1, &None), look(&remarked, &None), false),
+        (look(TRTTR1, &basic), look(TRTTR1, &usual), true),
+        (look(TRTTR1, &basic), look(TRTTR1, &None), true),
     ] {
         let case =
             [&before, &now].map(|look| format!("{:?}", look.plan.as_ref().map(Option::is_some)));
