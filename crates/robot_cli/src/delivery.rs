@@ -210,7 +210,7 @@ pub(crate) fn deliver_folder(
     warn_of_remaining(folder, &remaining(folder, files), terminal)
 }
 
-/// Warns of files of an earlier run, which could be used like those of this run.
+/// Warns of generated files of an earlier run, which could be used like those of this run.
 fn warn_of_remaining(
     folder: &Path,
     files: &[PathBuf],
@@ -226,13 +226,18 @@ fn warn_of_remaining(
         .collect();
     let more = files.len().saturating_sub(SHOWN);
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-    let (count, place) = (files.len(), shown(folder));
-    writeln!(
-        terminal.errors,
-        "warning: {place} has {count} file(s) of an earlier run that this one does not write: {}{more}; remove \
-         what you do not need",
-        names.join(", ")
-    )?;
+    let (names, place) = (names.join(", "), shown(folder));
+    let remark = match files.len() {
+        1 => format!(
+            "a generated file of an earlier run that is not part of this package: {names}; remove it if you do not \
+             need it"
+        ),
+        count => format!(
+            "{count} generated files of an earlier run that are not part of this package: {names}{more}; remove those \
+             that you do not need"
+        ),
+    };
+    writeln!(terminal.errors, "warning: {place} has {remark}")?;
     Ok(())
 }
 

@@ -257,7 +257,7 @@ fn packages_of_all_languages_are_written_again() {
         assert_eq!(first.code, 0, "{language}: {}", first.errors);
         let second = write(&changed, "inverse_dynamics");
         assert_eq!(second.code, 0, "{language}: {}", second.errors);
-        let warning = second.errors.contains("1 file(s) of an earlier run");
+        let warning = second.errors.contains("a generated file of an earlier run");
         assert_eq!(warning, language == "matlab", "{language}: {}", second.errors);
         if warning {
             assert!(second.errors.contains("gravity.m; remove"), "{}", second.errors);
@@ -265,6 +265,31 @@ fn packages_of_all_languages_are_written_again() {
         // A folder that is up to date contains no earlier files.
         assert_eq!(output(&[&arguments[..], &["inverse_dynamics", "--check"]].concat(), ""), "");
     }
+}
+
+/// A package in another language leaves the files of the first one, all of which are counted; documents and pinned plans
+/// beside it are not files of a package.
+#[test]
+fn files_of_a_package_in_another_language_are_counted() {
+    let inputs = Inputs::new("outputs-leftovers");
+    let folder = inputs.path("k");
+    let robot = robot("planar_2r");
+    assert_eq!(
+        run(&["crate", &robot, "-o", &folder]).errors,
+        format!("wrote {folder}: 30 files\n")
+    );
+    fs::copy(robot.replace(".toml", ".plan"), format!("{folder}/planar_2r.plan")).unwrap();
+    let document = format!("{folder}/planar_2r.tex");
+    assert_eq!(run(&["document", &robot, "-o", &document]).code, 0);
+    let second = run(&["crate", &robot, "--language", "c", "-o", &folder]);
+    let remark = "has 29 generated files of an earlier run that are not part of this package: \
+                  Cargo.toml, src/lib.rs, src/model.rs, src/runtime/";
+    assert!(second.errors.contains(remark), "{}", second.errors);
+    assert!(
+        second.errors.ends_with(" and 24 more; remove those that you do not need\n"),
+        "{}",
+        second.errors
+    );
 }
 
 #[test]
