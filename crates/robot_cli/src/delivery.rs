@@ -5,7 +5,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{File, Output, Ownership, Staleness, Writer, remaining, shown, staleness};
+use robot_build::{
+    File, Output, Ownership, Staleness, Writer, remaining, sealed, shown, staleness,
+};
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -16,7 +18,7 @@ const SHOWN: usize = 5;
 /// Whether files of others are replaced.
 #[derive(Args)]
 pub(crate) struct ForceArgument {
-    /// Replace an existing file that this program did not write; never an input
+    /// Replace an existing file that this program did not write, or that was edited since; never an input
     #[arg(long)]
     force: bool,
 }
@@ -135,11 +137,13 @@ impl<'a> Delivery<'a> {
         Ok(self)
     }
 
-    /// Prints the text, writes it to the file, or compares it with the file.
+    /// Prints the text, writes it to the file, or compares it with the file. In a file, a document has a seal, so that
+    /// the next run does not replace it if it was edited.
     pub(crate) fn deliver(&self, text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let Some(path) = self.path() else {
             return Ok(terminal.output.write_all(text.as_bytes())?);
         };
+        let text = sealed(text);
         if self.check {
             return up_to_date([(path.to_owned(), text.as_bytes())]);
         }

@@ -7,6 +7,7 @@ mod marker;
 mod pending;
 mod place;
 mod remaining;
+mod seal;
 mod staging;
 mod writer;
 
@@ -15,6 +16,7 @@ use std::path::Path;
 pub use marker::MARKER;
 pub use pending::Pending;
 pub use remaining::remaining;
+pub use seal::sealed;
 pub use writer::{Output, Ownership, Writer};
 
 use crate::error::Error;
