@@ -214,6 +214,13 @@ impl EquationArguments {
             |form: &Form| matches!(form, Form::Grouped | Form::Regrouped | Form::Recursive);
         let torque = Kind::GeneralizedForce.name();
         let has_torques = self.quantities.iter().any(|name| name == torque || name == "all");
+        if self.quantities.iter().any(|name| name != torque) && forms.iter().all(only_torques) {
+            let names = self.quantities.join(",");
+            wrong.push(format!(
+                "--quantity {names} has no effect in this form, which has only {torque}; choose another form, or leave it \
+                 out"
+            ));
+        }
         if self.letters.is_some() && !has_torques && !forms.iter().any(only_torques) {
             wrong.push(format!(
                 "--letters has no effect on these quantities; add {torque}, or leave it out"

@@ -163,7 +163,26 @@ fn friction_that_the_robot_has_not_is_an_error() {
 #[test]
 fn options_without_effect_are_refused() {
     let file = robot("planar_2r");
-    let commands: [(&[&str], &str); 7] = [
+    let gravity = ["eval", &file, "--function", "gravity", "--q", "0,0"];
+    let eval = |more: &[&'static str]| [&gravity[..], more].concat();
+    let (moving, loaded) =
+        (eval(&["--qd", "1,1", "--tau", "0,0"]), eval(&["--wrench", "0,1,0,0,0,0"]));
+    let commands: [(&[&str], &str); 13] = [
+        (&moving, "--qd has no effect on gravity, which takes q; leave it out\n"),
+        (&moving, "--tau has no effect on gravity, which takes q; leave it out\n"),
+        (&loaded, "--wrench has no effect on gravity, which takes q; leave it out\n"),
+        (
+            &["equations", &file, "--quantity", "F", "--form", "grouped"],
+            "--quantity F has no effect",
+        ),
+        (
+            &["document", &file, "--quantity", "all", "--form", "recursive,grouped"],
+            "has only Q; choose",
+        ),
+        (
+            &["equations", &file, "--quantity", "Q,F", "--form", "regrouped"],
+            "--quantity Q,F has no",
+        ),
         (&["equations", &file, "--christoffel"], "add --form grouped"),
         (&["equations", &file, "--width", "8cm"], "add --format latex"),
         (&["equations", &file, "--numbers"], "add --format latex"),
