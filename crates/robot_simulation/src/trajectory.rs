@@ -7,6 +7,7 @@ use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, WRENCH_COMPONENTS};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
+use crate::csv::unit;
 use crate::error::Error;
 use crate::kinks::{Kink, kinks, poles};
 use crate::table::{Table, check_times};
@@ -80,8 +81,8 @@ impl Trajectory {
         }
         for name in table.names() {
             if name != "t" && !is_result(name) && needed.iter().all(|known| *known != name) {
-                let name = quote(name);
-                wrong.push(format!("{source}: the column `{name}` is unknown"));
+                let (name, unit) = (quote(name), unit(name));
+                wrong.push(format!("{source}: the column `{name}` is unknown{unit}"));
             }
         }
         let gather = |names: &[String]| {
