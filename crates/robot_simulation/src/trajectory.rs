@@ -186,7 +186,12 @@ fn formulas(
             }
         }
     }
-    for name in coordinates.iter().filter(|name| !formulas.contains_key(*name)) {
+    // An expression with an error is not missing.
+    let is_given = |name: &String| {
+        let mut lefts = texts.iter().filter_map(|text| text.as_ref().split_once('='));
+        formulas.contains_key(name) || lefts.any(|(left, _)| left.trim() == name)
+    };
+    for name in coordinates.iter().filter(|name| !is_given(name)) {
         wrong.push(format!(
             "there is no expression for `{name}`; if it is at rest, write {name} = 0"
         ));
