@@ -5,7 +5,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{File, Output, Ownership, Staleness, Writer, remaining, shown, staleness};
+use robot_build::{
+    File, Output, Ownership, Staleness, Writer, remaining, sealed, shown, staleness,
+};
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -16,7 +18,7 @@ const SHOWN: usize = 5;
 /// Whether files of others are replaced.
 #[derive(Args)]
 pub(crate) struct ForceArgument {
-    /// Replace an existing file that this program did not write; never an input
+    /// Replace an existing file that this program did not write, or that was edited since; never an input
     #[arg(long)]
     force: bool,
 }
@@ -135,11 +137,13 @@ impl<'a> Delivery<'a> {
         Ok(self)
     }
 
-    /// Prints the text, writes it to the file, or compares it with the file.
+    /// Prints the text, writes it to the file, or compares it with the file. In a file, a document has a seal, so that
+    /// the next run does not replace it if it was edited.
     pub(crate) fn deliver(&self, text: &str, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let Some(path) = self.path() else {
             return Ok(terminal.output.write_all(text.as_bytes())?);
         };
+        let text = sealed(text);
         if self.check {
             return up_to_date([(path.to_owned(), text.as_bytes())]);
         }
@@ -210,7 +214,7 @@ pub(crate) fn deliver_folder(
     warn_of_remaining(folder, &remaining(folder, files), terminal)
 }
 
-/// Warns of files of an earlier run, which could be used like those of this run.
+/// Warns of generated files of an earlier run, which could be used like those of this run.
 fn warn_of_remaining(
     folder: &Path,
     files: &[PathBuf],
@@ -226,13 +230,18 @@ fn warn_of_remaining(
         .collect();
     let more = files.len().saturating_sub(SHOWN);
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
-    let (count, place) = (files.len(), shown(folder));
-    writeln!(
-        terminal.errors,
-        "warning: {place} has {count} file(s) of an earlier run that this one does not write: {}{more}; remove \
-         what you do not need",
-        names.join(", ")
-    )?;
+    let (names, place) = (names.join(", "), shown(folder));
+    let remark = match files.len() {
+        1 => format!(
+            "a generated file of an earlier run that is not part of this package: {names}; remove it if you do not \
+             need it"
+        ),
+        count => format!(
+            "{count} generated files of an earlier run that are not part of this package: {names}{more}; remove those \
+             that you do not need"
+        ),
+    };
+    writeln!(terminal.errors, "warning: {place} has {remark}")?;
     Ok(())
 }
 

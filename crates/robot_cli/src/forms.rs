@@ -214,6 +214,13 @@ impl EquationArguments {
             |form: &Form| matches!(form, Form::Grouped | Form::Regrouped | Form::Recursive);
         let torque = Kind::GeneralizedForce.name();
         let has_torques = self.quantities.iter().any(|name| name == torque || name == "all");
+        if self.quantities.iter().any(|name| name != torque) && forms.iter().all(only_torques) {
+            let names = self.quantities.join(",");
+            wrong.push(format!(
+                "--quantity {names} has no effect in this form, which has only {torque}; choose another form, or leave it \
+                 out"
+            ));
+        }
         if self.letters.is_some() && !has_torques && !forms.iter().any(only_torques) {
             wrong.push(format!(
                 "--letters has no effect on these quantities; add {torque}, or leave it out"
@@ -262,7 +269,7 @@ impl EquationArguments {
         // A style fixes the form, so another form can only be had without it.
         let condition = match options_that_help(error) {
             Some(options) if self.has_style() && options.contains("--form") => {
-                format!("without {style}: ")
+                format!(", without {style}")
             }
             _ => String::new(),
         };
@@ -347,16 +354,16 @@ pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
 /// The failure with the options that help, under a condition.
 fn failure(robot: &RobotArgument, error: &Error, condition: &str) -> Failure {
     let options = options_that_help(error);
-    let remedy = options.map(|options| format!(" ({condition}{options})")).unwrap_or_default();
+    let remedy = options.map(|options| format!(" ({options}{condition})")).unwrap_or_default();
     Failure::input(format!("{}: {error}{remedy}", shown(robot.path())))
 }
 
-/// The options that help, which messages of the library do not mention.
+/// The options that help. Messages of the library mention their values at most.
 const fn options_that_help(error: &Error) -> Option<&'static str> {
     match error {
-        Error::TooLong { .. } => Some("--form grouped, recursive or compact"),
-        Error::TooMany { .. } => Some("--form recursive or compact"),
-        Error::TooManyExpressions { .. } => Some("--form recursive or compact; --snap"),
+        Error::TooLong { .. } | Error::TooMany { .. } | Error::TooManyExpressions { .. } => {
+            Some("--form")
+        }
         Error::LikeSine { .. } => Some("--trig named"),
         Error::Narrow { .. } => Some("--form, --width"),
         _ => None,

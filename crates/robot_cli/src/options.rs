@@ -16,10 +16,11 @@ pub(crate) fn value_name(name: &str) -> &'static str {
 
 /// Words in messages of libraries, for options that are not in the table and for work of commands, and their
 /// replacements in messages of the command.
-const OTHERS: [(&str, &str); 4] = [
+const OTHERS: [(&str, &str); 5] = [
     ("the import option `friction`", "`import --friction`"),
     ("the option `rustc`", "`--rustc`"),
     ("run a search for a cheaper plan", "search for a cheaper plan with `robot-symbolic search`"),
+    ("give `--scalar` the value `f32`", "add `--scalar f32`"),
     ("measure the compiled code", "measure it with `robot-symbolic prove`"),
 ];
 

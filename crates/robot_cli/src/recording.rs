@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use robot_build::{Output, Ownership, Writer};
+use robot_build::{Output, Ownership, Writer, sealed};
 use robot_simulation::plot::Figure;
 
 use crate::delivery::{file_of, write};
@@ -85,7 +85,7 @@ impl<'a> Recording<'a> {
 /// Makes a picture in the format given by the ending of its name.
 fn picture(path: &Path, figure: &Figure) -> Result<Vec<u8>, Failure> {
     let is_svg = path.extension().is_some_and(|extension| extension == "svg");
-    Ok(if is_svg { figure.svg()?.into_bytes() } else { figure.png()? })
+    Ok(if is_svg { sealed(&figure.svg()?).as_bytes().to_owned() } else { figure.png()? })
 }
 
 #[cfg(test)]

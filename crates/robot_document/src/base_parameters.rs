@@ -20,8 +20,8 @@ const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
 
 /// The remedy for formulas of base parameters that are too long.
-const SHORTER: &str =
-    "snapping angles between frames that are nearly multiples of π/2 makes them shorter";
+const SHORTER: &str = "their formulas are too long to read, but the function `base_parameters` computes their values; if \
+    angles between frames are nearly multiples of π/2, snapping them (the option `snap`) makes the formulas shorter";
 
 /// The explanation of the names of standard and base parameters.
 pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \

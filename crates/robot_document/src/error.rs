@@ -11,8 +11,8 @@ use crate::latex::ReadError;
 pub enum Error {
     /// The expanded form has more terms or products than anybody could read.
     #[error(
-        "{reason}. The expanded form of this robot is too long to read; choose the form \
-         `grouped`, `recursive` or `compact`"
+        "{reason}. Products that are multiplied out, as in the forms `expanded` and `collected`, are \
+         too long to read for this robot; choose the form `grouped`, `recursive` or `compact`"
     )]
     TooLong {
         /// The limit that the form exceeds.
@@ -32,8 +32,8 @@ pub enum Error {
     /// The derivation of the equations needs more expressions than anybody could read.
     #[error(
         "the equations need more than {limit} expressions; the forms `recursive` and `compact` \
-         need the fewest, and snapping angles that are nearly multiples of π/2 (the option \
-         `snap`) makes them shorter"
+         need the fewest, and if angles between frames are nearly multiples of π/2, snapping them \
+         (the option `snap`) makes the equations shorter"
     )]
     TooManyExpressions {
         /// The largest number of expressions that are derived.

@@ -116,7 +116,9 @@ fn check(
         let name = variable.name();
         if values.len() != expected {
             let count = values.len();
-            wrong.push(format!("the initial state has {count} entries of {name}, not {expected}"));
+            let entries = if count == 1 { "entry" } else { "entries" };
+            wrong
+                .push(format!("the initial state has {count} {entries} of {name}, not {expected}"));
         }
         if values.iter().any(|value| !value.is_finite()) {
             wrong.push(format!("the initial state has entries of {name} that are not finite"));

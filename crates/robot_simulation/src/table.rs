@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
 
-use crate::csv::{Lines, cells, number, numbers, push_number};
+use crate::csv::{Lines, cells, miscounted, number, numbers, push_number, separators};
 use crate::error::Error;
 
 /// Named columns of numbers, all with the same length.
@@ -122,6 +122,9 @@ impl<R: BufRead> TableReader<R> {
         let Some((_, header)) = lines.next_line()? else {
             return Err(Error::input(format!("{source}: there is no header, such as t,q1,q2")));
         };
+        if let Some(wrong) = separators(header) {
+            return Err(Error::input(format!("{source}: {wrong}")));
+        }
         let names: Vec<String> = cells(header).into_iter().map(str::to_owned).collect();
         let twice = names.iter().enumerate().filter(|(index, name)| names[..*index].contains(name));
         let twice = twice
@@ -162,7 +165,7 @@ fn wrong_cells(place: &str, names: &[String], line: &str) -> Vec<String> {
     let cells = cells(line);
     let (found, expected) = (cells.len(), names.len());
     if found != expected {
-        return vec![format!("{place}: {found} entries, but the header has {expected}")];
+        return vec![miscounted(place, line, found, expected)];
     }
     let wrong = names.iter().zip(cells).filter(|(_, cell)| number(cell).is_none());
     wrong

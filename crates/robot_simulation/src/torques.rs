@@ -7,6 +7,7 @@ use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;
 
+use crate::csv::unit;
 use crate::dynamics::{Features, State, TorqueLaw};
 use crate::error::Error;
 use crate::table::{Table, check_times};
@@ -118,8 +119,8 @@ impl Torques {
         }
         let known = |name: &str| names.iter().any(|known| known == name) || is_of_motion(name);
         for name in table.names().filter(|name| !known(name)) {
-            let name = quote(name);
-            wrong.push(format!("{source}: the column `{name}` does not match a coordinate"));
+            let (name, unit) = (quote(name), unit(name));
+            wrong.push(format!("{source}: the column `{name}` does not match a coordinate{unit}"));
         }
         let columns = names.iter().filter_map(|name| Some(table.column(name)?.to_vec())).collect();
         Error::check(wrong, Torques(Law::Samples { t: t.to_vec(), columns }))

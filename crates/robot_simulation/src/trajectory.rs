@@ -7,6 +7,7 @@ use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, WRENCH_COMPONENTS};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
+use crate::csv::unit;
 use crate::error::Error;
 use crate::kinks::{Kink, kinks, poles};
 use crate::table::{Table, check_times};
@@ -80,8 +81,8 @@ impl Trajectory {
         }
         for name in table.names() {
             if name != "t" && !is_result(name) && needed.iter().all(|known| *known != name) {
-                let name = quote(name);
-                wrong.push(format!("{source}: the column `{name}` is unknown"));
+                let (name, unit) = (quote(name), unit(name));
+                wrong.push(format!("{source}: the column `{name}` is unknown{unit}"));
             }
         }
         let gather = |names: &[String]| {
@@ -185,7 +186,12 @@ fn formulas(
             }
         }
     }
-    for name in coordinates.iter().filter(|name| !formulas.contains_key(*name)) {
+    // An expression with an error is not missing.
+    let is_given = |name: &String| {
+        let mut lefts = texts.iter().filter_map(|text| text.as_ref().split_once('='));
+        formulas.contains_key(name) || lefts.any(|(left, _)| left.trim() == name)
+    };
+    for name in coordinates.iter().filter(|name| !is_given(name)) {
         wrong.push(format!(
             "there is no expression for `{name}`; if it is at rest, write {name} = 0"
         ));

@@ -137,7 +137,7 @@ fn parameter(ParameterRow { parameter, value, unit, .. }: ParameterRow<'_>) -> I
 
 fn link(LinkRow { link, parent, .. }: LinkRow<'_>) -> Item {
     let mut properties =
-        vec![named("parent", parent.to_owned()), named("placement", placement(&link.placement))];
+        vec![named("parent", parent.to_owned()), named("pose", placement(&link.placement))];
     for body in &link.bodies {
         let prefix =
             if body.name == link.name { String::new() } else { format!("{}: ", body.name) };
@@ -187,7 +187,7 @@ fn joint(LinkRow { link, kind, coordinate, limits, .. }: LinkRow<'_>) -> Item {
 
 fn frame(FrameRow { frame, link, wrench }: FrameRow<'_>) -> Item {
     let mut properties =
-        vec![named("link", link.to_owned()), named("placement", placement(&frame.placement))];
+        vec![named("link", link.to_owned()), named("pose", placement(&frame.placement))];
     properties.extend(wrench.map(|names| named("wrench", names)));
     Item { kind: ItemKind::Frame, name: frame.name.clone(), properties }
 }

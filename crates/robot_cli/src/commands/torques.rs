@@ -34,7 +34,7 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// A CSV file with the motion; `-` for standard input
-    #[arg(long, value_name = "FILE", required_unless_present = "expressions")]
+    #[arg(long, value_name = "FILE", conflicts_with = "expressions")]
     trajectory: Option<PathBuf>,
     /// The motion as expressions in t, one for each coordinate, separated by `;`
     #[arg(
@@ -82,6 +82,11 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let inputs = self.robot.inputs().into_iter().chain(self.trajectory.clone());
         let writes = file_of(self.output.as_deref()).is_some() || self.plot.is_some();
+        if self.trajectory.is_none() && self.expressions.is_empty() {
+            let message =
+                "a motion is needed: --trajectory with a CSV file, or --expressions with --time";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
         let writer = self.force.writer(inputs, writes)?;
         let recording = Recording::open(self.output.as_deref(), self.plot.as_deref(), writer)?;
         let file = self.robot.open()?;

@@ -40,6 +40,13 @@ impl StateArguments {
         given.iter().any(|one| one.is_some()) || !self.wrench.is_empty()
     }
 
+    /// The given variables, without the wrench, that are not among these inputs.
+    pub(crate) fn unused(&self, inputs: &[&str]) -> Vec<&'static str> {
+        let given = JointVariable::ALL.into_iter().zip([&self.q, &self.qd, &self.qdd, &self.tau]);
+        let given = given.filter(|(_, text)| text.is_some()).map(|(variable, _)| variable.name());
+        given.filter(|name| !inputs.contains(name)).collect()
+    }
+
     /// Returns the state and all its errors.
     pub(crate) fn state<'l>(&self, robot: &Robot, layout: &'l Layout) -> (State<'l>, Vec<String>) {
         let (mut state, mut wrong) = (State::new(layout), vec![]);

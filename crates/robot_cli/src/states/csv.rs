@@ -3,7 +3,7 @@
 use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
-use robot_simulation::csv::{Lines, cells, number, numbers};
+use robot_simulation::csv::{Lines, cells, miscounted, number, numbers, separators, unit};
 
 use super::{Layout, Place, Sink, State};
 use crate::failure::Failure;
@@ -18,6 +18,10 @@ pub(super) fn read<'l>(
         sink.error("there are no states".to_owned());
         return Ok(());
     };
+    if let Some(wrong) = separators(header) {
+        sink.error(wrong);
+        return Ok(());
+    }
     let header = cells(header);
     let errors = header_errors(&header, layout);
     if !errors.is_empty() {
@@ -33,7 +37,7 @@ pub(super) fn read<'l>(
             columns.set(&found, &mut state);
             true
         } else {
-            columns.set_cells(&cells(line), &mut state, sink)
+            columns.set_cells(line, &mut state, sink)
         };
         if is_state && sink.state(&mut state).is_break() {
             break;
@@ -54,7 +58,9 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
     let columns = layout.columns();
     for (index, name) in header.iter().enumerate() {
         if !columns.contains(name) {
-            errors.push(format!("the header: {}", text::unknown("column", name, &columns)));
+            let (unknown, unit) = (text::unknown("column", name, &columns), unit(name));
+            let unknown = if unit.is_empty() { &unknown } else { unknown.trim_end_matches('.') };
+            errors.push(format!("the header: {unknown}{unit}"));
         } else if header[..index].contains(name) {
             errors.push(format!("`{name}` appears twice in the header"));
         }
@@ -94,17 +100,13 @@ impl Columns {
         }
     }
 
-    /// Adds the cells that are numbers to the state, and reports the others as errors; returns whether the number of
+    /// Adds the cells of a line that are numbers to the state, and reports the others as errors; returns whether the number of
     /// cells is that of the columns.
-    fn set_cells<'l>(
-        &self,
-        cells: &[&str],
-        state: &mut State<'l>,
-        sink: &mut dyn Sink<'l>,
-    ) -> bool {
+    fn set_cells<'l>(&self, line: &str, state: &mut State<'l>, sink: &mut dyn Sink<'l>) -> bool {
+        let cells = cells(line);
         let (place, entries, expected) = (state.place, cells.len(), self.names.len());
         if entries != expected {
-            sink.error(format!("{place}: {entries} entries, but the header has {expected}"));
+            sink.error(miscounted(&place.to_string(), line, entries, expected));
             return false;
         }
         for (index, columns) in &self.arrays {

@@ -123,7 +123,9 @@ fn entries(value: &Node, expected: usize, entries: &mut Vec<f64>) -> Vec<String>
         }
     }
     if elements.len() != expected {
-        errors.push(format!("has {} entries, not {expected}", elements.len()));
+        let count = elements.len();
+        let words = if count == 1 { "entry" } else { "entries" };
+        errors.push(format!("has {count} {words}, not {expected}"));
     }
     errors
 }

@@ -76,7 +76,7 @@ fn everything_that_is_wrong_with_json_is_named() {
     let text = r#"[{"q": [1, "x"], "qd": [1], "qdt": []}, 5, {"q": 3, "qd": [null, 1]}]"#;
     let expected = [
         "state 1: `q` has a text at entry 2, not a number",
-        "state 1: `qd` has 1 entries, not 2",
+        "state 1: `qd` has 1 entry, not 2",
         "state 1: there is no key `qdt`. Did you mean `qd`? Available: q, qd, qdd, tau, wrench.",
         "state 2: expected an object, not a number",
         "state 3: `q` is a number, not an array of 2 numbers",
@@ -98,10 +98,15 @@ fn everything_that_is_wrong_with_csv_is_named() {
     let header = errors("q1,q3,q1\n");
     assert!(header[0].contains("there is no column `q3`. Did you mean `q1`?"), "{header:?}");
     assert_eq!(header[1..], ["`q1` appears twice in the header", "the header lacks q2 of `q`"]);
+    // Files that other programs write have a remedy.
+    let deg = errors("q1 [deg],q2\n");
+    assert!(deg[0].ends_with("fx, fy, fz, mx, my, mz; write the name without a unit, and values in s, rad, m, N m and N: degrees are not converted"), "{deg:?}");
+    let semicolons = "the header has semicolons instead of commas; separate columns by commas, and write decimals with points";
+    assert_eq!(errors("q1;q2\n0;1\n"), [semicolons]);
     let found = errors("q1,q2\n1,nan\n1\n2,\n");
     let expected = [
         "line 2: `q2` is `nan`, not a number",
-        "line 3: 1 entries, but the header has 2",
+        "line 3: 1 entry, but the header has 2",
         "line 4: `q2` is ``, not a number",
     ];
     assert_eq!(found, expected);

@@ -52,6 +52,19 @@ fn a_parameter_without_a_value_is_named() {
 }
 
 #[test]
+fn an_added_joint_is_shown_without_what_it_does_not_have() {
+    let shown = run(&["diff", &robot("planar_2r"), &robot("planar_3r"), "--states", "5"]).output;
+    for line in [
+        "~ frame tip: link 2 -> 3; pose to (l2, 0, 0) -> to (l3, 0, 0)",
+        "+ link 3: parent 2; pose to (l2, 0, 0); mass m3; center of mass to (r3, 0, 0); Izz I3",
+        "+ joint 3: moves 3; kind revolute; axis (0, 0, 1); coordinate q3",
+    ] {
+        assert!(shown.lines().any(|found| found == line), "{line}\n{shown}");
+    }
+    assert!(!shown.contains("placement"), "{shown}");
+}
+
+#[test]
 fn wrong_files_are_no_difference() {
     assert!(complaint(2, &["diff", &robot("planar_2r"), "nowhere.toml"], "").contains("nowhere"));
     assert!(complaint(2, &["diff", &robot("planar_2r")], "").contains("<B>"));

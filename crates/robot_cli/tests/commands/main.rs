@@ -10,6 +10,7 @@ mod code;
 mod compare;
 mod demo;
 mod diff;
+mod edited;
 mod equations;
 mod eval;
 mod files;

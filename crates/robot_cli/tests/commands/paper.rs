@@ -368,10 +368,15 @@ fn equations_unlike_those_of_the_text_are_counted() {
 #[test]
 fn the_remedy_for_a_long_style_is_another_form() {
     let shown = complaint(1, &["equations", &robot("panda"), "--style", "paper"], "");
-    assert!(shown.contains("(without --style: --form grouped, recursive or compact)"), "{shown}");
+    let remedy = "choose the form `grouped`, `recursive` or `compact` (--form, without --style)\n";
+    assert!(shown.ends_with(remedy), "{shown}");
+    // The remedy is said once, and the form that was asked for is named.
+    let shown = complaint(1, &["equations", &robot("panda"), "--form", "collected"], "");
+    assert!(shown.contains("in the forms `expanded` and `collected`"), "{shown}");
+    assert!(shown.ends_with("`recursive` or `compact` (--form)\n"), "{shown}");
     let path = folder("long-like").join("one.printed");
     std::fs::write(&path, "(1) Q7 = qdd7 + qdd6\n").unwrap();
     let arguments = ["equations", &robot("panda"), "--like", path.to_str().unwrap()];
     let shown = complaint(1, &arguments, "");
-    assert!(shown.contains("(without --like: --form grouped"), "{shown}");
+    assert!(shown.contains("(--form, without --like)"), "{shown}");
 }

@@ -163,7 +163,26 @@ fn friction_that_the_robot_has_not_is_an_error() {
 #[test]
 fn options_without_effect_are_refused() {
     let file = robot("planar_2r");
-    let commands: [(&[&str], &str); 7] = [
+    let gravity = ["eval", &file, "--function", "gravity", "--q", "0,0"];
+    let eval = |more: &[&'static str]| [&gravity[..], more].concat();
+    let (moving, loaded) =
+        (eval(&["--qd", "1,1", "--tau", "0,0"]), eval(&["--wrench", "0,1,0,0,0,0"]));
+    let commands: [(&[&str], &str); 13] = [
+        (&moving, "--qd has no effect on gravity, which takes q; leave it out\n"),
+        (&moving, "--tau has no effect on gravity, which takes q; leave it out\n"),
+        (&loaded, "--wrench has no effect on gravity, which takes q; leave it out\n"),
+        (
+            &["equations", &file, "--quantity", "F", "--form", "grouped"],
+            "--quantity F has no effect",
+        ),
+        (
+            &["document", &file, "--quantity", "all", "--form", "recursive,grouped"],
+            "has only Q; choose",
+        ),
+        (
+            &["equations", &file, "--quantity", "Q,F", "--form", "regrouped"],
+            "--quantity Q,F has no",
+        ),
         (&["equations", &file, "--christoffel"], "add --form grouped"),
         (&["equations", &file, "--width", "8cm"], "add --format latex"),
         (&["equations", &file, "--numbers"], "add --format latex"),
@@ -179,6 +198,48 @@ fn options_without_effect_are_refused() {
     let trajectory = ["torques", &file, "--trajectory", "a.csv", "--step", "0.1"];
     assert!(complaint(2, &trajectory, "").contains("--step"));
     assert!(complaint(1, &["import", &file, "--friction"], "").contains("already a robot file"));
+}
+
+#[test]
+fn tables_of_other_programs_have_a_remedy() {
+    let file = robot("planar_2r");
+    for (table, part) in [
+        ("t;q1;q2\n0;0;0\n", "the header has semicolons instead of commas; separate columns by"),
+        ("t\tq1\tq2\n0\t0\t0\n", "the header has tabs instead of commas"),
+        ("t,q1,q2\r0,0,0\r", "the lines end with carriage returns alone; end them with line feeds"),
+        (
+            "t,q1 [deg],q2\n0,0,0\n",
+            "the column `q1 [deg]` is unknown; write the name without a unit",
+        ),
+        ("t,q1,q2\n0\n", "line 2: 1 entry, but the header has 3\n"),
+    ] {
+        let shown = complaint(1, &["torques", &file, "--trajectory", "-"], table);
+        assert!(shown.contains(part), "{table:?}: {shown}");
+    }
+    let torques = ["simulate", &file, "--time", "1", "--torques", "-"];
+    let shown = complaint(1, &torques, "t;tau1;tau2\n0;0;0\n");
+    assert!(shown.contains("the header has semicolons instead of commas"), "{shown}");
+}
+
+#[test]
+fn remedies_fit_what_was_written() {
+    let file = robot("planar_2r");
+    let motion = complaint(2, &["torques", &file], "");
+    assert!(
+        motion.contains("--trajectory with a CSV file, or --expressions with --time"),
+        "{motion}"
+    );
+    let open = ["torques", &file, "--expressions", "q1 = sin(2*pi*t; q2=t", "--time", "1"];
+    let open = complaint(1, &open, "");
+    assert!(open.contains("this parenthesis is not closed") && open.lines().count() == 1, "{open}");
+    let single = complaint(1, &["generate", &file, "--language", "wgsl", "--scalar", "f64"], "");
+    assert!(single.ends_with("WGSL computes in f32 alone; add `--scalar f32`\n"), "{single}");
+    let tip = "\n[[tip]]\nlink = \"2\"\nposition = [0, 0, 0]\n[tip]\nlink = \"1\"\n";
+    let text = std::fs::read_to_string(&file).unwrap() + tip;
+    let path = folder("single-tip").join("arm.toml");
+    std::fs::write(&path, text).unwrap();
+    let shown = complaint(1, &["check", path.to_str().unwrap()], "");
+    assert!(shown.contains("help: write each tip as `[[tip]]`, with double brackets\n"), "{shown}");
 }
 
 #[test]

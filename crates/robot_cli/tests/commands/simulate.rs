@@ -111,7 +111,7 @@ fn everything_that_is_wrong_is_said() {
     assert_eq!(
         start,
         "error: the tolerance is 2; it must be between 1e-14 and 0.1\n\
-         error: the initial state has 1 entries of q, not 2\nerror: the initial state has 3 entries of qd, not 2\n"
+         error: the initial state has 1 entry of q, not 2\nerror: the initial state has 3 entries of qd, not 2\n"
     );
     assert!(shown(&["--torque", "3=1"]).starts_with("error: torque `3` does not match a joint"));
     assert!(shown(&["--torque", "1=1/(t-t)"]).contains("joint torques do not have finite values"));

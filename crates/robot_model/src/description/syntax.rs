@@ -41,6 +41,18 @@ fn next_header(text: &str, byte: usize) -> usize {
     rest.find("\n[").map_or(text.len(), |at| byte + at + 1)
 }
 
+/// The remedy for a table that appears again, by its header.
+fn repeated_table(header: &str) -> &'static str {
+    let name = header.split(']').next().unwrap_or_default().trim_start_matches('[');
+    match name.trim() {
+        "tip" => "write each tip as `[[tip]]`, with double brackets",
+        "frame" => "write each frame as `[[frame]]`, with double brackets",
+        _ => {
+            "write each link as `[[link]]`, with double brackets; other tables may appear only once"
+        }
+    }
+}
+
 /// The message of the parser, and a remedy for the most frequent cases.
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
@@ -50,10 +62,7 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
     } else if starts("unexpected key or value") {
         Some("write one `key = value` per line")
     } else if starts("duplicate key") && line_of(text, span.start).starts_with('[') {
-        Some(
-            "write each link as `[[link]]`, with double brackets; other tables may appear only \
-            once",
-        )
+        Some(repeated_table(line_of(text, span.start)))
     } else if starts("duplicate key") {
         Some("the table already contains this key: keep one of them")
     } else if starts("string values must be quoted") {

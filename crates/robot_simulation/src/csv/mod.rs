@@ -3,9 +3,11 @@
 //! Cells are separated by commas and can have spaces and quotes around them; they cannot contain commas. Blank lines
 //! are ignored.
 
+mod advice;
 mod lines;
 mod number;
 
+pub use self::advice::{miscounted, separators, unit};
 pub use self::lines::{Lines, is_blank, not_utf8};
 pub use self::number::push_number;
 

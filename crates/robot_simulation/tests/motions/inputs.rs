@@ -114,7 +114,7 @@ fn options_and_states_are_checked_at_once() {
     let options = SimulationOptions { tolerance: 0.0, ..SimulationOptions::default() };
     let expected = [
         "the tolerance is 0; it must be between 1e-14 and 0.1",
-        "the initial state has 1 entries of q, not 2",
+        "the initial state has 1 entry of q, not 2",
         "the initial state has entries of qd that are not finite",
     ];
     assert_eq!(run(&start, options).lines().collect::<Vec<_>>(), expected);

@@ -6,18 +6,19 @@
 mod marker;
 mod pending;
 mod place;
+mod remaining;
+mod seal;
 mod staging;
 mod writer;
 
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use marker::Ends;
 pub use marker::MARKER;
 pub use pending::Pending;
+pub use remaining::remaining;
+pub use seal::sealed;
 pub use writer::{Output, Ownership, Writer};
 
-use crate::driver::file::File;
 use crate::error::Error;
 
 /// The difference between a file on disk and the content that would be generated.
@@ -63,22 +64,6 @@ pub fn staleness(path: &Path, wanted: &[u8]) -> Result<Option<Staleness>, Error>
             _ => return Ok(Some(Staleness::Differs { line })),
         }
     }
-}
-
-/// Finds files of an earlier run in the folders of `files` that are not among `files`. They have this program's mark,
-/// but describe an earlier state of the robot or its functions. Returns paths in `folder`, sorted by name; files that
-/// cannot be read are not included.
-#[must_use]
-pub fn remaining(folder: &Path, files: &[File]) -> Vec<PathBuf> {
-    let written: BTreeSet<PathBuf> = files.iter().map(|file| file.path_in(folder)).collect();
-    let folders: BTreeSet<&Path> = written.iter().filter_map(|path| path.parent()).collect();
-    let entries = folders.into_iter().filter_map(|folder| std::fs::read_dir(folder).ok()).flatten();
-    let is_own =
-        |path: &PathBuf| path.is_file() && Ends::of(path).is_ok_and(|ends| ends.are_marked());
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let found: BTreeSet<PathBuf> =
-        paths.filter(|path| !written.contains(path)).filter(is_own).collect();
-    found.into_iter().collect()
 }
 
 #[cfg(test)]

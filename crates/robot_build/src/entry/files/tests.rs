@@ -174,19 +174,39 @@ fn a_folder_appears_whole_and_a_present_one_keeps_what_is_in_it() {
 #[test]
 fn files_of_an_earlier_run_are_found() {
     let folder = Folder::new("remaining");
-    let file = |path: &str| File::text(path, NEW.to_owned());
-    let [first, second] = [["README.md", "+arm/bias.m"], ["README.md", "+arm/gravity.m"]]
-        .map(|paths| paths.map(file));
+    let file = |path: &&str| File::text(path, OWN.to_owned());
     let at = folder.path("new");
-    Writer::new().write_folder(&at, &first).unwrap();
-    assert_eq!(remaining(&at, &first), [] as [PathBuf; 0]);
-    for mine in ["notes", "+arm/mine.m", "other/own.m"] {
-        fs::create_dir_all(at.join("other")).unwrap();
-        fs::write(at.join(mine), if mine == "other/own.m" { OWN } else { "mine" }).unwrap();
+    let write = |paths: &[&str]| {
+        let files: Vec<File> = paths.iter().map(file).collect();
+        Writer::new().write_folder(&at, &files).unwrap();
+        remaining(&at, &files)
+    };
+    let nothing: [PathBuf; 0] = [];
+    assert_eq!(write(&["README.md", "+arm/bias.m"]), nothing);
+    assert_eq!(
+        write(&["README.md", "src/lib.rs", "src/runtime/trig/mod.rs"]),
+        [at.join("+arm/bias.m")]
+    );
+    // Documents and plans, files of others, other folders, other packages and build folders.
+    for (path, text) in [
+        ("arm.plan", NEW),
+        ("src/arm.tex", NEW),
+        ("notes", "mine"),
+        ("+arm/mine.m", "mine"),
+        ("other/own.m", OWN),
+        ("examples/other/README.md", OWN),
+        ("examples/other/src/lib.rs", OWN),
+        ("tests/target/CACHEDIR.TAG", "Signature"),
+        ("tests/target/out.rs", OWN),
+    ] {
+        let path = at.join(path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
     }
-    Writer::new().write_folder(&at, &second).unwrap();
-    assert_eq!(remaining(&at, &second), [at.join("+arm/bias.m")]);
-    assert_eq!(remaining(&folder.path("nowhere"), &second), [] as [PathBuf; 0]);
+    let earlier = ["+arm/bias.m", "src/lib.rs", "src/runtime/trig/mod.rs"];
+    assert_eq!(write(&["README.md", "+arm/gravity.m"]), earlier.map(|path| at.join(path)));
+    let none: &[File] = &[];
+    assert_eq!(remaining(&folder.path("nowhere"), none), nothing);
 }
 
 #[test]

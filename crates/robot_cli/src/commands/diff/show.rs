@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use robot_check::difference::{
-    Change, Difference, Equation, Item, Property, State, Term, Torque, Torques,
+    Change, Difference, Equation, Item, ItemKind, Property, State, Term, Torque, Torques,
 };
 use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
@@ -72,8 +72,8 @@ fn arrow<T: ToString>(sides: &[Option<T>; 2]) -> String {
 
 fn change(change: &Change) -> String {
     let whole = |sign: char, item: &Item| {
-        let said: Vec<String> =
-            item.properties.iter().map(|(name, value)| format!("{name} {value}")).collect();
+        let said = item.properties.iter().filter(|(name, value)| !is_usual(item.kind, name, value));
+        let said: Vec<String> = said.map(|(name, value)| format!("{name} {value}")).collect();
         format!("{sign} {} {}: {}\n", item.kind.name(), item.name, said.join("; "))
     };
     match change {
@@ -85,6 +85,20 @@ fn change(change: &Change) -> String {
             let name = if name.is_empty() { String::new() } else { format!(" {name}") };
             format!("~ {}{name}: {}\n", kind.name(), properties.join("; "))
         }
+    }
+}
+
+/// Whether an added or removed item has this property if a file does not mention it: it is not printed then.
+fn is_usual(kind: ItemKind, name: &str, value: &str) -> bool {
+    match kind {
+        ItemKind::Joint => match name {
+            "ratio" | "gear ratio" => value == "1",
+            "gyroscopic rotor" => value == "false",
+            _ => value == "0",
+        },
+        // Zeros of the inertia of a link or of a body that is fixed to it.
+        ItemKind::Link => value == "0" && name != "mass" && !name.ends_with(": mass"),
+        ItemKind::Robot | ItemKind::Parameter | ItemKind::Frame => false,
     }
 }
 

@@ -31,6 +31,8 @@ pub(super) struct Task<'e> {
     pub(super) handle: Option<Handle<'e>>,
     /// The reason why states must not have a wrench, if there is one.
     pub(super) unloadable: Option<String>,
+    /// Whether the chosen function takes a wrench, so that states without one are remarkable.
+    pub(super) takes_wrench: bool,
     pub(super) printer: Printer,
     /// The name of the robot file.
     pub(super) file: &'e str,
@@ -51,6 +53,10 @@ pub(super) struct Evaluation<'e, 'l, 't> {
     outgoing: Outgoing<'t>,
     /// Whether no state has been printed yet.
     is_empty: bool,
+    /// Whether no state has been received yet.
+    has_none: bool,
+    /// Whether the chosen function takes a wrench and no state has one.
+    lack_wrenches: bool,
     failure: Option<Failure>,
 }
 
@@ -108,34 +114,52 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
             wrong: Wrong { before, ..Wrong::default() },
             outgoing,
             is_empty: true,
+            has_none: true,
+            lack_wrenches: task.takes_wrench,
             failure: None,
             task,
         }
     }
 
-    /// Ends the output, or returns the errors.
+    /// Ends the output, or returns the errors. It is an error if there are no states.
     pub(super) fn end(mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);
         }
+        if self.has_none && self.wrong.is_none() {
+            self.error("there are no states".to_owned());
+        }
         self.compute()?;
         std::mem::take(&mut self.wrong).result()?;
-        let Evaluation { mut outgoing, is_empty, task, .. } = self;
-        outgoing.push(|text| task.printer.end(is_empty, text))?;
+        self.note_wrench();
+        let Evaluation { mut outgoing, task, .. } = self;
+        outgoing.push(|text| task.printer.end(text))?;
         outgoing.end(|_| Ok(()))
+    }
+
+    /// Prints a note if the chosen function takes a wrench and no state has one.
+    fn note_wrench(&mut self) {
+        if self.lack_wrenches {
+            let name = &self.task.function.name;
+            let note = format!("note: no wrench is given, so {name} is computed with 0\n");
+            self.outgoing.warn(&note);
+        }
     }
 
     /// Records inputs that a state does not have, and a wrench that it must not have.
     fn check(&mut self, state: &State<'_>) {
         let Evaluation { task, wrong, .. } = self;
         let place = state.place;
+        self.has_none = false;
         if let Some(why) = task.unloadable.as_ref().filter(|_| state.is_loaded()) {
             wrong.loaded.push(format!("{place}: has a wrench, but {why}"));
         }
         for Input { name, array, .. } in &self.inputs {
             let is_given = array.is_some_and(|array| state.at(array).is_some());
             // A missing wrench is 0.
-            if !is_given && !name.starts_with(WRENCH) {
+            if name.starts_with(WRENCH) {
+                self.lack_wrenches &= !is_given;
+            } else if !is_given {
                 let function = &task.function.name;
                 wrong.missing.push(format!("{place}: `{name}` is missing; {function} needs it"));
             }

@@ -14,9 +14,11 @@ use robot_build::{
     Bundle, Effects, FunctionKind, Functions, Options, Ownership, Programs, Trigonometry, Writer,
     programs_of,
 };
+use robot_codegen::module::Function;
 use robot_jit::Executable;
 use robot_model::description::Described;
 use robot_model::robot::Robot;
+use robot_model::variable::WRENCH;
 
 use self::digits::Digits;
 use self::evaluation::{Evaluation, Task, failed};
@@ -41,7 +43,7 @@ use crate::suggested::FUNCTION;
 
 States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz; wrench_NAME
 for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz. A function needs all
-its inputs except the wrench, whose default is 0. The wrench is the one that the tip exerts on its surroundings.
+its inputs except the wrench, whose default is 0; further keys and columns are ignored. The wrench is the one that the tip exerts on its surroundings.
 If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
 inverse_dynamics_wrench_friction, and likewise for forward_dynamics. The values come from the same straight-line
 program from which the code is printed. States are read, and their outputs printed, one by one, however many
@@ -91,6 +93,7 @@ impl Arguments {
         let bundles = code.bundles.iter().filter(|bundle| bundle.name == self.function);
         let bundles: Vec<Bundle> = bundles.cloned().collect();
         let kind = if bundles.is_empty() { Some(self.kind(robot)?) } else { None };
+        let takes_wrench = kind.is_some_and(|kind| kind.effects().wrench);
         let before = self.settings.wrong(robot);
         if before.is_empty() {
             self.settings.check(&file, &described, terminal)?;
@@ -113,6 +116,7 @@ impl Arguments {
             let message = format!("the robot does not have the function `{}`", self.function);
             return Err(Failure::input(message));
         };
+        states.check(&self.state, function, unloadable.as_ref().is_some_and(Option::is_some))?;
         let handle = executable.as_ref().map(|one| one.function(&function.name));
         let handle = handle.transpose().map_err(|errors| failed(name, &errors))?;
         let task = Task {
@@ -123,6 +127,7 @@ impl Arguments {
             function,
             handle,
             unloadable: unloadable.flatten(),
+            takes_wrench,
             printer: match self.format {
                 Format::Json => Printer::json(&function.outputs),
                 Format::Csv => Printer::csv(&function.outputs),
@@ -203,6 +208,32 @@ impl<'l> States<'l, '_> {
             States::Given(_) => None,
             States::Read(input) => Some(input.name().to_owned()),
         }
+    }
+
+    /// Returns an error for options of the state that have no effect on a function. Files may have further columns and
+    /// keys, so that one file is for all functions. A wrench that the robot must not have is another error.
+    fn check(
+        &self,
+        given: &StateArguments,
+        function: &Function,
+        is_unloadable: bool,
+    ) -> Result<(), Failure> {
+        let States::Given(state) = self else { return Ok(()) };
+        let inputs: Vec<&str> = function.inputs.iter().map(|input| input.name.as_str()).collect();
+        let mut unused = given.unused(&inputs);
+        let takes_wrench = inputs.iter().any(|input| input.starts_with(WRENCH));
+        if state.is_loaded() && !takes_wrench && !is_unloadable {
+            unused.push(WRENCH);
+        }
+        let (name, inputs) = (&function.name, inputs.join(", "));
+        let takes = if inputs.is_empty() { "nothing".to_owned() } else { inputs };
+        let wrong: Vec<String> = unused
+            .iter()
+            .map(|option| {
+                format!("--{option} has no effect on {name}, which takes {takes}; leave it out")
+            })
+            .collect();
+        if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
     }
 
     /// Whether any state has a wrench.

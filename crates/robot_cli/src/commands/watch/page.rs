@@ -4,7 +4,7 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use robot_build::{Errors, Options, Output, Ownership, Source, Writer, shown};
+use robot_build::{Errors, Options, Output, Ownership, Source, Writer, sealed, shown};
 use robot_report::{Compiled, Reloading, reloading};
 
 use crate::commands::report::input;
@@ -74,7 +74,7 @@ impl Page {
     /// written.
     pub(super) fn finish(self) -> Result<(), Failure> {
         let Some(last) = &self.last else { return Ok(()) };
-        let written = self.writer.write(&[marked(&self.path, &last.still)]);
+        let written = self.writer.write(&[marked(&self.path, &sealed(&last.still))]);
         let removed = remove(&self.picture(), &last.stamp);
         written?;
         removed

@@ -304,6 +304,20 @@ fn the_end_removes_the_own_picture_alone() {
     assert!(!is_good && !picture.exists());
 }
 
+/// The page that stays is sealed, as that of `report`.
+#[test]
+fn an_edited_page_stays() {
+    let (_folder, path, _) = page_in_folder();
+    let open = || Page::open(path.clone(), Writer::new());
+    for _ in 0..2 {
+        assert!(followed_with([look(ARM)], Some(open().unwrap())).0);
+    }
+    let edited = std::fs::read_to_string(&path).unwrap().replacen("<body", "<body ", 1);
+    std::fs::write(&path, &edited).unwrap();
+    assert!(open().is_err());
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), edited);
+}
+
 #[test]
 fn a_long_robot_has_a_page_too() {
     let (_folder, path, picture) = page_in_folder();

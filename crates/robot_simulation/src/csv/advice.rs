@@ -1,0 +1,78 @@
+//! Remedies in messages about CSV that other programs write differently.
+
+/// Separators of other formats, with their names.
+const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
+
+/// The remedy if a header is separated by other characters than commas, or if its lines end with carriage returns
+/// alone; `None` if neither is so.
+#[must_use]
+pub fn separators(header: &str) -> Option<String> {
+    let header = header.trim();
+    if header.contains('\r') {
+        let message = "the lines end with carriage returns alone; end them with line feeds";
+        return Some(message.to_owned());
+    }
+    let found = SEPARATORS.iter().find(|(separator, _)| header.contains(*separator));
+    let (_, name) = found.filter(|_| !header.contains(','))?;
+    Some(format!(
+        "the header has {name} instead of commas; separate columns by commas, and write decimals with points"
+    ))
+}
+
+/// The remedy, to be appended to a message about an unknown column, if its name seems to contain a unit; otherwise
+/// empty.
+#[must_use]
+pub fn unit(name: &str) -> &'static str {
+    if name.contains(['[', '(', '°']) || name.ends_with("_deg") || name.ends_with("_rad") {
+        "; write the name without a unit, and values in s, rad, m, N m and N: degrees are not converted"
+    } else {
+        ""
+    }
+}
+
+/// The message about a line whose number of entries is not that of the header. `place` is the line.
+#[must_use]
+pub fn miscounted(place: &str, line: &str, found: usize, expected: usize) -> String {
+    let entries = if found == 1 { "entry" } else { "entries" };
+    let remedy = if SEPARATORS.iter().any(|(separator, _)| line.trim().contains(*separator)) {
+        "; separate them by commas"
+    } else {
+        ""
+    };
+    format!("{place}: {found} {entries}, but the header has {expected}{remedy}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_separators_have_a_remedy() {
+        for (header, part) in [
+            ("t;q1;q2\n", Some("has semicolons instead of commas; separate columns by commas")),
+            ("t\tq1\n", Some("has tabs instead of commas")),
+            ("t|q1\n", Some("has vertical bars instead of commas")),
+            ("t,q1\r0,1\r1,1\r", Some("end with carriage returns alone")),
+            ("t,q1\r\n", None),
+            ("\tt\t, q1;\n", None),
+            ("t\n", None),
+        ] {
+            let found = separators(header);
+            assert_eq!(found.is_some(), part.is_some(), "{header:?}: {found:?}");
+            assert!(found.is_none_or(|found| found.contains(part.unwrap_or_default())));
+        }
+        assert_eq!(
+            miscounted("line 2", "0;1", 1, 3),
+            "line 2: 1 entry, but the header has 3; separate them by commas"
+        );
+        assert_eq!(miscounted("line 2", "0,1\n", 2, 3), "line 2: 2 entries, but the header has 3");
+    }
+
+    #[test]
+    fn a_unit_in_a_name_has_a_remedy() {
+        for name in ["q1 [deg]", "q1 (rad)", "q1_deg", "q1 °"] {
+            assert!(unit(name).contains("without a unit"), "{name}");
+        }
+        assert_eq!(["q3", "speed", "qd_1"].map(unit), [""; 3]);
+    }
+}
