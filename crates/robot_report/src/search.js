@@ -25,7 +25,8 @@
   const isSymbol = (key) => /^[A-Za-z]{1,2}\d*$/.test(key);
   const sign = (letter) => /\w/.test(letter) ? letter + "[_^]?" : /\s/.test(letter) ? "\\s*" : `\\s*\\${letter}\\s*`;
   function pattern(key) {
-    const [before, after] = isSymbol(key) ? ["(^|[^A-Za-z0-9\\u0300-\\u036f])", "(?![A-Za-z])"] : ["", ""];
+    // An index is not a symbol of its own: x_2 is not in ω_x^2.
+    const [before, after] = isSymbol(key) ? ["(^|[^A-Za-z0-9_\\u0300-\\u036f])", "(?![A-Za-z])"] : ["", ""];
     return before + [...key].map(sign).join("") + (/\d$/.test(key) ? "(?!\\d)" : after);
   }
 

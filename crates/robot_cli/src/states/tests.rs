@@ -126,7 +126,7 @@ impl std::io::Read for Slow<'_> {
 }
 
 /// Reads states that come in pieces; returns them with the messages, or the error that ended the reading.
-fn read_slowly(bytes: &[u8], most: usize) -> std::result::Result<Collected, String> {
+fn read_slowly(bytes: &[u8], most: usize) -> Result<Collected, String> {
     let (layout, mut collected) = (layout(), Collected::default());
     let mut source = Slow { bytes, most };
     let mut input =

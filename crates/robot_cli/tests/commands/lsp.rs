@@ -80,9 +80,9 @@ impl Editor {
         let mut editor = Editor::start(arguments);
         let shows = json!({ "relatedInformation": true });
         let capabilities = json!({ "textDocument": { "publishDiagnostics": shows } });
-        let answer = editor.ask("initialize", json!({ "capabilities": capabilities }));
+        let answer = editor.ask("initialize", &json!({ "capabilities": capabilities }));
         assert_eq!(answer["result"]["capabilities"]["positionEncoding"], "utf-16");
-        editor.tell("initialized", json!({}));
+        editor.tell("initialized", &json!({}));
         editor
     }
 
@@ -92,12 +92,12 @@ impl Editor {
         input.flush().unwrap();
     }
 
-    fn tell(&mut self, method: &str, params: Value) {
+    fn tell(&mut self, method: &str, params: &Value) {
         self.send(&framed(&json!({ "jsonrpc": "2.0", "method": method, "params": params })));
     }
 
     /// Sends a request; returns the answer.
-    fn ask(&mut self, method: &str, params: Value) -> Value {
+    fn ask(&mut self, method: &str, params: &Value) -> Value {
         self.request += 1;
         let request = self.request;
         let message =
@@ -122,7 +122,7 @@ impl Editor {
 
     fn opened(&mut self, uri: &str, text: &str) -> Vec<Value> {
         let document = json!({ "uri": uri, "languageId": "toml", "version": 1, "text": text });
-        self.tell("textDocument/didOpen", json!({ "textDocument": document }));
+        self.tell("textDocument/didOpen", &json!({ "textDocument": document }));
         self.diagnostics(uri)
     }
 
@@ -130,7 +130,7 @@ impl Editor {
         let document = json!({ "uri": uri, "version": version });
         let changes = json!([{ "text": text }]);
         let params = json!({ "textDocument": document, "contentChanges": changes });
-        self.tell("textDocument/didChange", params);
+        self.tell("textDocument/didChange", &params);
     }
 
     /// Closes standard input; returns the exit code, messages that were not received and standard error.
@@ -144,8 +144,8 @@ impl Editor {
 
     /// Ends the session as the protocol says.
     fn close(mut self) {
-        assert_eq!(self.ask("shutdown", Value::Null)["result"], Value::Null);
-        self.tell("exit", Value::Null);
+        assert_eq!(self.ask("shutdown", &Value::Null)["result"], Value::Null);
+        self.tell("exit", &Value::Null);
         assert_eq!(self.end(), (Some(0), vec![], String::new()));
     }
 }
@@ -189,7 +189,7 @@ fn diagnostics_follow_the_text_in_the_editor() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0]["range"], range([1, 34, 1, 38]));
     let document = json!({ "uri": uri });
-    editor.tell("textDocument/didClose", json!({ "textDocument": document }));
+    editor.tell("textDocument/didClose", &json!({ "textDocument": document }));
     assert_eq!(editor.diagnostics(uri), Vec::<Value>::new());
     editor.close();
 }
@@ -209,7 +209,7 @@ fn related_places_are_shown_as_the_editor_can() {
     assert_eq!(found[0]["relatedInformation"], related);
     editor.close();
     let mut editor = Editor::start(&[]);
-    editor.ask("initialize", json!({ "capabilities": {} }));
+    editor.ask("initialize", &json!({ "capabilities": {} }));
     let found = editor.opened(uri, &text);
     assert_eq!(found[0].get("relatedInformation"), None);
     assert!(found[0]["message"].as_str().unwrap().contains("\nline 8: 2 kg\n"), "{found:?}");
@@ -300,7 +300,7 @@ fn every_broken_file_has_the_diagnostics_of_check() {
         };
         let uri = format!("file://{shown}");
         let document = json!({ "uri": uri, "version": 1, "text": text });
-        editor.tell("textDocument/didOpen", json!({ "textDocument": document }));
+        editor.tell("textDocument/didOpen", &json!({ "textDocument": document }));
         let mut message = editor.next();
         if message["method"] == "window/logMessage" {
             assert!(message["params"]["message"].as_str().unwrap().contains("is not checked"));
@@ -334,7 +334,7 @@ fn keys_and_parameters_are_explained() {
     let mut ask = |line: u64, character: u64| {
         let position = json!({ "line": line, "character": character });
         let params = json!({ "textDocument": { "uri": uri }, "position": position });
-        editor.ask("textDocument/hover", params)["result"].clone()
+        editor.ask("textDocument/hover", &params)["result"].clone()
     };
     let found = ask(9, 2);
     assert_eq!(
@@ -356,8 +356,8 @@ fn keys_and_parameters_are_explained() {
     assert_eq!(ask(9, 16), Value::Null);
     assert_eq!(ask(999, 0), Value::Null);
     let params = json!({ "textDocument": { "uri": "file:///other" }, "position": {} });
-    assert_eq!(editor.ask("textDocument/hover", params)["result"], Value::Null);
-    assert_eq!(editor.ask("textDocument/hover", json!(null))["error"]["code"], -32602);
+    assert_eq!(editor.ask("textDocument/hover", &params)["result"], Value::Null);
+    assert_eq!(editor.ask("textDocument/hover", &json!(null))["error"]["code"], -32602);
     editor.close();
 }
 
@@ -377,7 +377,7 @@ fn a_stale_plan_beside_the_file_is_reported() {
     let found = editor.diagnostics(&uri);
     assert!(found.iter().any(|one| one["code"] == "R0803"), "{found:?}");
     std::fs::remove_file(folder.join("arm 1.plan")).unwrap();
-    editor.tell("textDocument/didSave", json!({ "textDocument": { "uri": uri } }));
+    editor.tell("textDocument/didSave", &json!({ "textDocument": { "uri": uri } }));
     let found = editor.diagnostics(&uri);
     assert!(found.iter().all(|one| one["code"] != "R0803"), "{found:?}");
     editor.close();
@@ -386,19 +386,19 @@ fn a_stale_plan_beside_the_file_is_reported() {
 #[test]
 fn a_session_begins_and_ends_by_the_protocol() {
     let mut editor = Editor::start(&[]);
-    assert_eq!(editor.ask("textDocument/hover", json!({}))["error"]["code"], -32002);
-    editor.ask("initialize", json!({ "capabilities": {} }));
-    assert_eq!(editor.ask("initialize", json!({}))["error"]["code"], -32600);
-    assert_eq!(editor.ask("textDocument/rename", json!({}))["error"]["code"], -32601);
-    editor.tell("$/setTrace", json!({ "value": "off" }));
+    assert_eq!(editor.ask("textDocument/hover", &json!({}))["error"]["code"], -32002);
+    editor.ask("initialize", &json!({ "capabilities": {} }));
+    assert_eq!(editor.ask("initialize", &json!({}))["error"]["code"], -32600);
+    assert_eq!(editor.ask("textDocument/rename", &json!({}))["error"]["code"], -32601);
+    editor.tell("$/setTrace", &json!({ "value": "off" }));
     editor.send(&framed(&json!({ "id": 7, "result": null })));
-    editor.ask("shutdown", Value::Null);
-    assert_eq!(editor.ask("shutdown", Value::Null)["error"]["code"], -32600);
-    editor.tell("exit", Value::Null);
+    editor.ask("shutdown", &Value::Null);
+    assert_eq!(editor.ask("shutdown", &Value::Null)["error"]["code"], -32600);
+    editor.tell("exit", &Value::Null);
     assert_eq!(editor.end(), (Some(0), vec![], String::new()));
 
     let mut editor = Editor::open(&[]);
-    editor.tell("exit", Value::Null);
+    editor.tell("exit", &Value::Null);
     let (code, _, errors) = editor.end();
     assert_eq!(
         (code, errors.as_str()),
@@ -427,21 +427,21 @@ fn wrong_messages_are_told_on_standard_error_alone() {
     let uri = "file:///arm.toml";
     let document = json!({ "uri": uri });
     let ranged = json!([{ "range": range([0; 4]), "text": "a" }]);
-    editor.tell("textDocument/didOpen", json!(null));
-    editor.tell("textDocument/didOpen", json!({ "textDocument": document }));
+    editor.tell("textDocument/didOpen", &json!(null));
+    editor.tell("textDocument/didOpen", &json!({ "textDocument": document }));
     editor.change(uri, 2, ARM);
     assert_eq!(editor.opened(uri, ARM), Vec::<Value>::new());
     editor.tell(
         "textDocument/didChange",
-        json!({ "textDocument": document, "contentChanges": ranged }),
+        &json!({ "textDocument": document, "contentChanges": ranged }),
     );
     editor
-        .tell("textDocument/didChange", json!({ "textDocument": document, "contentChanges": [] }));
-    editor.tell("textDocument/didClose", json!({ "textDocument": { "uri": 5 } }));
+        .tell("textDocument/didChange", &json!({ "textDocument": document, "contentChanges": [] }));
+    editor.tell("textDocument/didClose", &json!({ "textDocument": { "uri": 5 } }));
     editor.send(&framed(&json!({})));
     editor.send(&framed(&json!({ "id": 1, "method": 5 })));
-    editor.ask("shutdown", Value::Null);
-    editor.tell("exit", Value::Null);
+    editor.ask("shutdown", &Value::Null);
+    editor.tell("exit", &Value::Null);
     let (code, left, errors) = editor.end();
     assert_eq!((code, left), (Some(0), vec![]));
     let lines: Vec<&str> = errors.lines().collect();

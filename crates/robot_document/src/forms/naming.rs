@@ -131,7 +131,11 @@ pub(super) fn named_length(roots: &[Expr<'_>], digits: Option<usize>) -> usize {
             View::Div(a, b) => (factor(a) + factor(b) + 1, false),
         };
         let is_named = named.contains(&expr.id());
-        total += if is_named { length } else { 0 };
+        // A long number that is written out counts as two symbols.
+        total += match is_named {
+            true => length,
+            false => usize::from(is_long_constant(expr, digits)),
+        };
         known.insert(expr.id(), if is_named { (1, false) } else { (length, is_sum) });
     }
     let of_roots = roots.iter().filter_map(|root| known.get(&root.id()));

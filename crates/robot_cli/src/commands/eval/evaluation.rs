@@ -53,8 +53,6 @@ pub(super) struct Evaluation<'e, 'l, 't> {
     outgoing: Outgoing<'t>,
     /// Whether no state has been printed yet.
     is_empty: bool,
-    /// Whether no state has been received yet.
-    has_none: bool,
     /// Whether the chosen function takes a wrench and no state has one.
     lack_wrenches: bool,
     failure: Option<Failure>,
@@ -114,26 +112,22 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
             wrong: Wrong { before, ..Wrong::default() },
             outgoing,
             is_empty: true,
-            has_none: true,
             lack_wrenches: task.takes_wrench,
             failure: None,
             task,
         }
     }
 
-    /// Ends the output, or returns the errors. It is an error if there are no states.
+    /// Ends the output, or returns the errors. No states have no outputs.
     pub(super) fn end(mut self) -> Result<(), Failure> {
         if let Some(failure) = self.failure {
             return Err(failure);
         }
-        if self.has_none && self.wrong.is_none() {
-            self.error("there are no states".to_owned());
-        }
         self.compute()?;
         std::mem::take(&mut self.wrong).result()?;
         self.note_wrench();
-        let Evaluation { mut outgoing, task, .. } = self;
-        outgoing.push(|text| task.printer.end(text))?;
+        let Evaluation { mut outgoing, is_empty, task, .. } = self;
+        outgoing.push(|text| task.printer.end(is_empty, text))?;
         outgoing.end(|_| Ok(()))
     }
 
@@ -150,7 +144,6 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
     fn check(&mut self, state: &State<'_>) {
         let Evaluation { task, wrong, .. } = self;
         let place = state.place;
-        self.has_none = false;
         if let Some(why) = task.unloadable.as_ref().filter(|_| state.is_loaded()) {
             wrong.loaded.push(format!("{place}: has a wrench, but {why}"));
         }

@@ -75,9 +75,9 @@ impl Printer {
     }
 
     /// Appends the text after the last state.
-    pub(super) fn end(&self, text: &mut String) {
+    pub(super) fn end(&self, is_empty: bool, text: &mut String) {
         match self {
-            Printer::Json(_) => text.push_str("\n]\n"),
+            Printer::Json(_) => text.push_str(if is_empty { "[\n\n]\n" } else { "\n]\n" }),
             Printer::Csv { .. } => {}
         }
     }
