@@ -16,12 +16,12 @@ fuzz_target!(|text: &str| {
     robot_fuzz::harmless_latex(&formula(&Math::spelled(name)));
     if robot_fuzz::chosen(text.as_bytes(), 4) {
         in_toml(name, latex);
-    } else if robot_fuzz::chosen(name.as_bytes(), 4) {
+    } else if robot_fuzz::chosen(format!("{text}\n").as_bytes(), 4) {
         in_urdf(name);
     }
 });
 
-/// Uses the text as the name of a parameter, a link and a frame, with the LaTeX of the parameter.
+/// Uses the text as the name of a parameter and a link, with the LaTeX of the parameter.
 fn in_toml(name: &str, latex: &str) {
     let (quoted, latex) = (quoted(name), quoted(latex));
     let file = format!(
@@ -47,7 +47,7 @@ fn in_urdf(name: &str) {
     let escaped: String = name.chars().map(|letter| format!("&#{};", letter as u32)).collect();
     let file = format!(
         "<robot name=\"{escaped}\"><link name=\"{escaped}0\"/><link name=\"{escaped}\"><inertial>\
-         <mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial></link>\
+         <mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>\
          <joint name=\"{escaped}\" type=\"continuous\"><parent link=\"{escaped}0\"/>\
          <child link=\"{escaped}\"/></joint></robot>"
     );

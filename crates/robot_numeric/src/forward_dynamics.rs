@@ -29,9 +29,9 @@ struct Resistance<T: Number> {
     torque: T,
 }
 
-/// The accelerations by the articulated-body algorithm for any kind of numbers, Table 7.1 of R. Featherstone, "Rigid
-/// Body Dynamics Algorithms", 2008. The lengths must be right, and each coordinate must drive only one joint. `None` if
-/// a joint has no inertia.
+/// Computes the joint accelerations by the articulated-body algorithm for any kind of numbers (R. Featherstone, "Rigid
+/// Body Dynamics Algorithms", 2008, Table 7.1). Each slice has one entry per coordinate, and each coordinate drives only
+/// one joint. `None` if a joint has no inertia.
 pub(super) fn articulated_body<T: Number>(
     mechanism: &Mechanism,
     q: &[T],

@@ -21,7 +21,7 @@ pub struct Random {
 pub struct Recipe {
     /// The number of moving joints. Each has its own coordinate unless `mimic` is set.
     pub joints: usize,
-    /// Whether the parent of a link may be any preceding link or the base, instead of the last link.
+    /// Whether the parent of a link may be any preceding link or the base. If not, it is the link before.
     pub branching: bool,
     /// Whether some joints share the coordinate of another joint, with a ratio and an offset.
     pub mimic: bool,

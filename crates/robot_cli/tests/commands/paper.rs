@@ -224,13 +224,13 @@ fn introduction(counts: &Counts) -> String {
     format!(
         "# TRTTR1, equation by equation\n\n\
          This page shows equations (9) to (61) of the [text that we have of the paper](trttr1.md) beside those that\n\
-         `robot-symbolic equations robots/trttr1.toml --like docs/trttr1.printed` prints. A test writes this page and\n\
-         compares it.\n\n\
-         Of {all} scalar equations\n\n\
+         `robot-symbolic equations robots/trttr1.toml --like docs/trttr1.printed` prints. A test checks that this\n\
+         page is up to date.\n\n\
+         Of {all} scalar equations:\n\n\
          - {same} are the same, letter by letter, and are shown once;\n\
          - {differing} have the same order, but one or more terms differ and are red;\n\
          - {reordered} have their terms or factors in another order;\n\
-         - {names} only name a component.\n\n\
+         - {names} only name another quantity.\n\n\
          The order of the terms is the text's; only their values are derived. With `--style paper`, the text is not read:\n\
          terms are in the order in which the paper's relations (8) to (60) yield them. The terms of a product of sums\n\
          follow one another, and like terms are joined at the place of the first. The text has the same order except in\n\

@@ -73,7 +73,8 @@ pub(super) struct Worthy<'g> {
 
 /// Returns the parts of `roots` that should have a name, operands before results: long parts that are used several
 /// times, and parts of expressions that would be too long to print. Sines and cosines get no names. A constant gets one
-/// if it is used several times and is long when it is printed with `digits` significant digits.
+/// if it is long when it is printed with `digits` significant digits and is used several times; without `digits`, each
+/// long constant gets one.
 pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec<Worthy<'g>> {
     let all = walk::reachable(roots);
     let angles = angles(&all);
@@ -102,7 +103,8 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec
         // A quantity that is not part of another one already has a name.
         let is_quantity = used == 1 && is_root(&expr);
         let is_negative = matches!(expr.view(), View::Neg(_));
-        let is_constant = used > 1 && is_long_constant(expr, digits);
+        // A number with all its digits can be very long.
+        let is_constant = (used > 1 || digits.is_none()) && is_long_constant(expr, digits);
         let named = (long && !is_negative && !is_quantity) || is_constant;
         if named {
             let is_cut = used == 1 && !is_constant;

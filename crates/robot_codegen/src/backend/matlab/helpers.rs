@@ -1,4 +1,4 @@
-//! The helper functions that printed MATLAB calls, at the end of each file.
+//! The helper functions at the end of each file in MATLAB.
 
 use crate::backend::common::Scalar;
 use crate::backend::flat::polynomials::{Arithmetic, Assignment, Circular, HyperbolicTangent};

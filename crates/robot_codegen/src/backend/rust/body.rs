@@ -22,11 +22,11 @@ pub(super) struct Body<'a> {
 
 /// A part of a long program: a function of its own.
 pub(super) struct PartFunction {
-    /// The names of its arguments.
+    /// The names of the arguments.
     pub(super) entering: Vec<Ident>,
-    /// The names of the values that it returns.
+    /// The names of the values that the function returns.
     pub(super) leaving: Vec<Ident>,
-    /// Its statements.
+    /// The statements of the function.
     pub(super) statements: Vec<Stmt>,
 }
 

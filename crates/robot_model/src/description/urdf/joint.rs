@@ -205,7 +205,7 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
 }
 
 /// Reads the limits of force and velocity and similar attributes, which have no effect on the motion. A negative one is
-/// an error.
+/// a warning.
 fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
     const NAMES: [&str; 5] = ["effort", "velocity", "acceleration", "deceleration", "jerk"];
     let mut unread = Vec::new();
