@@ -26,7 +26,7 @@
   const sign = (letter) => /\w/.test(letter) ? letter + "[_^]?" : /\s/.test(letter) ? "\\s*" : `\\s*\\${letter}\\s*`;
   function pattern(key) {
     // An index is not a symbol of its own: x_2 is not in ω_x^2.
-    const [before, after] = isSymbol(key) ? ["(^|[^A-Za-z0-9_\\u0300-\\u036f])", "(?![A-Za-z])"] : ["", ""];
+    const [before, after] = isSymbol(key) ? ["(^|[^A-Za-z0-9_\\u0300-\\u03ff])", "(?![A-Za-z])"] : ["", ""];
     return before + [...key].map(sign).join("") + (/\d$/.test(key) ? "(?!\\d)" : after);
   }
 
