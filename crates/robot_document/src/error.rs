@@ -20,7 +20,7 @@ pub enum Error {
     },
     /// The grouped form has more coefficients than anybody could read.
     #[error(
-        "the grouped form has coefficients for each pair of joints, and this robot has \
+        "the grouped form has coefficients for each pair of coordinates, and this robot has \
          {coordinates} coordinates, more than {limit}; choose the form `recursive` or `compact`"
     )]
     TooMany {

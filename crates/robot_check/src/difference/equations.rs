@@ -84,10 +84,10 @@ fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g
 fn reason(error: &PolynomialError) -> Refusal {
     match error {
         PolynomialError::TooManyTerms { limit } => {
-            format!("too long: expanded, it has more than {limit} terms")
+            format!("expanded, it has more than {limit} terms")
         }
         PolynomialError::TooManyProducts { limit } => {
-            format!("too long: expanding it takes more than {limit} products of terms")
+            format!("expanding it takes more than {limit} products of terms")
         }
         other => other.to_string(),
     }

@@ -163,10 +163,25 @@ fn python_of(work: &Work, shared: &str) -> String {
         false => "MODEL = []\n".to_owned(),
     };
     let calls = lines(work, &tree, |function, taken, given, states| {
-        format!("calls({name}.{function}, [{taken}], [{given}], {states})\n")
+        format!(
+            "calls({name}.{function}, [{taken}], [{given}], {states})\nrefuses({name}.{function}, [{taken}])\n"
+        )
     });
-    format!("import {name}\n{model}{shared}\n{calls}finish()\n")
+    format!("import {name}\n{model}{shared}{REFUSES}\n{calls}finish()\n")
 }
+
+/// Code that fails if a function of a module in Python accepts an input that is too long.
+const REFUSES: &str = "
+
+def refuses(function, taken):
+    for place in range(len(taken)):
+        try:
+            function(*MODEL, *([0.0] * (length + (i == place)) for i, length in enumerate(taken)))
+        except ValueError as error:
+            assert 'entries, not' in str(error), error
+        else:
+            raise SystemExit(f'{function.__name__} accepts input {place} with an entry too many')
+";
 
 fn plain_python(work: &Work) -> String {
     python_of(
@@ -267,6 +282,17 @@ fn octave(work: &Work) -> String {
     rows = [rows; reshape(found, lengths(i), states)];
   end
   fwrite(out, rows, 'double');
+  for i = 1:numel(inputs)
+    wrong = inputs;
+    wrong{i} = [wrong{i}; wrong{i}(end, :)];
+    refused = '';
+    try
+      f(wrong{:});
+    catch problem
+      refused = problem.message;
+    end
+    assert(any(strfind(refused, 'rows, not')), 'input %d with a row too many is not refused', i);
+  end
 end
 ",
     );
@@ -351,6 +377,16 @@ function calls(f, taken, states) {{
         const inputs = taken.map((length) => data.subarray(place, (place += length)));
         found.push(...flat(f(...MODEL, ...inputs)));
     }}
+    taken.forEach((_, wrong) => {{
+        const inputs = taken.map((length, i) => new Float64Array(length + (i === wrong ? 1 : 0)));
+        try {{
+            f(...MODEL, ...inputs);
+        }} catch (error) {{
+            if (error instanceof RangeError) return;
+            throw error;
+        }}
+        throw new Error(`${{f.name}} accepts input ${{wrong}} with an entry too many`);
+    }});
 }}
 
 {calls}

@@ -67,8 +67,8 @@ fn names(reader: &mut Reader<'_>, value: Value<'_>, more: &[&'static str]) -> Ve
     if entries.is_empty() {
         reader.report(
             Diagnostic::error(code::WRONG_COUNT, "no functions are named")
-                .at(&value.span(), "name at least one")
-                .help("name each function once, or leave out the key"),
+                .at(&value.span(), "this list is empty")
+                .help("name at least one function, or leave out the key"),
         );
     }
     let (mut names, mut seen) = (Vec::new(), BTreeSet::new());

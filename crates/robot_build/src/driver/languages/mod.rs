@@ -14,81 +14,63 @@ use crate::driver::options::Options;
 use crate::driver::programs::{Programs, programs};
 use crate::error::{Error, Errors};
 
-/// A language of generated code.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Language {
+/// Declares the languages, each in one place: its variant, its name on the command line, and its description in a list.
+macro_rules! languages {
+    ($($(#[$attribute:meta])* $variant:ident, $name:literal, $title:literal;)*) => {
+        /// A language of generated code.
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Language {
+            $($(#[$attribute])* $variant,)*
+        }
+
+        impl Language {
+            /// All languages, in the order in which lists show them.
+            pub const ALL: &'static [Language] = &[$(Language::$variant,)*];
+
+            /// The name on the command line.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Language::$variant => $name,)*
+                }
+            }
+
+            /// The description of the language in a list of languages.
+            #[must_use]
+            pub fn title(self) -> &'static str {
+                match self {
+                    $(Language::$variant => $title,)*
+                }
+            }
+        }
+    };
+}
+
+languages! {
     /// Rust, with the runtime crate or a copy of it.
     #[default]
-    Rust,
+    Rust, "rust", "Rust, also without the standard library";
     /// C99: a header that needs only `<math.h>`.
-    C,
+    C, "c", "C99, one header";
     /// C++17: a header on top of the C header.
-    Cpp,
+    Cpp, "cpp", "C++17, a header with a namespace, on top of the C header";
     /// The C header as an Arduino library, in single precision.
-    Arduino,
+    Arduino, "arduino", "C99 as an Arduino library, only in single precision";
     /// CUDA C++: a header of functions for host and device, and kernels.
-    Cuda,
+    Cuda, "cuda", "CUDA C++, a header with a kernel for each function";
     /// MATLAB and Octave: a folder of functions over columns of states.
-    Matlab,
+    Matlab, "matlab", "MATLAB and Octave, one file for each function";
     /// Python: a module of numbers, or of NumPy arrays.
-    Python,
+    Python, "python", "Python, for numbers and for NumPy arrays";
     /// JavaScript: an ES module with TypeScript declarations.
-    JavaScript,
+    JavaScript, "javascript", "JavaScript, an ES module with TypeScript declarations";
     /// WebAssembly: a module with an ES module that loads it.
-    Wasm,
+    Wasm, "wasm", "WebAssembly, with an ES module that loads it";
     /// WGSL: WebGPU compute kernels, in single precision.
-    Wgsl,
+    Wgsl, "wgsl", "WGSL, WebGPU compute kernels, only in single precision";
 }
 
 impl Language {
-    /// All languages, in the order in which lists show them.
-    pub const ALL: &'static [Language] = &[
-        Language::Rust,
-        Language::C,
-        Language::Cpp,
-        Language::Arduino,
-        Language::Cuda,
-        Language::Matlab,
-        Language::Python,
-        Language::JavaScript,
-        Language::Wasm,
-        Language::Wgsl,
-    ];
-
-    /// The name on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Language::Rust => "rust",
-            Language::C => "c",
-            Language::Cpp => "cpp",
-            Language::Arduino => "arduino",
-            Language::Cuda => "cuda",
-            Language::Matlab => "matlab",
-            Language::Python => "python",
-            Language::JavaScript => "javascript",
-            Language::Wasm => "wasm",
-            Language::Wgsl => "wgsl",
-        }
-    }
-
-    /// The description of the language in a list of languages.
-    #[must_use]
-    pub fn title(self) -> &'static str {
-        match self {
-            Language::Rust => "Rust, also without the standard library",
-            Language::C => "C99, one header",
-            Language::Cpp => "C++17, a header with a namespace, on top of the C header",
-            Language::Arduino => "C99 as an Arduino library, only in single precision",
-            Language::Cuda => "CUDA C++, a header with a kernel for each function",
-            Language::Matlab => "MATLAB and Octave, one file for each function",
-            Language::Python => "Python, for numbers and for NumPy arrays",
-            Language::JavaScript => "JavaScript, an ES module with TypeScript declarations",
-            Language::Wasm => "WebAssembly, with an ES module that loads it",
-            Language::Wgsl => "WGSL, WebGPU compute kernels, only in single precision",
-        }
-    }
-
     /// Finds the language with this name.
     #[must_use]
     pub fn named(name: &str) -> Option<Language> {

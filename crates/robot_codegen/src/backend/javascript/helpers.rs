@@ -20,7 +20,7 @@ fn assignments(steps: Vec<Assignment>) -> String {
 
 /// Prints the helpers that a module needs.
 pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
-    let mut text = String::new();
+    let mut text = LENGTHS.to_owned();
     if needed.circular {
         text.push_str(
             "// Sine and cosine of the last angle.\nconst _sc = new Float64Array(2);\n\n",
@@ -41,6 +41,15 @@ pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
     text.extend(optional.into_iter().filter(|(needed, _)| *needed).map(|(_, text)| text));
     text.lines().map(str::to_owned).collect()
 }
+
+/// Entries that are missing would be read as `undefined`, and those that do not fit into an output would be lost.
+const LENGTHS: &str = "function _check_length(array, name, length) {
+    if (array.length !== length) {
+        throw new RangeError(`${name} has ${array.length} entries, not ${length}`);
+    }
+}
+
+";
 
 const STANDARD: &str = "function _sin_cos(angle) {
     _sc[0] = Math.sin(angle);

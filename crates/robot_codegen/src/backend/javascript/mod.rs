@@ -260,13 +260,20 @@ impl Printer<'_> {
         lines.extend(documentation(&self.function_doc(function), ""));
         let mut arguments = self.arguments(function);
         let outputs = function.source.outputs.iter().zip(&function.outputs);
+        let stored: Vec<&Array> = outputs
+            .clone()
+            .filter(|(output, _)| !output.shape.is_empty())
+            .map(|(_, array)| array)
+            .collect();
         arguments.extend(
-            outputs
-                .clone()
-                .filter(|(output, _)| !output.shape.is_empty())
-                .map(|(_, array)| format!("{} = new Float64Array({})", array.name, array.length)),
+            stored
+                .iter()
+                .map(|array| format!("{} = new Float64Array({})", array.name, array.length)),
         );
         lines.push(format!("export function {}({}) {{", function.name, arguments.join(", ")));
+        lines.extend(function.inputs.iter().chain(stored).map(|Array { name, length, .. }| {
+            format!("    _check_length({name}, \"{name}\", {length});")
+        }));
         lines.extend(self.statements(&function.inputs, &body, &body.statements));
         let mut results = body.results.iter();
         for (output, array) in outputs {

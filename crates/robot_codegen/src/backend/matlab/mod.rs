@@ -245,6 +245,9 @@ impl Printer<'_> {
         ]);
         lines.extend(documentation(name, &doc));
         lines.push("%#codegen".to_owned());
+        lines.extend(function.inputs.iter().map(|Array { name, length, .. }| {
+            format!("assert(size({name}, 1) == {length}, '{name} has %d rows, not {length}', size({name}, 1));")
+        }));
         lines.push(match function.inputs.first() {
             Some(array) => format!("n = size({}, 2);", array.name),
             None => "n = 1;".to_owned(),

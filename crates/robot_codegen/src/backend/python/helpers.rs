@@ -20,7 +20,7 @@ fn assignments(steps: Vec<Assignment>) -> String {
 
 /// Prints the imports, and the helpers that a module needs.
 pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
-    let mut text = "
+    let mut text = r#"
 import math as _math
 from dataclasses import dataclass as _dataclass
 from dataclasses import replace as _replace
@@ -35,6 +35,11 @@ def _is_array(value):
     return _numpy is not None and isinstance(value, _numpy.ndarray)
 
 
+def _check_length(array, name, length):
+    if len(array) != length:
+        raise ValueError(f"{name} has {len(array)} entries, not {length}")
+
+
 def _shaped(values, shape, inputs):
     if any(_is_array(value) for value in (*inputs, *values)):
         values = _numpy.stack(_numpy.broadcast_arrays(*values))
@@ -42,7 +47,7 @@ def _shaped(values, shape, inputs):
     if len(shape) == 2:
         return [values[row * shape[1] : (row + 1) * shape[1]] for row in range(shape[0])]
     return values if shape else values[0]
-"
+"#
     .to_owned();
     if needed.circular {
         text.push_str(&match options.trigonometry {

@@ -247,6 +247,9 @@ impl Printer<'_> {
         let counts = self.tree.module.counts(function.source);
         let names = function.inputs.iter().map(|array| array.name.as_str());
         lines.extend(docstring(&common::function(function.source, names, &counts.call), "    "));
+        lines.extend(function.inputs.iter().map(|Array { name, length, .. }| {
+            format!("    _check_length({name}, \"{name}\", {length})")
+        }));
         for statement in &body.statements {
             lines.extend(
                 self.statement(&function.inputs, statement).map(|line| format!("    {line}")),

@@ -61,8 +61,8 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         usage.push_str(&format!("robot.{}({arguments});\n", function.name));
     }
     usage.push_str(
-        "```\n\nInputs are arrays of any kind. Outputs are new `Float64Array`s, or the arrays that are passed after the inputs, so \
-         a loop need not allocate; a matrix is an array, row by row. Test it with `node test.mjs`.\n",
+        "```\n\nInputs are arrays of any kind; one of another length than documented throws a `RangeError`. \
+         Outputs are new `Float64Array`s, or the arrays that are passed after the inputs, so a loop need not allocate; a matrix is an array, row by row. Test it with `node test.mjs`.\n",
     );
     parts.readme(tree, "JavaScript", &usage, "create_model")
 }

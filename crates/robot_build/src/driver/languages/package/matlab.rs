@@ -47,8 +47,8 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     }
     usage.push_str(&format!(
         "```\n\nPut this folder on the path: the functions are in the package folder `+{name}`. Inputs may have a column for each of \
-         several states. Each file is self-contained and has `%#codegen`, so it can be pasted into a MATLAB Function block of \
-         Simulink; it also runs in Octave. Test it with `test_functions`.\n"
+         several states; another number of rows is an error. Each file is self-contained and has `%#codegen`, so it can be \
+         pasted into a MATLAB Function block of Simulink; it also runs in Octave. Test it with `test_functions`.\n"
     ));
     parts.readme(tree, "MATLAB", &usage, "create_model")
 }

@@ -64,8 +64,8 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     }
     usage.push_str(&format!(
         "```\n\nThe module `{name}.py` needs only Python. With NumPy each input may be an array: of shape (n,) for one state, or of \
-         shape (n, N), with a column for each state, for many. Install it with `pip install .`, or copy the file; test it with \
-         `python test.py`.\n"
+         shape (n, N), with a column for each state, for many; another length raises a `ValueError`. Install it with \
+         `pip install .`, or copy the file; test it with `python test.py`.\n"
     ));
     parts.readme(tree, "Python", &usage, "Model")
 }

@@ -7,6 +7,12 @@
  *   bound.
  */
 
+function _check_length(array, name, length) {
+    if (array.length !== length) {
+        throw new RangeError(`${name} has ${array.length} entries, not ${length}`);
+    }
+}
+
 // Sine and cosine of the last angle.
 const _sc = new Float64Array(2);
 
@@ -149,6 +155,8 @@ export function create_model(parameters) {
  * 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
  */
 export function plain(model, q, values = new Float64Array(19)) {
+    _check_length(q, "q", 2);
+    _check_length(values, "values", 19);
     const x = q[0];
     const y = q[1];
     _sin_cos(x);
@@ -204,6 +212,8 @@ export function plain(model, q, values = new Float64Array(19)) {
  * 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
  */
 export function turned(model, q, values = new Float64Array(18)) {
+    _check_length(q, "q", 2);
+    _check_length(values, "values", 18);
     const x = q[0];
     const y = q[1];
     _sin_cos(x + y);

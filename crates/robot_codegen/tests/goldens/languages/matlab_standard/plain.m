@@ -10,6 +10,7 @@ function values = plain(model, q)
 %   Inputs may have a column for each of several states: vectors are then given in columns, matrices in
 %   pages.
 %#codegen
+assert(size(q, 1) == 2, 'q has %d rows, not 2', size(q, 1));
 n = size(q, 2);
 x = q(1, :);
 y = q(2, :);

@@ -23,6 +23,11 @@ def _is_array(value):
     return _numpy is not None and isinstance(value, _numpy.ndarray)
 
 
+def _check_length(array, name, length):
+    if len(array) != length:
+        raise ValueError(f"{name} has {len(array)} entries, not {length}")
+
+
 def _shaped(values, shape, inputs):
     if any(_is_array(value) for value in (*inputs, *values)):
         values = _numpy.stack(_numpy.broadcast_arrays(*values))
@@ -200,6 +205,7 @@ def plain(model, q):
 
     7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
     """
+    _check_length(q, "q", 2)
     x = q[0]
     y = q[1]
     sx, cx = _sin_cos(x)
@@ -238,6 +244,7 @@ def turned(model, q):
 
     6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
     """
+    _check_length(q, "q", 2)
     x = q[0]
     y = q[1]
     s1, c1 = _sin_cos(x + y)
