@@ -127,6 +127,7 @@ mod tests {
         let pin = |robot: &str| pin_path(Path::new(robot));
         assert_eq!(pin("arms/ur5.toml"), Path::new("arms/ur5.plan"));
         assert_eq!(pin("arms/ur5.urdf"), Path::new("arms/ur5.urdf.plan"));
+        assert_eq!([pin("ur5"), pin("ur.5")], ["ur5.plan", "ur.5.plan"].map(PathBuf::from));
     }
 
     #[test]
@@ -170,6 +171,21 @@ mod tests {
         assert!(error.contains("a pinned plan must be a regular file"), "{error}");
         std::fs::remove_dir(pin_path(&path)).unwrap();
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
+
+        // A plan that is not what the search wrote, and a file that is too long for one.
+        let text = pin_text(&robot, &found);
+        std::fs::write(pin_path(&path), text.replace("operations = 7", "operations = 6")).unwrap();
+        let error = file.with_pin(&options).unwrap_err().to_string();
+        assert!(error.contains("was edited and is no longer what the search wrote"), "{error}");
+        let filled = |bytes: u64| {
+            let rest = usize::try_from(bytes).unwrap() - text.len();
+            std::fs::write(pin_path(&path), format!("{text}#{}\n", "-".repeat(rest - 2))).unwrap();
+            file.with_pin(&options)
+        };
+        assert!(filled(MAX_BYTES).is_ok());
+        let error = filled(MAX_BYTES + 1).unwrap_err().to_string();
+        assert!(error.contains("has 1048577 bytes, too many for a pinned plan"), "{error}");
+        std::fs::write(pin_path(&path), &text).unwrap();
 
         // Remarks and other text that does not concern the mechanics do not make the pin stale.
         let remarked =
