@@ -131,6 +131,43 @@ mod tests {
     }
 
     #[test]
+    fn a_plan_that_no_search_wrote_is_refused() {
+        let name = format!("robot_build_edited_pin_{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("pendulum.toml");
+        std::fs::write(&path, ROBOT).unwrap();
+        let file = RobotFile::read(&path).unwrap();
+        let robot = crate::read(&file.source).unwrap().robot;
+        let found = Found {
+            plan: Plan::default_for(&robot),
+            measure: Measure::Operations,
+            operations: 7,
+            instructions: 5,
+            tried: 1,
+            cut_short: false,
+            tuned: false,
+        };
+        let text = pin_text(&robot, &found);
+        let pinned = |text: &str| {
+            std::fs::write(pin_path(&path), text).unwrap();
+            file.with_pin(&Options::default())
+        };
+        let error = pinned(&text.replace("operations = 7", "operations = 6")).unwrap_err();
+        let reason = "was edited and is no longer what the search wrote";
+        assert!(error.to_string().contains(reason), "{error}");
+        // A file can be too long for a plan.
+        let filled = |bytes: u64| {
+            let rest = usize::try_from(bytes).unwrap() - text.len();
+            pinned(&format!("{text}#{}\n", "-".repeat(rest - 2)))
+        };
+        assert!(filled(MAX_BYTES).is_ok());
+        let error = filled(MAX_BYTES + 1).unwrap_err().to_string();
+        assert!(error.contains("has 1048577 bytes, too many for a pinned plan"), "{error}");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
     fn a_pin_is_taken_and_a_stale_one_refused() {
         let folder = std::env::temp_dir().join(format!("robot_build_pin_{}", std::process::id()));
         std::fs::create_dir_all(&folder).unwrap();
@@ -171,21 +208,6 @@ mod tests {
         assert!(error.contains("a pinned plan must be a regular file"), "{error}");
         std::fs::remove_dir(pin_path(&path)).unwrap();
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
-
-        // A plan that is not what the search wrote, and a file that is too long for one.
-        let text = pin_text(&robot, &found);
-        std::fs::write(pin_path(&path), text.replace("operations = 7", "operations = 6")).unwrap();
-        let error = file.with_pin(&options).unwrap_err().to_string();
-        assert!(error.contains("was edited and is no longer what the search wrote"), "{error}");
-        let filled = |bytes: u64| {
-            let rest = usize::try_from(bytes).unwrap() - text.len();
-            std::fs::write(pin_path(&path), format!("{text}#{}\n", "-".repeat(rest - 2))).unwrap();
-            file.with_pin(&options)
-        };
-        assert!(filled(MAX_BYTES).is_ok());
-        let error = filled(MAX_BYTES + 1).unwrap_err().to_string();
-        assert!(error.contains("has 1048577 bytes, too many for a pinned plan"), "{error}");
-        std::fs::write(pin_path(&path), &text).unwrap();
 
         // Remarks and other text that does not concern the mechanics do not make the pin stale.
         let remarked =

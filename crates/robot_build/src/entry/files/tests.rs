@@ -89,7 +89,9 @@ fn only_marked_and_empty_files_are_replaced() {
             "{shown}"
         );
         assert_eq!(fs::read_to_string(&path).unwrap(), text, "{name}");
-        assert_eq!(Writer::new().force(true).write(&[output(&path, NEW)]), Ok(1));
+        let advised = message(Writer::new().remedy("ask for it").write(&[output(&path, NEW)]));
+        assert!(advised.ends_with("; ask for it"), "{advised}");
+        assert_eq!(Writer::default().force(true).write(&[output(&path, NEW)]), Ok(1));
         assert_eq!(fs::read_to_string(&path).unwrap(), NEW, "{name}");
     }
 }
