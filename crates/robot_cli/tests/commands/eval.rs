@@ -426,3 +426,16 @@ fn a_wrench_of_0_by_default_is_noted() {
         assert_eq!((done.code, done.errors.as_str()), (0, note), "{function} {states}");
     }
 }
+
+/// Numbers are no arrays, in JSON and in the header of CSV.
+#[test]
+fn energies_are_numbers() {
+    let file = robot("planar_2r");
+    let eval = ["eval", &file, "--function", "energies", "--q=0,0", "--qd=1,2", "--format"];
+    let shown: Value = serde_json::from_str(&output(&[&eval[..], &["json"]].concat(), "")).unwrap();
+    let energies = mechanism("planar_2r", &[]).energies(&[0.0, 0.0], &[1.0, 2.0]).unwrap();
+    let found = ["kinetic", "potential"].map(|name| shown[0][name].as_f64().unwrap());
+    assert!((found[0] - energies.kinetic).abs() < 1e-12 * energies.kinetic.abs(), "{shown}");
+    let csv = output(&[&eval[..], &["csv"]].concat(), "");
+    assert_eq!(csv, format!("kinetic,potential\n{:?},{:?}\n", found[0], found[1]));
+}
