@@ -97,3 +97,35 @@ fn the_tightest_limit_of_the_stack_counts() {
     assert_eq!(limit(&options, "inverse_dynamics"), Some(850));
     assert_eq!(limit(&options, "bias"), Some(800));
 }
+
+/// A budget of a function of frames holds for that of each frame, and that of a function not for others whose names begin
+/// with its own.
+#[test]
+fn a_budget_holds_for_the_function_of_each_frame() {
+    let frame = "[[frame]]\nname = \"elbow\"\nparent = \"2\"\n";
+    let limited = |function: &str| {
+        let text = format!("{frame}[[budget]]\nfunction = \"{function}\"\nmax_operations = 0\n");
+        let source = source(&text);
+        let names = ["jacobian_elbow", "inverse_dynamics_wrench"].map(str::to_owned);
+        let robot = robot_build::read(&source).unwrap().robot;
+        let functions = robot_build::functions_named(&names, &robot).unwrap();
+        match generate(&source, &Options { functions, ..Options::default() }) {
+            Ok(_) => String::new(),
+            Err(errors) => errors.to_string(),
+        }
+    };
+    for (function, named) in [
+        ("jacobian", Some("jacobian_elbow")),
+        ("jacobian_elbow", Some("jacobian_elbow")),
+        ("inverse_dynamics_wrench", Some("inverse_dynamics_wrench")),
+        ("inverse_dynamics", None),
+        ("jacobian_dot_qd", None),
+    ] {
+        let found = limited(function);
+        for name in ["jacobian_elbow", "inverse_dynamics_wrench"] {
+            let is_over = found.contains(&format!("`{name}` takes"));
+            assert_eq!(is_over, named == Some(name), "{function}: {found}");
+        }
+        assert_eq!(found.is_empty(), named.is_none(), "{function}: {found}");
+    }
+}

@@ -237,6 +237,25 @@ fn a_joint_without_mass_is_the_reason() {
     assert!(found.contains("the mass matrix is singular"), "{found}");
 }
 
+#[test]
+fn functions_that_a_singular_robot_lacks_are_listed_with_the_joints() {
+    let robot = |more: &str| {
+        let source = Source { name: "wrist.toml".to_owned(), text: format!("{WRIST}\n{more}") };
+        robot_build::read(&source).unwrap().robot
+    };
+    let options = Options { search: true, ..Options::default() };
+    assert_eq!(robot_build::unsolvable(&robot(""), &options), None);
+    let idle = "[[link]]\nname = \"idle\"\njoint = { name = \"free\", type = \"revolute\", axis = \"x\" }\n\
+        massless = true\n";
+    let found = robot_build::unsolvable(&robot(idle), &options).unwrap();
+    assert_eq!(found.joints, ["free"]);
+    assert!(found.functions.contains(&FunctionKind::ForwardDynamics(Effects::NONE)));
+    assert!(found.functions.iter().all(|kind| kind.divides_by_mass_matrix()), "{found:?}");
+    let shown = found.to_string();
+    assert!(shown.starts_with("the robot has no forward_dynamics, "), "{shown}");
+    assert!(shown.ends_with("do not determine the accelerations of `free`"), "{shown}");
+}
+
 /// Two arms, each of which is a wrist; `q2` and `q5` are their tilts.
 fn two_wrists() -> Robot {
     let (start, links) = WRIST.split_once("[[link]]").unwrap();

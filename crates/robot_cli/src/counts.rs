@@ -70,3 +70,27 @@ pub(crate) fn snapping_json(snapping: &Snapping) -> Value {
 pub(crate) fn cells(counts: &Counts) -> Map<String, Value> {
     COLUMNS.iter().map(|(name, count)| ((*name).to_owned(), json!(count(counts)))).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_rounded_and_said_to_fit_or_not() {
+        for (bytes, about) in
+            [(0, "0.0"), (9_940, "9.9"), (9_950, "10"), (10_400, "10"), (32_768, "33")]
+        {
+            let shown = size_line("gravity", CodeSize { bytes });
+            let expected =
+                format!("gravity: about {about} kB of code: fits a 32 KB instruction cache\n");
+            assert_eq!(shown, expected);
+        }
+        let shown = size_line("bias", CodeSize { bytes: 32_769 });
+        assert!(
+            shown
+                .starts_with("bias: about 33 kB of code: does not fit a 32 KB instruction cache; "),
+            "{shown}"
+        );
+        assert!(shown.ends_with(" ns at 3.7 GHz\n"), "{shown}");
+    }
+}

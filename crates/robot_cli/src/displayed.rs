@@ -128,3 +128,42 @@ pub(crate) fn centimeters(text: &str) -> Result<f64, String> {
     width
         .ok_or_else(|| "a width is a number of centimeters from 3 to 100, such as 8.5cm".to_owned())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_are_centimeters_and_numbers_take_room() {
+        assert_eq!(centimeters("8.5cm"), Ok(8.5));
+        assert_eq!([centimeters("3"), centimeters(" 100 cm")], [Ok(3.0), Ok(100.0)]);
+        for text in ["2.9", "100.1cm", "-8", "nan", "cm", "8mm", ""] {
+            assert!(
+                centimeters(text).is_err_and(|error| error.contains("from 3 to 100")),
+                "{text}"
+            );
+        }
+        let line = |width, numbers| LayoutArguments { width, numbers }.line();
+        assert_eq!(line(Some(2.54), false), 72.27);
+        assert_eq!(line(Some(2.54), true), 72.27 - NUMBER);
+        assert_eq!(line(None, false), line(Some(16.0), false));
+    }
+
+    #[test]
+    fn numbers_are_refused_where_there_are_none() {
+        let refused =
+            |width, numbers, typeset| match (LayoutArguments { width, numbers }).check(typeset) {
+                Ok(()) => vec![],
+                Err(Failure::Usage(wrong)) => wrong,
+                Err(other) => panic!("{other:?}"),
+            };
+        assert_eq!(refused(Some(8.0), true, true).len() + refused(None, false, false).len(), 0);
+        let both = refused(Some(8.0), true, false);
+        assert!(
+            both.len() == 2 && both[0].starts_with("--width ") && both[1].starts_with("--numbers ")
+        );
+        assert_eq!(refused(None, true, false), [no_effect("--numbers")]);
+        let markdown = |numbers| LayoutArguments { width: None, numbers }.check_markdown();
+        assert!(markdown(false).is_ok() && markdown(true).is_err());
+    }
+}

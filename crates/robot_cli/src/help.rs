@@ -195,6 +195,30 @@ mod tests {
     }
 
     #[test]
+    fn a_command_is_split_before_options_outside_of_quotes() {
+        for (line, expected) in [
+            ("  a b", &["  a b"][..]),
+            ("  a -b c --d", &["  a", " -b c", " --d"]),
+            // Behind a quoted text, options count again.
+            ("  a --b \"c -d\" -e \"f -g\" -h", &["  a", " --b \"c -d\"", " -e \"f -g\"", " -h"]),
+            ("  -a -b", &["  -a", " -b"]),
+            ("", &[""]),
+        ] {
+            assert_eq!(parts(line), expected, "{line}");
+        }
+        let line = "  robot-symbolic a.toml --torque \"2 = -40 - 8\" --time 3";
+        assert_eq!(
+            example(line, 50),
+            "  robot-symbolic a.toml --torque \"2 = -40 - 8\" \\\n      --time 3"
+        );
+        // The last part ends two columns before the last, where ` \\` has room.
+        for (columns, breaks) in [(17, false), (16, true)] {
+            let between = if breaks { " \\\n      " } else { " " };
+            assert_eq!(example("  a --bcd --efg", columns), format!("  a --bcd{between}--efg"));
+        }
+    }
+
+    #[test]
     fn no_line_of_help_is_longer_than_the_terminal() {
         for columns in [60, 80, 100] {
             let mut whole = command(Some(Screen { columns: Some(columns), colors: true }));

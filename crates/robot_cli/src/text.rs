@@ -214,6 +214,67 @@ mod tests {
     }
 
     #[test]
+    fn angles_that_are_printed_as_multiples_are_named() {
+        let robot = robot_testing::robot("scara");
+        let snap = |name: &str, change| Snap { name: name.to_owned(), angle: 1.57, change };
+        let told = |snaps: &[Snap]| snapped_for_print(&robot, snaps);
+        assert_eq!(told(&[]), "");
+        // What code changes as well is not told.
+        assert_eq!(
+            told(&[snap("a", snap::DEFAULT), snap("b", -snap::DEFAULT), snap("c", 0.0)]),
+            ""
+        );
+        let names: Vec<&str> = robot.links.iter().map(|link| link.name.as_str()).collect();
+        let joint = &robot.links[0].joint.name;
+        let shown = told(&[snap(names[0], -1e-6), snap("other", 0.0)]);
+        let expected =
+            "1 constant angle within 1e-5 rad of a multiple of π/2 is printed as that multiple";
+        assert!(
+            shown.ends_with(&format!("{expected} ({joint}); --snap 0 prints them as they are\n")),
+            "{shown}"
+        );
+        // A link with two angles is named once.
+        let shown = told(&[snap("a", 1e-6), snap("a", -1e-6), snap("b", 1e-6), snap("c", 1e-6)]);
+        assert!(
+            shown.contains(": 4 constant angles") && shown.contains("multiples (a, b, c);"),
+            "{shown}"
+        );
+        let five = ["a", "b", "c", "d", "e"].map(|name| snap(name, 1e-6));
+        assert!(told(&five[..4]).contains("(a, b, c and 1 more)"), "{}", told(&five[..4]));
+        assert!(told(&five).contains("(a, b, c and 2 more)"), "{}", told(&five));
+    }
+
+    #[test]
+    fn larger_tolerances_tell_what_they_change() {
+        let tried = |tolerance, changes: &[f64], operations| robot_build::snapping::Tried {
+            tolerance,
+            snapped: changes
+                .iter()
+                .map(|change| Snap { name: "elbow".to_owned(), angle: 1.5, change: *change })
+                .collect(),
+            operations,
+        };
+        let start = "angles snapped to a multiple of π/2, --snap 1e-9: ";
+        let taken = tried(1e-9, &[], 10);
+        let alone = Snapping { taken: taken.clone(), larger: vec![] };
+        assert_eq!(snapping(&alone), format!("{start}0"));
+        let larger = vec![tried(1e-6, &[-1e-7, 1e-8], 7), tried(1e-4, &[2e-5], 12)];
+        assert_eq!(
+            snapping(&Snapping { taken, larger }),
+            format!(
+                "{start}0\n--snap 1e-6 would snap 2, with a largest change of 1.0e-7 rad: 3 fewer operations of inverse \
+                 dynamics\n--snap 1e-4 would snap 1, with a largest change of 2.0e-5 rad: 2 more operations"
+            )
+        );
+        let taken = tried(1e-9, &[1e-10, -4e-10], 10);
+        let shown = snapping(&Snapping { taken, larger: vec![] });
+        assert_eq!(
+            shown,
+            format!("{start}2; the largest change is 4.0e-10 rad, from 1.5 at elbow")
+        );
+    }
+
+    #[test]
     fn lists_are_broken_after_commas_at_the_last_column_that_fits() {
         assert_eq!(list("names", &[]), "names:\n");
         assert_eq!(list("names", &["a"]), "names: a\n");

@@ -86,3 +86,46 @@ pub fn ablation(source: &Source, options: &Options) -> Result<Vec<Ablation>, Err
     }
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_model::functions::{Effects, FunctionKind, Functions};
+
+    use super::*;
+
+    const STANFORD: &str = include_str!("../../../../robots/stanford.toml");
+
+    fn operations(one: &Ablation) -> usize {
+        one.counts.iter().map(|(_, counts)| counts.call.operations()).sum()
+    }
+
+    /// Each entry has the counts of all functions; the first is the code that is generated.
+    #[test]
+    fn each_option_and_pass_is_left_out_once() {
+        let source = Source { name: "stanford.toml".to_owned(), text: STANFORD.to_owned() };
+        let functions = vec![FunctionKind::InverseDynamics(Effects::NONE), FunctionKind::Gravity];
+        let options = Options { functions: Functions::Chosen(functions), ..Options::default() };
+        let found = ablation(&source, &options).unwrap();
+        let names: Vec<&str> = found.iter().map(|one| one.without).collect();
+        let expected = PLAN_OPTIONS.map(|(name, _)| name).into_iter();
+        let expected = expected.chain(PASSES.map(|(name, _)| name));
+        assert_eq!(names, ["none"].into_iter().chain(expected).collect::<Vec<_>>());
+        let module = crate::programs(&source, &options).unwrap().module;
+        assert_eq!(found[0].counts, counts(&module));
+        for one in &found {
+            let functions: Vec<&str> = one.counts.iter().map(|(name, _)| name.as_str()).collect();
+            assert_eq!(functions, ["inverse_dynamics", "gravity"], "{}", one.without);
+        }
+        // What an option or a pass saves is the difference; no pass at all costs most.
+        let of = |name: &str| operations(found.iter().find(|one| one.without == name).unwrap());
+        assert!(of("any pass") > of("none"));
+        assert!(found[1..=PLAN_OPTIONS.len()].iter().any(|one| operations(one) > of("none")));
+        assert!(found.iter().all(|one| operations(one) <= of("any pass")));
+        // Under a plan without options there is nothing to leave out of it.
+        let robot = crate::read(&source).unwrap().robot;
+        let basic = Plan::uniform(robot.links.len(), &LinkPlan::BASIC);
+        let found = ablation(&source, &Options { plan: Some(basic), ..options }).unwrap();
+        assert!(found[1..=PLAN_OPTIONS.len()].iter().all(|one| one.counts == found[0].counts));
+        assert!(operations(&found[0]) > of("none"));
+    }
+}

@@ -91,6 +91,25 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
         assert_eq!(too_large_angle(&arm(), &[1e9, 2e9], Standard), None);
     }
 
+    /// The range ends below the limit, and only angles count.
+    #[test]
+    fn the_limit_is_out_of_range_and_lengths_are_no_angles() {
+        let why = |q: [f64; 2]| too_large_angle(&arm(), &q, Polynomial);
+        let below = LIMIT.next_down();
+        assert_eq!([why([below, 0.0]), why([0.0, -below])], [None, None]);
+        assert!(why([LIMIT, 0.0]).unwrap().starts_with("q1 = 1073741824 rad (joint "));
+        assert!(why([-LIMIT, 0.0]).unwrap().starts_with("q1 = -1073741824 rad (joint "));
+        assert!(why([LIMIT / 2.0, LIMIT / 2.0]).unwrap().contains("add up to 1073741824 rad"));
+        let mut robot = arm();
+        robot.links[0].joint.kind = JointKind::Prismatic;
+        assert_eq!(too_large_angle(&robot, &[2e9, 1e9], Polynomial), None);
+        assert!(too_large_angle(&robot, &[0.0, 2e9], Polynomial).unwrap().starts_with("q2 = "));
+        robot.links[1].joint.offset = Formula::parse("1e9").unwrap();
+        let why = too_large_angle(&robot, &[0.0, 1e9], Polynomial).unwrap();
+        assert!(why.starts_with("q2 = 1000000000 turns joint "), "{why}");
+        assert_eq!(too_large_angle(&robot, &[0.0], Polynomial), None);
+    }
+
     #[test]
     fn a_joint_that_mimics_another_is_turned_by_its_own_angle() {
         let mut robot = arm();

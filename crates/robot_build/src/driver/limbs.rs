@@ -89,3 +89,25 @@ fn of_links(plan: &Plan, links: &[usize]) -> Plan {
         plan.unit_length.and_then(|(link, component)| Some((among(link)?, component)));
     Plan { links: links.iter().map(of_link).collect(), unit_length }
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_dynamics::economical::plan::LinkPlan;
+
+    use super::*;
+
+    /// The plan of a limb counts the links of the limb, and keeps nothing that refers to links outside of it.
+    #[test]
+    fn the_plan_of_a_limb_has_the_places_of_its_links() {
+        let mut whole = Plan::uniform(4, &LinkPlan::DEFAULT);
+        let place = |link| Some(Place { link, turned: true });
+        whole.links[2].projected_at = place(3);
+        whole.links[3].projected_at = place(0);
+        whole.unit_length = Some((3, 1));
+        let limb = of_links(&whole, &[2, 3]);
+        assert_eq!(limb.links.len(), 2);
+        assert_eq!([limb.links[0].projected_at, limb.links[1].projected_at], [place(1), None]);
+        assert_eq!(limb.unit_length, Some((1, 1)));
+        assert_eq!(of_links(&whole, &[0, 1]).unit_length, None);
+    }
+}

@@ -150,3 +150,45 @@ fn digits(pivot: &Rounded) -> u32 {
     let left = -(pivot.error / pivot.value.abs()).log10();
     if left.is_nan() { 0 } else { left.clamp(0.0, DIGITS) as u32 }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pivot_tells_why_accelerations_have_few_digits() {
+        let nan = f64::NAN;
+        for (part, digits, is_wrong, words) in [
+            (
+                1e-9,
+                6,
+                false,
+                "is nearly singular: with the joints farther out free, joint `a` has only 1.0e-9 of",
+            ),
+            (0.5, 1, false, "the accelerations have about 1 correct digits"),
+            (1e-9, 0, true, "is singular to within rounding"),
+            (-1e-9, 0, true, "is singular to within rounding"),
+            (-0.5, 0, true, "is singular to within rounding"),
+            (-0.5, 9, true, "is not positive definite"),
+            (-1e-8, 9, true, "is not positive definite"),
+            // A pivot that is smaller than this is 0 but for rounding.
+            (-1e-9, 9, true, "is singular in this configuration"),
+            (0.0, 0, true, "is singular in this configuration"),
+            (0.0, 15, true, "is singular in this configuration"),
+            (nan, 0, true, "is singular in this configuration"),
+            (f64::INFINITY, 15, true, "is singular in this configuration"),
+        ] {
+            let pivot = Pivot { joint: "a".to_owned(), part, digits };
+            assert_eq!(pivot.is_wrong(), is_wrong, "{pivot:?}");
+            assert!(pivot.to_string().contains(words), "{pivot:?}: {pivot}");
+        }
+    }
+
+    #[test]
+    fn digits_are_those_of_the_error() {
+        let of = |value: f64, error: f64| digits(&Rounded { value, error });
+        assert_eq!([of(1.0, 1e-3), of(-1.0, 1e-3), of(100.0, 1e-3)], [3, 3, 5]);
+        assert_eq!([of(1.0, 0.0), of(1.0, 1e-30), of(1.0, 2.0)], [15, 15, 0]);
+        assert_eq!([of(0.0, 1.0), of(0.0, 0.0), of(f64::NAN, 1.0)], [0, 0, 0]);
+    }
+}

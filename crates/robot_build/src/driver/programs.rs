@@ -124,3 +124,24 @@ pub(crate) fn programs_under(
     let budgets = vec![];
     Ok(Programs { robot, warnings, snapped, functions, bundles, budgets, module })
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_dynamics::economical::plan::LinkPlan;
+
+    use super::*;
+
+    #[test]
+    fn a_plan_is_searched_once_and_only_if_none_is_given() {
+        let text = include_str!("../../../../robots/planar_2r.toml");
+        let robot = description::read("planar_2r.toml", text).unwrap().robot;
+        let usual = Options { fused: true, ..Options::default() };
+        assert_eq!(planned(&robot, &usual), usual);
+        let searching = Options { search: true, ..usual.clone() };
+        let found = search(&robot, &searching.mechanism(&robot), Measure::Instructions).unwrap();
+        let expected = Options { plan: Some(found.plan), ..usual.clone() };
+        assert_eq!(planned(&robot, &searching), expected);
+        let given = Options { plan: Some(Plan::uniform(2, &LinkPlan::BASIC)), ..usual };
+        assert_eq!(planned(&robot, &Options { search: true, ..given.clone() }), given);
+    }
+}

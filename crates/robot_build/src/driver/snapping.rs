@@ -74,3 +74,47 @@ fn tried(robot: &Robot, tolerance: f64, plan: Option<&Plan>) -> Result<Tried, Er
         functions.map(|function| programs.module.counts(function).call.operations()).sum();
     Ok(Tried { tolerance, snapped: programs.snapped, operations })
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_dynamics::economical::plan::LinkPlan;
+
+    use super::*;
+
+    /// An arm with two angles near a right angle, one of them nearer.
+    fn arm() -> Robot {
+        let link = |name: &str, angle: &str| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"z\" }}\n\
+                 origin = {{ xyz = [0.1, 0.2, 0.3], rpy = [{angle}, 0, 0] }}\nmass = 1\n\
+                 center_of_mass = [0.1, 0.2, 0.3]\ninertia = {{ xx = 0.1, yy = 0.11, zz = 0.12 }}\n"
+            )
+        };
+        let links = [link("1", "0"), link("2", "1.5707958"), link("3", "1.57076")].concat();
+        let text = format!("format = 1\n[robot]\nname = \"arm\"\ngravity = [0, 0, -9.81]\n{links}");
+        robot_model::description::read("arm.toml", &text).unwrap().robot
+    }
+
+    #[test]
+    fn larger_tolerances_are_told_if_they_snap_more() {
+        let robot = arm();
+        let told = |snap: Option<f64>| {
+            let Snapping { taken, larger } = snapping(&robot, snap, None).unwrap();
+            let all: Vec<Tried> = std::iter::once(taken).chain(larger).collect();
+            assert!(all.windows(2).all(|two| two[0].operations > two[1].operations), "{all:?}");
+            all.iter().map(|one| (one.tolerance, one.snapped.len())).collect::<Vec<_>>()
+        };
+        // A tolerance that snaps no further angle is left out, and so is the one in use.
+        assert_eq!(told(Some(0.0)), [(0.0, 0), (1e-6, 1), (1e-4, 2)]);
+        assert_eq!(told(Some(1e-6)), [(1e-6, 1), (1e-4, 2)]);
+        assert_eq!(told(Some(1e-4)), [(1e-4, 2)]);
+        assert_eq!(told(Some(1e-3)), [(1e-3, 2)]);
+        let snapped = snapping(&robot, Some(1e-3), None).unwrap().taken;
+        let largest = snapped.largest().unwrap();
+        assert_eq!((largest.name.as_str(), largest.angle), ("3", 1.57076));
+        // The operations are those of the given plan.
+        let basic = Plan::uniform(robot.links.len(), &LinkPlan::BASIC);
+        let basic = snapping(&robot, Some(1e-3), Some(&basic)).unwrap().taken;
+        assert!(basic.operations > snapped.operations, "{basic:?}");
+    }
+}

@@ -107,6 +107,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_variable_that_is_not_set_is_an_error_with_a_remedy() {
+        assert_eq!(variable("PATH", "").unwrap(), PathBuf::from(std::env::var_os("PATH").unwrap()));
+        let error = variable("ROBOT_BUILD_IS_NOT_SET", "set it").unwrap_err().to_string();
+        assert_eq!(error, "the environment variable ROBOT_BUILD_IS_NOT_SET is not set: set it");
+    }
+
+    #[test]
     fn old_packages_get_no_directive_that_they_refuse() {
         for (declared, supports) in [
             ("", true),

@@ -149,3 +149,48 @@ const MOST_NAMES: usize = 10_000;
 fn cannot_read(path: &Path, reason: &str) -> Error {
     Error::File { action: "read", path: path.to_owned(), reason: reason.to_owned() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_file_has_the_nearest_name() {
+        let folder = std::env::temp_dir().join(format!("robot_build_paths_{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(folder.join("lefty.toml")).unwrap();
+        for name in ["left.toml", "left.plan", "puma.urdf", "other.toml"] {
+            std::fs::write(folder.join(name), "").unwrap();
+        }
+        let at = |name: &str| folder.join(name);
+        let told = |name: &str| missing(&at(name)).replace(folder.to_str().unwrap(), "F");
+        let none = "there is no such file";
+        for (name, near) in [
+            // Neither a folder nor a plan is a robot file.
+            ("lefti.toml", "; did you mean F/left.toml?"),
+            ("left.plen", "; did you mean F/left.toml?"),
+            // Another ending of the same name.
+            ("puma.toml", "; did you mean F/puma.urdf?"),
+            ("nothing_like_it.toml", ""),
+            ("none/left.toml", "; there is no folder F/none"),
+        ] {
+            assert_eq!(told(name), format!("{none}{near}"), "{name}");
+        }
+        // The place is told if it is not the given path.
+        let told = missing_at(&at("puma.tom"), Path::new("arms/puma.tom"));
+        let place = format!("{none} (looked for {})", shown(&at("puma.tom")));
+        assert_eq!(told, format!("{place}; did you mean arms/puma.urdf?"));
+        assert!(missing(Path::new("nothing_like_it")).starts_with(none));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn what_is_no_robot_file_has_its_reason() {
+        let reason = |path: &Path| RobotFile::read(path).unwrap_err().to_string();
+        assert!(reason(Path::new("")).contains("the path of a robot file is empty"));
+        assert!(reason(&std::env::temp_dir()).contains("it is a folder; name a robot file"));
+        if cfg!(unix) {
+            assert!(reason(Path::new("/dev/null")).contains("it is not a regular file"));
+        }
+    }
+}

@@ -127,6 +127,44 @@ mod tests {
         let pin = |robot: &str| pin_path(Path::new(robot));
         assert_eq!(pin("arms/ur5.toml"), Path::new("arms/ur5.plan"));
         assert_eq!(pin("arms/ur5.urdf"), Path::new("arms/ur5.urdf.plan"));
+        assert_eq!([pin("ur5"), pin("ur.5")], ["ur5.plan", "ur.5.plan"].map(PathBuf::from));
+    }
+
+    #[test]
+    fn a_plan_that_no_search_wrote_is_refused() {
+        let name = format!("robot_build_edited_pin_{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        let path = folder.join("pendulum.toml");
+        std::fs::write(&path, ROBOT).unwrap();
+        let file = RobotFile::read(&path).unwrap();
+        let robot = crate::read(&file.source).unwrap().robot;
+        let found = Found {
+            plan: Plan::default_for(&robot),
+            measure: Measure::Operations,
+            operations: 7,
+            instructions: 5,
+            tried: 1,
+            cut_short: false,
+            tuned: false,
+        };
+        let text = pin_text(&robot, &found);
+        let pinned = |text: &str| {
+            std::fs::write(pin_path(&path), text).unwrap();
+            file.with_pin(&Options::default())
+        };
+        let error = pinned(&text.replace("operations = 7", "operations = 6")).unwrap_err();
+        let reason = "was edited and is no longer what the search wrote";
+        assert!(error.to_string().contains(reason), "{error}");
+        // A file can be too long for a plan.
+        let filled = |bytes: u64| {
+            let rest = usize::try_from(bytes).unwrap() - text.len();
+            pinned(&format!("{text}#{}\n", "-".repeat(rest - 2)))
+        };
+        assert!(filled(MAX_BYTES).is_ok());
+        let error = filled(MAX_BYTES + 1).unwrap_err().to_string();
+        assert!(error.contains("has 1048577 bytes, too many for a pinned plan"), "{error}");
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

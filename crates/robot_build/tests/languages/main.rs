@@ -8,7 +8,7 @@ mod packages;
 
 use harmless::{Chosen, PLAIN, in_every_language};
 use robot_build::languages::{Language, package};
-use robot_build::{Builder, Options, Scalar, Source};
+use robot_build::{Builder, Options, Scalar, Source, Trigonometry};
 use robot_model::functions::{FunctionKind, Functions};
 use robot_symbolic::Random;
 
@@ -129,6 +129,76 @@ fn the_description_of_wgsl_has_kernels_and_the_model() {
     assert!(fields.len() > 1 && model.values().all(serde_json::Value::is_number), "{model:?}");
     // The pendulum's m l², for one.
     assert!(model.values().any(|value| value.as_f64() == Some(2.0 * 0.25)), "{model:?}");
+}
+
+/// The test of a package in WebAssembly compares bits only if they are those of the interpreter: in double precision, with the
+/// own sines and without fused operations. Other packages have a tolerance.
+#[test]
+fn the_test_in_wasm_compares_bits_where_they_are_stated() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    for scalar in [Scalar::F64, Scalar::F32] {
+        for trigonometry in [Trigonometry::Polynomial, Trigonometry::Standard] {
+            for fused in [false, true] {
+                let options = Options { trigonometry, fused, ..options(scalar) };
+                let Ok(files) = package(&source, &options, Language::Wasm) else { continue };
+                let test = text_of(&files, "test.mjs");
+                let exact =
+                    scalar == Scalar::F64 && trigonometry == Trigonometry::Polynomial && !fused;
+                let case = format!("{scalar:?}, {trigonometry:?}, {fused}");
+                assert_eq!(test.contains("last bits differ"), exact, "{case}");
+                let tolerance =
+                    if scalar == Scalar::F64 { "<= 1e-12 * size" } else { "<= 1e-4 * size" };
+                assert!(test.contains(tolerance), "{case}: {test}");
+            }
+        }
+    }
+}
+
+/// A compiler that reorders sums makes own sines wrong, and changes the last bits of others.
+#[test]
+fn the_readme_in_c_tells_what_fast_math_does() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    for (trigonometry, words) in [
+        (Trigonometry::Polynomial, "sines would be wrong, and the header does not compile."),
+        (Trigonometry::Standard, "reorders sums: last bits differ."),
+    ] {
+        let options = Options { trigonometry, ..options(Scalar::F64) };
+        let files = package(&source, &options, Language::C).unwrap();
+        assert!(text_of(&files, "README.md").contains(words), "{words}");
+        let is_exact = trigonometry == Trigonometry::Polynomial;
+        assert_eq!(text_of(&files, "test.c").contains("name_flags();"), is_exact);
+    }
+}
+
+#[test]
+fn options_of_rust_are_refused_in_other_languages() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    let usual = || options(Scalar::F32);
+    for (options, name) in [
+        (Options { generic: true, ..usual() }, "generic"),
+        (Options { batch: Some(8), ..usual() }, "batch"),
+        (Options { runtime: "crate::runtime".to_owned(), ..usual() }, "runtime"),
+    ] {
+        for language in Language::ALL {
+            let printed = [
+                robot_build::languages::sources(&source, &options, *language).map(|_| ()),
+                package(&source, &options, *language).map(|_| ()),
+            ];
+            for printed in printed {
+                let expected = format!(
+                    "the option `{name}` applies to Rust and not to `{}`; leave it out",
+                    language.name()
+                );
+                match printed {
+                    Ok(()) => assert_eq!(*language, Language::Rust, "{name}"),
+                    Err(errors) => assert_eq!(errors.to_string(), expected),
+                }
+            }
+        }
+    }
+    let both = Options { generic: true, batch: Some(8), parallel: true, ..usual() };
+    let errors = package(&source, &both, Language::C).unwrap_err().to_string();
+    assert_eq!(errors.lines().count(), 3, "{errors}");
 }
 
 #[test]

@@ -24,28 +24,70 @@ center_of_mass = ["l", 0, 0]
 inertia = { xx = 0, yy = 0.1, zz = 0.1 }
 "#;
 
-/// The files of a package other than its code, one behind the other.
+/// A robot without parameters, with a description and a prismatic joint.
+const LIFT: &str = r#"format = 1
+[robot]
+name = "Lift"
+description = "turns, then lifts"
+gravity = [0, 0, -9.81]
+[[link]]
+name = "column"
+joint = { type = "revolute", axis = "y" }
+mass = 3
+center_of_mass = [0.1, 0, 0]
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[[link]]
+name = "carriage"
+joint = { type = "prismatic", axis = "z" }
+mass = 2
+center_of_mass = [0.5, 0, 0]
+inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
+[tip]
+parent = "carriage"
+"#;
+
+/// The files around the code of two packages: in double precision with parameters, and, where the language has it, in single
+/// precision without.
 fn around_the_code(language: Language) -> String {
-    let source = Source { name: "pendulum.toml".to_owned(), text: PENDULUM.to_owned() };
+    let kinds = |names: &[&str]| {
+        let kinds = names.iter().map(|name| FunctionKind::from_name(name).unwrap());
+        Functions::Chosen(kinds.collect())
+    };
     let single = [Language::Wgsl, Language::Arduino].contains(&language);
-    let kinds =
-        ["mass_matrix", "base_parameters"].map(|name| FunctionKind::from_name(name).unwrap());
     let options = Options {
-        functions: Functions::Chosen(kinds.to_vec()),
+        functions: kinds(&["mass_matrix", "base_parameters"]),
         scalar: if single { Scalar::F32 } else { Scalar::F64 },
         ..Options::default()
     };
-    let found = programs(&source, &options).unwrap();
+    let pendulum = Source { name: "pendulum.toml".to_owned(), text: PENDULUM.to_owned() };
+    let lift = Source { name: "robots/lift.toml".to_owned(), text: LIFT.to_owned() };
+    let other = Options {
+        functions: kinds(&["inverse_dynamics_wrench", "forward_kinematics", "energies"]),
+        scalar: Scalar::F32,
+        ..Options::default()
+    };
+    let double = Options { scalar: Scalar::F64, ..other.clone() };
+    let found = [&other, &double].into_iter().find_map(|options| files(&lift, options, language));
+    let [first, second] = [files(&pendulum, &options, language), found].map(Option::unwrap);
+    format!("{first}\n==== the lift\n{second}")
+}
+
+/// The files of a package other than its code, one behind the other; `None` if the language does not have the options.
+fn files(source: &Source, options: &Options, language: Language) -> Option<String> {
+    let found = programs(source, options).unwrap();
     let mut shown = String::new();
-    for file in package_of(&found, &source, &options, language).unwrap() {
+    let module = &found.module.name;
+    for file in package_of(&found, source, options, language).ok()? {
         let path = Path::new(&file.path);
-        let is_code = path.file_stem().is_some_and(|stem| stem == "pendulum")
+        let is_code = path.file_stem().is_some_and(|stem| stem == module.as_str())
             || file.path.starts_with("src/");
         let Some(text) = file.contents.text().filter(|_| !is_code) else { continue };
         write!(shown, "---- {}\n{}\n", file.path, text.trim_end()).unwrap();
     }
     // A release changes nothing else of it.
-    shown.replace(&format!("robot_build {}", env!("CARGO_PKG_VERSION")), "robot_build VERSION")
+    Some(
+        shown.replace(&format!("robot_build {}", env!("CARGO_PKG_VERSION")), "robot_build VERSION"),
+    )
 }
 
 #[test]

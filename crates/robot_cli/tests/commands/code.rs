@@ -164,3 +164,17 @@ fn options_of_the_robot_reach_the_code() {
         assert_ne!(run(&generate).output, code, "{flags:?}");
     }
 }
+
+#[test]
+fn a_module_of_several_files_is_for_a_folder() {
+    let file = robot("planar_2r");
+    let generate = ["generate", &file, "--function", "gravity,bias", "--language"];
+    let refused = complaint(1, &[&generate[..], &["matlab"]].concat(), "");
+    let message = "a module in `matlab` has several files; write them with `robot-symbolic crate`";
+    assert!(refused.contains(message), "{refused}");
+    let header = output(&[&generate[..], &["c"]].concat(), "");
+    assert!(
+        header.contains("planar_2r_gravity(") && header.contains("planar_2r_bias("),
+        "{header}"
+    );
+}

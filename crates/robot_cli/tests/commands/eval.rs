@@ -192,6 +192,23 @@ fn everything_that_is_wrong_is_said_at_once() {
     assert_eq!(lines.len(), 4);
 }
 
+/// A text that is no list of states is told beside a wrong option, and in place of what was wrong with its states.
+#[test]
+fn what_is_no_list_of_states_is_told_with_wrong_options() {
+    let path = crate::folder("eval-no-states").join("states.json");
+    std::fs::write(&path, r#"[{"q": [1]}, {"q": [1, 2, 3]} oops"#).unwrap();
+    let (file, path) = (robot("planar_2r"), path.to_str().unwrap());
+    let eval = ["eval", &file, "--function", "gravity", "--states", path, "--set", "m9=1"];
+    let shown = complaint(1, &eval, "");
+    let lines: Vec<&str> = shown.lines().collect();
+    assert!(lines[0].starts_with("error: --set: there is no parameter `m9`."), "{shown}");
+    assert!(lines[1].starts_with(&format!("error: {path}: this is not JSON: ")), "{shown}");
+    assert_eq!(lines.len(), 2, "{shown}");
+    let twice = ["--set", "m1=1", "--set", "m1=2"];
+    let shown = complaint(1, &[&eval[..4], &["--q", "0,0"], &twice[..]].concat(), "");
+    assert_eq!(shown, "error: --set: `m1` is set twice\n");
+}
+
 #[test]
 fn a_robot_without_a_tip_takes_no_wrench() {
     let file = robot("planar_3r");
@@ -296,6 +313,24 @@ fn a_nearly_singular_mass_matrix_is_reported() {
     }
 }
 
+/// The reason is that of the robot with the parameters that are set, and the nominal values of the others.
+#[test]
+fn a_set_parameter_that_makes_the_mass_matrix_singular_is_the_reason() {
+    let file = crate::folder("eval-set-singular").join("arm.toml");
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nm = 2\nl = 3\n[[link]]\n\
+        name = \"rod\"\nmass = \"m\"\ncenter_of_mass = [\"l - 1\", 0, 0]\n\
+        inertia = { xx = 0, yy = 0, zz = 0 }\njoint = { name = \"swing\", type = \"revolute\", axis = \"z\" }\n";
+    std::fs::write(&file, text).unwrap();
+    let state = ["--function", "forward_dynamics", "--q=0.5", "--qd=0", "--tau=1"];
+    let eval = [&["eval", file.to_str().unwrap()][..], &state].concat();
+    let shown: Value = serde_json::from_str(&output(&eval, "")).unwrap();
+    assert_close(&numbers(&shown[0]["qdd"]), &[1.0 / 8.0]);
+    let shown = complaint(1, &[&eval[..], &["--set", "l=1"]].concat(), "");
+    let reason = "`qdd` does not have a finite value at entry 1 (joint `swing`); the mass matrix is singular at this \
+        state: the joint torques do not determine the accelerations of q1 = 0.5 (joint `swing`)";
+    assert!(shown.contains(reason), "{shown}");
+}
+
 /// A state whose angle is too large for the sine is not reported to have a singular mass matrix.
 #[test]
 fn an_angle_that_has_no_sine_is_the_reason() {
@@ -390,4 +425,17 @@ fn a_wrench_of_0_by_default_is_noted() {
         let done = eval(function, &states);
         assert_eq!((done.code, done.errors.as_str()), (0, note), "{function} {states}");
     }
+}
+
+/// Numbers are no arrays, in JSON and in the header of CSV.
+#[test]
+fn energies_are_numbers() {
+    let file = robot("planar_2r");
+    let eval = ["eval", &file, "--function", "energies", "--q=0,0", "--qd=1,2", "--format"];
+    let shown: Value = serde_json::from_str(&output(&[&eval[..], &["json"]].concat(), "")).unwrap();
+    let energies = mechanism("planar_2r", &[]).energies(&[0.0, 0.0], &[1.0, 2.0]).unwrap();
+    let found = ["kinetic", "potential"].map(|name| shown[0][name].as_f64().unwrap());
+    assert!((found[0] - energies.kinetic).abs() < 1e-12 * energies.kinetic.abs(), "{shown}");
+    let csv = output(&[&eval[..], &["csv"]].concat(), "");
+    assert_eq!(csv, format!("kinetic,potential\n{:?},{:?}\n", found[0], found[1]));
 }

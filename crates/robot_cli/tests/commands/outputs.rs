@@ -284,6 +284,41 @@ fn packages_of_all_languages_are_written_again() {
     }
 }
 
+/// Of many files of an earlier run, the first are named and the others counted; `--check` names what is missing.
+#[test]
+fn many_files_of_an_earlier_run_are_counted() {
+    let inputs = Inputs::new("outputs-remaining");
+    let package = inputs.path("matlab");
+    let write = |functions: &str, more: &[&str]| {
+        let line = format!("crate @arm.toml --language matlab --function {functions} -o @matlab");
+        inputs.run(&line, more)
+    };
+    let many =
+        "bias,gravity,mass_matrix,forward_kinematics,energies,coriolis_matrix,inverse_dynamics";
+    assert_eq!(write(many, &[]).code, 0);
+    let present = |function: &str| {
+        names(package.as_ref()).iter().any(|name| name.ends_with(&format!("/{function}.m")))
+    };
+    assert!(present("bias") && present("inverse_dynamics"));
+    let few = write("inverse_dynamics", &[]);
+    assert_eq!(few.code, 0, "{}", few.errors);
+    let warning = few.errors.lines().find(|line| line.starts_with("warning: ")).unwrap();
+    assert!(
+        warning.contains("6 generated files of an earlier run that are not part of this package: "),
+        "{warning}"
+    );
+    assert!(warning.ends_with(" and 1 more; remove those that you do not need"), "{warning}");
+    assert_eq!(warning.matches(".m").count(), 5, "{warning}");
+    fs::remove_file(names(package.as_ref()).iter().find(|name| name.ends_with("/bias.m")).unwrap())
+        .unwrap();
+    let five = write("inverse_dynamics", &[]).errors;
+    assert!(five.contains("5 generated files") && !five.contains("more;"), "{five}");
+    let stale = write("bias,gravity", &["--check"]);
+    assert_eq!(stale.code, 1);
+    assert!(stale.errors.contains("bias.m is missing"), "{}", stale.errors);
+    assert!(!stale.errors.contains("gravity.m is"), "{}", stale.errors);
+}
+
 #[test]
 fn manual_pages_of_somebody_else_stay() {
     let folder = folder("outputs-man");

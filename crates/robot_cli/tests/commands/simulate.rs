@@ -123,6 +123,13 @@ fn everything_that_is_wrong_is_said() {
     let usage = run(&["simulate", &file, "--smoothing", "1"]);
     assert_eq!(usage.code, 2);
     let trttr1 = robot("trttr1");
+    let zero = run(&["simulate", &trttr1, "--friction", "--smoothing", "0"]);
+    assert_eq!(zero.code, 2, "{}", zero.errors);
+    assert!(
+        zero.errors.contains("--smoothing is 0; it must be a positive velocity"),
+        "{}",
+        zero.errors
+    );
     let usage = run(&["simulate", &trttr1, "--friction", "--smoothing", "-1"]);
     assert_eq!(usage.code, 2);
 }

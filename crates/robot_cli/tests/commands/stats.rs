@@ -159,3 +159,28 @@ fn passes_and_options_show_what_they_give() {
     assert!(without("any pass").unwrap().1 > total);
     assert!(without("column").unwrap().1 > total, "{options:?}");
 }
+
+/// The text has a row for each step, with the numbers of JSON.
+#[test]
+fn passes_are_rows_of_a_table() {
+    let file = robot("planar_2r");
+    let arguments = ["stats", &file, "--function", "gravity", "--passes", "--format"];
+    let of = |format: &str| output(&[&arguments[..], &[format]].concat(), "");
+    let steps: Vec<Value> = serde_json::from_str(&of("json")).unwrap();
+    let text = of("text");
+    let mut lines = text.lines();
+    let title: Vec<&str> = lines.next().unwrap().split_whitespace().collect();
+    assert!(
+        title.starts_with(&["function", "step", "M", "+", "A", "+", "D", "neg", "mul"]),
+        "{text}"
+    );
+    for (line, step) in lines.clone().zip(&steps) {
+        let cells: Vec<&str> = line.split_whitespace().collect();
+        assert!(cells[0] == "gravity" && line.contains(step["step"].as_str().unwrap()), "{line}");
+        let numbers: Vec<u64> = cells.iter().filter_map(|cell| cell.parse().ok()).collect();
+        let counts = &step["counts"];
+        let expected = [&step["operations"], &step["neg"], &counts["mul"], &counts["add"]];
+        assert_eq!(numbers[..4], expected.map(|number| number.as_u64().unwrap()), "{line}");
+    }
+    assert!(steps.len() > 3 && lines.count() == steps.len(), "{text}");
+}

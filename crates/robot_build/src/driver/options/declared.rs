@@ -406,6 +406,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn flags_are_words_of_the_command_line() {
+        for (name, flag) in [
+            ("functions", "--function"),
+            ("bundles", "--bundle"),
+            ("allow_massless", "--allow-massless"),
+            ("base_frames", "--base-frames"),
+            ("snap", "--snap"),
+        ] {
+            assert_eq!(OptionSpec::named(name).map(OptionSpec::flag).as_deref(), Some(flag));
+        }
+    }
+
+    #[test]
     fn each_example_changes_one_thing() {
         // These depend on the robot, concern only files, or have the value that is set anyway.
         const SAME: [&str; 4] = ["functions", "bundles", "allow_outside", "runtime"];

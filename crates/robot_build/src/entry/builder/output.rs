@@ -124,3 +124,19 @@ fn second_name<'m>(module: &'m Module, modules: &[Module]) -> Option<&'m str> {
     let is_free = others.into_iter().all(|other| !is_taken(other)) && !is_stem(INDEX);
     is_free.then_some(stem)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_devices_are_known() {
+        for name in ["aux", "con", "nul", "prn", "com1", "com9", "lpt1", "lpt9"] {
+            assert!(is_device(name), "{name}");
+        }
+        for name in ["", "arm", "com", "com0", "com10", "lpt", "lpt0", "coma", "con1", "1", "xcom1"]
+        {
+            assert!(!is_device(name), "{name}");
+        }
+    }
+}

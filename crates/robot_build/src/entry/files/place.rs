@@ -95,3 +95,54 @@ fn location(path: &Path) -> Option<PathBuf> {
         Place::Regular(target, _) | Place::Folder(target) => target.canonicalize().ok(),
     }
 }
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn streams_of_the_process_are_no_files() {
+        for path in [
+            "/dev/stdin",
+            "/dev/stdout",
+            "/dev/stderr",
+            "/dev/fd/3",
+            "/proc/self/fd/1",
+            "/proc/7/fd/0",
+        ] {
+            assert!(is_stream(Path::new(path)), "{path}");
+        }
+        for path in [
+            "/dev/null",
+            "/dev/fd",
+            "/proc/self/status",
+            "/proc/fdinfo/1",
+            "/home/fd/1",
+            "fd/1",
+            "",
+        ] {
+            assert!(!is_stream(Path::new(path)), "{path}");
+        }
+    }
+
+    #[test]
+    fn files_of_the_system_are_known_by_their_folder() {
+        for (path, expected) in [
+            ("/proc/version", true),
+            ("/proc/none", true),
+            ("/sys", true),
+            ("/dev/null", false),
+            ("/processes", false),
+            ("proc/version", false),
+        ] {
+            assert_eq!(is_of_system(Path::new(path)), expected, "{path}");
+        }
+    }
+
+    #[test]
+    fn the_folder_of_a_name_alone_is_the_present_one() {
+        for (path, folder) in [("a.rs", "."), ("", "."), ("/", "."), ("a/b.rs", "a"), ("/a", "/")] {
+            assert_eq!(folder_of(Path::new(path)), Path::new(folder), "{path}");
+        }
+    }
+}

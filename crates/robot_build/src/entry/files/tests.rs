@@ -89,7 +89,9 @@ fn only_marked_and_empty_files_are_replaced() {
             "{shown}"
         );
         assert_eq!(fs::read_to_string(&path).unwrap(), text, "{name}");
-        assert_eq!(Writer::new().force(true).write(&[output(&path, NEW)]), Ok(1));
+        let advised = message(Writer::new().remedy("ask for it").write(&[output(&path, NEW)]));
+        assert!(advised.ends_with("; ask for it"), "{advised}");
+        assert_eq!(Writer::default().force(true).write(&[output(&path, NEW)]), Ok(1));
         assert_eq!(fs::read_to_string(&path).unwrap(), NEW, "{name}");
     }
 }
@@ -239,6 +241,14 @@ fn leftovers_of_a_killed_process_go_and_those_of_a_living_one_stay() {
     assert_eq!(folder.names(), [".a.rs.robot-symbolic-tmp-x", "a.rs", "new"]);
 }
 
+/// Where no file can be made, the reason of the system is kept; another name would not help.
+#[test]
+fn a_temporary_file_that_cannot_be_made_has_its_reason() {
+    let folder = Folder::new("staged");
+    let staged = staging::Staged::empty(&folder.path("none/a.rs"));
+    assert_eq!(staged.err().map(|error| error.kind()), Some(std::io::ErrorKind::NotFound));
+}
+
 #[test]
 fn a_folder_named_as_such_is_no_file() {
     let folder = Folder::new("slash");
@@ -273,6 +283,19 @@ mod unix {
         assert!(Writer::new().inputs([&plan]).write(&[output(&plan, NEW)]).is_err());
         assert_eq!(fs::read_to_string(&input).unwrap(), OWN);
         assert_eq!(folder.names(), ["arm.toml", "hard", "soft"]);
+    }
+
+    #[test]
+    fn a_temporary_name_that_is_taken_is_passed_over() {
+        let folder = Folder::new("taken");
+        // Links are not the files of a killed process, and stay.
+        for number in 0..300 {
+            let name = format!(".a.rs.robot-symbolic-tmp-{}-{number}", std::process::id());
+            symlink("nowhere", folder.path(&name)).unwrap();
+        }
+        assert_eq!(write(&folder.path("a.rs"), NEW), Ok(1));
+        assert_eq!(fs::read_to_string(folder.path("a.rs")).unwrap(), NEW);
+        assert_eq!(folder.names().len(), 301);
     }
 
     #[test]

@@ -152,3 +152,92 @@ pub(super) fn markdown(comparison: &Comparison) -> String {
     }
     shown + "\n" + &summary(comparison) + "\n"
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_check::errata::Mistake;
+
+    use super::*;
+
+    fn difference(number: &str, kind: MistakeKind) -> Difference {
+        let some = |text: &str| Some(text.to_owned());
+        Difference {
+            number: number.to_owned(),
+            quantity: "Q1".to_owned(),
+            line: 7,
+            printed: some("m1"),
+            derived: some("m2"),
+            nearest: None,
+            mistakes: vec![Mistake { kind, printed: some("m1"), derived: some("m2") }],
+            evidence: vec![],
+        }
+    }
+
+    fn comparison(differences: Vec<Difference>) -> Comparison {
+        Comparison { equations: 1, names: 0, terms: 1, wrench: true, differences }
+    }
+
+    #[test]
+    fn the_summary_counts_in_words() {
+        let none = comparison(vec![]);
+        assert_eq!(summary(&none), "1 equation, 1 term: no differences");
+        let some = Comparison { equations: 2, names: 1, terms: 0, wrench: false, ..none };
+        assert_eq!(
+            summary(&some),
+            "2 equations (1 only name a quantity), 0 terms, no wrench: no differences"
+        );
+        let one = difference("", MistakeKind::Index);
+        let shown = summary(&comparison(vec![one.clone()]));
+        assert_eq!(shown, "1 equation, 1 term: 1 term differs (1 index)");
+        let other = difference("", MistakeKind::Sign);
+        let shown = summary(&comparison(vec![one.clone(), other, one]));
+        assert_eq!(shown, "1 equation, 1 term: 3 terms differ (1 sign, 2 indices)");
+    }
+
+    #[test]
+    fn differences_are_paragraphs_rows_and_objects() {
+        let extra = Difference {
+            derived: None,
+            nearest: Some("m3".to_owned()),
+            ..difference("3|4", MistakeKind::ExtraTerm)
+        };
+        let missing = Difference { printed: None, ..difference("", MistakeKind::MissingTerm) };
+        let all = comparison(vec![extra, missing]);
+        let shown = text(&all);
+        let lines: Vec<&str> = shown.lines().collect();
+        assert!(lines[0].starts_with("(3|4) Q1, line 7: extra term"), "{shown}");
+        assert_eq!(lines[1..3], ["    printed  m1", "    nearest  m3"]);
+        assert!(lines[3].starts_with("Q1, line 7: missing term"), "{shown}");
+        assert_eq!(lines[4..], ["    derived  m2", &summary(&all)]);
+        let shown = markdown(&all);
+        let rows: Vec<&str> = shown.lines().collect();
+        assert!(rows[0].starts_with("| equation |") && rows[1].starts_with("|---"), "{shown}");
+        assert!(
+            rows[2].starts_with("| (3\\|4) Q1 | ")
+                && rows[2].contains(" | `m1` | — (nearest: `m3`) | "),
+            "{shown}"
+        );
+        assert!(rows[3].starts_with("| Q1 | ") && rows[3].contains(" | — | `m2` | "), "{shown}");
+        assert_eq!(rows[4..], ["", &summary(&all)]);
+        // Without differences there is no table.
+        let none = comparison(vec![]);
+        assert_eq!(markdown(&none), format!("\n{}\n", summary(&none)));
+        let shown: Value = serde_json::from_str(&json(&all)).unwrap();
+        assert_eq!(shown["differences"][0]["nearest"], "m3");
+        assert_eq!(shown["differences"][1]["printed"], Value::Null);
+        assert_eq!(shown["differences"][1]["slips"][0]["kind"], "missing term");
+        assert_eq!((&shown["equations"], &shown["wrench"]), (&json!(1), &json!(true)));
+    }
+
+    #[test]
+    fn titles_are_bold_and_terms_have_the_colors_of_changes() {
+        let plain =
+            "Q1, line 7\n    printed  a\n    derived  b\n    nearest  c\n    evidence\n1 term\n";
+        let shown = colored(plain);
+        let starts =
+            ["\x1b[1mQ1", "\x1b[31m    p", "\x1b[32m    d", "\x1b[33m    n", "    e", "\x1b[1m1"];
+        for (line, start) in shown.lines().zip(starts) {
+            assert!(line.starts_with(start), "{line:?}");
+        }
+    }
+}

@@ -233,3 +233,6 @@ fn torques_json(found: &Torques) -> Value {
         "joints": found.joints.iter().map(joint).collect::<Value>(),
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -98,3 +98,23 @@ fn remove(path: &Path, text: &str) -> Result<(), Failure> {
 fn marked<'a>(path: &Path, text: &'a str) -> Output<'a> {
     Output { path: path.to_owned(), bytes: text.as_bytes(), ownership: Ownership::Marked }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The user is told about a picture that stays; one that is gone already, or is not the own one, is no error.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_picture_that_cannot_be_removed_is_told() {
+        // Nobody may remove it.
+        let path = Path::new("/proc/version");
+        let text = std::fs::read_to_string(path).unwrap();
+        let refused = remove(path, &text).unwrap_err();
+        let Failure::Input(messages) = refused else { panic!("{refused:?}") };
+        assert!(messages[0].starts_with("cannot remove /proc/version: "), "{messages:?}");
+        assert!(remove(path, "another text").is_ok());
+        assert!(remove(Path::new("/proc/none"), &text).is_ok());
+        assert!(remove(Path::new("/proc"), "").is_ok());
+    }
+}
