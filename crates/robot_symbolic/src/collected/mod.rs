@@ -101,7 +101,7 @@ impl<'g> Collector<'g, '_> {
         let formula = |terms: Terms| {
             let terms = squares::chosen(&terms, &variables);
             match self.factors {
-                true => Factoring::new(&terms, early).formula(&terms),
+                true => Factoring::new(&terms, variables.kinds(early)).formula(&terms),
                 false => Formula::flat(&terms),
             }
         };
