@@ -67,10 +67,10 @@ fn a_factor_of_a_whole_term_leaves_a_one_in_brackets() {
     for (source, expected) in [
         ("F*b + F", "F*(b + 1)"),
         ("M - F*b - F", "M - F*(b + 1)"),
-        ("(n*r + m*l + m)*sin(q9)", "(r*n + m*(l + 1))*sin(q9)"),
-        ("n*r + m*l^2 + 2*m*l + m", "r*n + m*(l + 1)^2"),
+        ("(n*r + m*l + m)*sin(q9)", "(n*r + m*(l + 1))*sin(q9)"),
+        ("n*r + m*l^2 + 2*m*l + m", "n*r + m*(l + 1)^2"),
         // A sum with sines would be longer and no clearer.
-        ("a*sin(q9) + a", "a*sin(q9) + a"),
+        ("M - a*sin(q9) - a", "M - a*sin(q9) - a"),
     ] {
         assert_eq!(collected(source, 0), expected, "{source}");
     }
@@ -86,7 +86,7 @@ fn common_factors_of_the_rest_leave_brackets() {
         ),
         (
             "g*((n*r + m*l + k*l)*cos(q1) + k*b*cos(q2))",
-            "g*((n*r + l*(m + k))*cos(q1) + k*b*cos(q2))",
+            "g*(n*r + l*(m + k))*cos(q1) + g*k*b*cos(q2)",
         ),
     ] {
         assert_eq!(collected(source, 0), expected, "{source}");
