@@ -129,7 +129,7 @@ fn the_planar_arm_of_three_joints_prints_as_in_textbooks() {
         ("b_3_2_2", "m3*l2*r3*sin(q3)"),
         (
             "g_1",
-            "g*((m1*r1 + m2*l1 + m3*l1)*cos(q1) + (m2*r2 + m3*l2)*cos(q1 + q2) + m3*r3*cos(q1 + q2 + q3))",
+            "g*((m1*r1 + l1*(m2 + m3))*cos(q1) + (m2*r2 + m3*l2)*cos(q1 + q2) + m3*r3*cos(q1 + q2 + q3))",
         ),
         ("g_2", "g*(m2*r2 + m3*l2)*cos(q1 + q2) + m3*g*r3*cos(q1 + q2 + q3)"),
         ("g_3", "m3*g*r3*cos(q1 + q2 + q3)"),

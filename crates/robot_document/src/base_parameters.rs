@@ -198,8 +198,12 @@ pub(crate) fn look(parameter: &BaseParameter<'_>) -> Math {
 
 /// The layout of the name of a parameter: italic letters, with the number of the link as a lower index.
 pub(crate) fn shape(quantity: Quantity, mark: &str, link: usize) -> Math {
-    let letters = quantity.symbol().chars().chain(mark.chars());
-    let letters = Math::row(letters.map(Math::Letter).collect());
+    word(&[quantity.symbol(), mark].concat(), link)
+}
+
+/// The layout of a name of several letters with the number of a link.
+pub(crate) fn word(letters: &str, link: usize) -> Math {
+    let letters = Math::row(letters.chars().map(Math::Letter).collect());
     let base = match letters {
         letter @ Math::Letter(_) => letter,
         word => Math::Styled(Font::Italic, Box::new(word)),

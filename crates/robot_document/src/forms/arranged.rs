@@ -49,6 +49,14 @@ fn sorted<'h>(mut terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     terms
 }
 
+/// Moves the first positive term to the beginning, where it needs no sign.
+pub(super) fn positive_first(mut terms: Terms<'_>) -> Terms<'_> {
+    if let Some(place) = terms.iter().position(|term| !term.negative) {
+        terms[..=place].rotate_right(1);
+    }
+    terms
+}
+
 fn rank(factor: &ArrangedFactor<'_>, order: &Order<'_>) -> Rank {
     factor.as_atom().map_or(BRACKETS, |atom| order.rank(atom))
 }

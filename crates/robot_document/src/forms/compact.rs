@@ -94,7 +94,7 @@ pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<A
     let collector = Collector { angles: &[], factors: true };
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
     // Among equally long forms, the collector can choose one with an additional product.
-    let collected = arranged::factored(collected, &writer.order);
+    let collected = arranged::positive_first(arranged::factored(collected, &writer.order));
     let is_shorter = length(&collected) < length(&built)
         && arranged::operations(&collected) <= arranged::operations(&built);
     if is_shorter { collected } else { built }

@@ -2,8 +2,8 @@
 
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
-use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
-use robot_symbolic::{Expr, Graph, Id, View, walk};
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_value};
+use robot_symbolic::{Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::compact::{moving, short_terms, tidy};
@@ -247,8 +247,19 @@ impl<'g, 'h> Definitions<'g, 'h> {
         if let Some(place) = self.named_torques.iter().position(|torque| torque.part == expr) {
             return self.emit_torque(place, writer);
         }
-        let value = self.named.rewritten(expr);
-        let terms = short_terms(writer, value);
+        let mut value = self.named.rewritten(expr);
+        let mut terms = short_terms(writer, value);
+        if let Some(shorter) = unfolded(writer, expr, self.named.graph)
+            && length(&shorter) < length(&terms)
+        {
+            // Named parts of the expression cancel each other.
+            value = arranged_value(&shorter, self.named.graph);
+            terms = shorter;
+            if self.is_economical && is_product_of_two(&terms) {
+                self.named.replace(expr, value);
+                return Ok(());
+            }
+        }
         if let Some(known) = known(&terms, self.named.graph) {
             self.named.replace(expr, known);
             return Ok(());
@@ -319,6 +330,33 @@ pub(super) fn positive(mut expr: Expr<'_>) -> Expr<'_> {
     expr
 }
 
+/// The largest number of terms with which an expression is expanded to see whether its named parts cancel.
+const MAX_UNFOLDED: usize = 100;
+
+/// The terms of an expression without names of its parts; `None` if the expression is long.
+fn unfolded<'h>(
+    writer: &Writer<'_, '_>,
+    expr: Expr<'_>,
+    target: &'h Graph,
+) -> Option<Vec<ArrangedTerm<'h>>> {
+    let limits =
+        PolynomialOptions { max_terms: MAX_UNFOLDED, ..PolynomialOptions::keeping_angle_sums() };
+    let value = Polynomial::of(expr, &limits).ok()?.to_expr();
+    let value = walk::rebuild(&[value], target, |name| target.symbol(name)).pop()?;
+    Some(short_terms(writer, value))
+}
+
+/// Whether the terms are one product of two symbols, sines or cosines, possibly with a minus sign; it is as easy to
+/// read as a name.
+fn is_product_of_two(terms: &[ArrangedTerm<'_>]) -> bool {
+    let [ArrangedTerm { coefficient, factors, .. }] = terms else { return false };
+    let is_plain = |(factor, exponent): &(ArrangedFactor<'_>, i32)| {
+        factor.as_atom().is_some() && *exponent > 0
+    };
+    let count: u32 = factors.iter().map(|(_, exponent)| exponent.unsigned_abs()).sum();
+    coefficient.is_one() && count <= 2 && factors.iter().all(is_plain)
+}
+
 /// Returns the value of terms that need no name: 0, or a symbol that is defined already, possibly with the opposite
 /// sign.
 fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> {
@@ -330,5 +368,27 @@ fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> 
             Some(if *negative { -*atom } else { *atom })
         }
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{EquationOptions, Form, equations};
+
+    /// Of the Stanford arm, sin q₂ q̈₁ and q̇₁² were x₁₃ = −2 cos q₂ q̇₁ q̇₂ + x₈ and x₁₄ = cos² q₂ q̇₁² + x₉ − q̇₂².
+    #[test]
+    fn named_parts_that_cancel_are_not_used() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/stanford.toml");
+        let text = std::fs::read_to_string(path).unwrap();
+        let robot = robot_model::description::read_toml(path, &text).unwrap().robot;
+        let options = EquationOptions { form: Form::Compact, ..EquationOptions::default() };
+        let found = equations(&robot, &options).unwrap();
+        let is_motion = |name: &str| name.starts_with("x_");
+        let motions: Vec<_> = found.definitions().filter(|one| is_motion(&one.name)).collect();
+        assert!(motions.len() <= 41, "{}", motions.len());
+        let texts: Vec<&str> = motions.iter().map(|one| one.text.as_str()).collect();
+        assert!(texts.contains(&"2*cos(q2)*qd1*qd2 + sin(q2)*qdd1"), "{texts:#?}");
+        let cancels = |text: &&&str| text.contains("qd1^2 + x_") || text.contains("qd1*qd2 + x_");
+        assert_eq!(texts.iter().find(cancels), None);
     }
 }

@@ -24,8 +24,15 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let derivation = writer.derivation();
     let found = base::found(&derivation)?;
     let outputs = derivation.regressor_over(&found).outputs;
-    let columns: Vec<Expr<'_>> = outputs.into_iter().flat_map(|output| output.values).collect();
-    let (mut groups, parameters) = definitions(writer, &found)?;
+    let mut columns: Vec<Expr<'_>> = outputs.into_iter().flat_map(|output| output.values).collect();
+    let values = base::polynomials(&found.nominal())?;
+    let equal = equal_frictions(&found, &values);
+    for row in columns.chunks_mut(values.len().max(1)) {
+        for (forward, backward) in &equal {
+            row[*forward] += row[*backward];
+        }
+    }
+    let (mut groups, parameters) = definitions(writer, &found, &values, &equal)?;
     let forces = writer.economical_forces(false);
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
     let mut sections = vec![
@@ -79,27 +86,80 @@ const MOMENTS: &str = "In the names of base parameters, SXX is the second moment
     parent's joint axis meets it; a D marks a parameter that differs from the file's parameter \
     of the same name.";
 
+/// The explanation of the name of a friction that is the same in both directions.
+const UNITED: &str = "FC is a constant friction that is the same forward and backward.";
+
+/// The places of the forward and backward friction of each joint at which these are equal, so that one term with the
+/// sign of the velocity stands for both: ½ f (s² + s) + ½ f (s − s²) = f s.
+fn equal_frictions(found: &BaseParameters<'_>, values: &[Polynomial<'_>]) -> Vec<(usize, usize)> {
+    let of = |wanted: Quantity| {
+        let all = found.base.iter().zip(values).enumerate();
+        let is_own =
+            move |one: &BaseParameter<'_>| one.kept.quantity == wanted && one.terms.len() == 1;
+        all.filter(move |(_, (parameter, _))| is_own(parameter))
+    };
+    let mut equal = vec![];
+    for (forward, (parameter, value)) in of(Quantity::ForwardFriction) {
+        let backward = of(Quantity::BackwardFriction)
+            .find(|(_, (other, same))| other.kept.link == parameter.kept.link && *same == value);
+        equal.extend(backward.map(|(backward, _)| (forward, backward)));
+    }
+    equal
+}
+
+/// The symbol of a friction that is the same in both directions. Its definition is added to `equations`, unless the
+/// robot file has this symbol.
+fn united_friction<'g>(
+    writer: &mut Writer<'_, 'g>,
+    link: usize,
+    value: &Polynomial<'g>,
+    equations: &mut Vec<Equation>,
+) -> Result<Expr<'g>, Error> {
+    if let Some(name) = symbol_of(value) {
+        return Ok(writer.graph.symbol(&name));
+    }
+    let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
+    let Written { text, math: right } = formulas.of_polynomial(value)?;
+    let name = format!("FC_{}", link + 1);
+    writer.define_parameter(&name, base::word("FC", link))?;
+    let left = writer.symbols.look(&name);
+    let symbol = writer.graph.symbol(&name);
+    equations.push(Equation { name, text, left, right });
+    Ok(symbol)
+}
+
 /// The definitions of the base parameters and of the standard parameters in them, and the symbols of the base
 /// parameters by their columns.
+///
+/// Of each pair of `equal` frictions only the first has a symbol, which stands for both.
 fn definitions<'g>(
     writer: &mut Writer<'_, 'g>,
     found: &BaseParameters<'g>,
+    values: &[Polynomial<'g>],
+    equal: &[(usize, usize)],
 ) -> Result<(Vec<Group>, Vec<Option<Expr<'g>>>), Error> {
     let friction = writer.options.friction;
-    let values = base::polynomials(&found.nominal())?;
     let is_used = |(parameter, value): &(&BaseParameter<'g>, &Polynomial<'g>)| {
         !value.is_zero() && (friction || !is_friction(parameter.kept.quantity))
     };
-    let used = || found.base.iter().zip(&values).filter(is_used);
+    let used = || found.base.iter().zip(values).filter(is_used);
     let regrouped = used().filter(|(parameter, _)| parameter.terms.len() > 1);
     let places = regrouped.flat_map(|(parameter, _)| parameter.terms.iter().map(|term| term.0));
     let (standard, written) = standard(writer, found, &places.collect::<Vec<_>>())?;
     let mut equations = vec![];
     let mut symbols = vec![];
-    for pair in found.base.iter().zip(&values) {
-        symbols.push(match is_used(&pair) {
-            true => Some(parameter(writer, pair.0, pair.1, &written, &mut equations)?),
-            false => None,
+    let mut has_united = false;
+    for (place, pair) in found.base.iter().zip(values).enumerate() {
+        let is_one = |side: fn(&(usize, usize)) -> usize| equal.iter().any(|it| side(it) == place);
+        symbols.push(if !is_used(&pair) || is_one(|pair| pair.1) {
+            None
+        } else if is_one(|pair| pair.0) {
+            let known = equations.len();
+            let symbol = united_friction(writer, pair.0.kept.link, pair.1, &mut equations)?;
+            has_united |= equations.len() > known;
+            Some(symbol)
+        } else {
+            Some(parameter(writer, pair.0, pair.1, &written, &mut equations)?)
         });
     }
     let mut groups = vec![
@@ -111,8 +171,9 @@ fn definitions<'g>(
             BaseFrames::File => String::new(),
             BaseFrames::DenavitHartenberg => format!(" {MOMENTS}"),
         };
+        let united = if has_united { format!(" {UNITED}") } else { String::new() };
         first.introduction = format!(
-            "{}{moments} Parameters that appear in the robot file unchanged keep their symbols.",
+            "{}{moments}{united} Parameters that appear in the robot file unchanged keep their symbols.",
             base::NAMES
         );
     }
@@ -307,4 +368,43 @@ fn product<'g>(
     let mut product = ArrangedTerm::product(coefficient, vec![]);
     product.factors.insert(0, factor);
     product
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{EquationOptions, Form, equations};
+
+    /// The equations of the planar arm with the friction of one joint.
+    fn printed(friction: &str) -> Vec<String> {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/planar_2r.toml");
+        let text = std::fs::read_to_string(path).unwrap();
+        let joint = r#"joint = { type = "revolute", axis = "z" }"#;
+        let text = text.replacen(joint, &format!("{joint}\nfriction = {{ {friction} }}"), 1);
+        let text =
+            text.replacen("[parameters]", "[parameters]\nf1 = { value = 2, unit = \"N m\" }", 1);
+        let robot = robot_model::description::read_toml(path, &text).unwrap().robot;
+        let form = Form::Regrouped;
+        let options = EquationOptions { form, friction: true, ..EquationOptions::default() };
+        let found = equations(&robot, &options).unwrap();
+        let all = found.groups.into_iter().flat_map(|group| group.equations);
+        all.map(|equation| format!("{} = {}", equation.name, equation.text)).collect()
+    }
+
+    fn assert_contains(equations: &[String], part: &str) {
+        assert!(equations.iter().any(|one| one.contains(part)), "{part}: {equations:#?}");
+    }
+
+    #[test]
+    fn friction_that_is_the_same_in_both_directions_is_one_term() {
+        let constant = printed("coulomb_torque = 0.3");
+        assert_contains(&constant, "FC_1 = 0.3");
+        assert_contains(&constant, " + FC_1*sign(qd1) + ");
+        assert!(!constant.iter().any(|one| one.contains("FP_1") || one.contains("FN_1")));
+        let named = printed(r#"coulomb_torque = "f1", smoothing = 0.1"#);
+        assert_contains(&named, " + f1*tanh(10*qd1) + ");
+        assert!(!named.iter().any(|one| one.contains("FC_1")), "{named:#?}");
+        let different = printed("coulomb_positive = 0.3, coulomb_negative = 0.4");
+        assert_contains(&different, "0.5*FP_1*(1 + sign(qd1))*sign(qd1)");
+        assert_contains(&different, "0.5*FN_1*(1 - sign(qd1))*sign(qd1)");
+    }
 }

@@ -5,7 +5,8 @@ use std::cmp::Reverse;
 use indexmap::{IndexMap, IndexSet};
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
 
-use super::terms::{Powers, Term, Terms, is_unit, term_length};
+use super::factoring::Kinds;
+use super::terms::{Powers, Term, Terms, Variable, is_unit, term_length};
 use crate::rational::Rational;
 
 /// The largest number of terms of a sum in which pairs of terms are compared.
@@ -50,8 +51,12 @@ impl Candidate {
 
 /// Returns the candidates of a sum, best first. `allowed` are the absolute values of coefficients that are allowed in
 /// the result, besides small integers.
-pub(super) fn candidates(terms: &Terms, allowed: &FxHashSet<Rational>) -> Vec<Candidate> {
-    let seeker = Seeker::new(terms, allowed);
+pub(super) fn candidates(
+    terms: &Terms,
+    allowed: &FxHashSet<Rational>,
+    kinds: &Kinds,
+) -> Vec<Candidate> {
+    let seeker = Seeker::new(terms, allowed, kinds);
     let mut found = seeker.squares();
     let (powers, kernels) = seeker.powers();
     found.extend(powers);
@@ -74,6 +79,7 @@ struct Pair<'t> {
 struct Seeker<'t> {
     terms: &'t Terms,
     allowed: &'t FxHashSet<Rational>,
+    kinds: &'t Kinds,
     places: FxHashMap<&'t Powers, usize>,
     /// The variables of each term, as given by [`Powers::bits`].
     bits: Vec<u64>,
@@ -84,12 +90,12 @@ struct Seeker<'t> {
 }
 
 impl<'t> Seeker<'t> {
-    fn new(terms: &'t Terms, allowed: &'t FxHashSet<Rational>) -> Seeker<'t> {
+    fn new(terms: &'t Terms, allowed: &'t FxHashSet<Rational>, kinds: &'t Kinds) -> Seeker<'t> {
         let places = terms.as_slice().iter().enumerate();
         let places = places.map(|(place, (powers, _))| (powers, place)).collect();
         let bits = terms.as_slice().iter().map(|(powers, _)| powers.bits()).collect();
         let lengths = terms.as_slice().iter().map(term_length).collect();
-        Seeker { terms, allowed, places, bits, lengths, length: terms.unsigned_length() }
+        Seeker { terms, allowed, kinds, places, bits, lengths, length: terms.unsigned_length() }
     }
 
     /// Creates the candidate f = K Q + R from K, Q and the places of the terms of K Q.
@@ -101,11 +107,23 @@ impl<'t> Seeker<'t> {
         let square = factor == quotient && factor.len() > 1;
         let product = match square {
             true => part(&factor) + 1,
-            false => part(&factor) + part(&quotient),
+            false => part(&factor) + part(&quotient) - self.units(&[&factor, &quotient]),
         };
         let length = product + rest + usize::from(used.len() < self.terms.len());
         let gain = self.length.cast_signed() - length.cast_signed();
         Candidate { factor, quotient, used, gain }
+    }
+
+    /// The number of sums without sines and cosines in which one term is 1 or −1, which does not count.
+    fn units(&self, factors: &[&Terms]) -> usize {
+        let is_circular = |(one, _): (Variable, u16)| self.kinds.is_circular(one);
+        let has_unit = |sum: &&&Terms| {
+            let mut terms = sum.as_slice().iter();
+            sum.len() > 1
+                && terms.any(|(powers, number)| powers.is_one() && is_unit(number))
+                && !sum.as_slice().iter().any(|(powers, _)| powers.iter().any(is_circular))
+        };
+        factors.iter().filter(has_unit).count()
     }
 
     /// Whether a coefficient is allowed in the result.
@@ -314,8 +332,7 @@ impl<'t> Seeker<'t> {
     fn squares(&self) -> Vec<Candidate> {
         let all = self.terms.as_slice();
         let root = |(powers, number): &Term| number.is_one().then(|| powers.root()).flatten();
-        let roots: Vec<Powers> =
-            all.iter().filter_map(root).filter(|root| !root.is_one()).collect();
+        let roots: Vec<Powers> = all.iter().filter_map(root).collect();
         let mut found = vec![];
         for (place, first) in roots.iter().enumerate() {
             let mut sum = vec![(first.clone(), Rational::ONE)];

@@ -102,11 +102,14 @@ impl Product {
 
     /// The number of printed symbols, without the sign.
     fn length(&self) -> usize {
-        let alone = self.powers.is_one() && self.sums.is_empty();
-        let number = usize::from(alone || !is_unit(&self.coefficient));
+        let number = usize::from(self.is_number() || !is_unit(&self.coefficient));
         let sums = self.sums.iter();
         let sums = sums.map(|(sum, exponent)| sum.length() + 1 + usize::from(*exponent > 1));
         number + self.powers.length() + sums.sum::<usize>()
+    }
+
+    fn is_number(&self) -> bool {
+        self.powers.is_one() && self.sums.is_empty()
     }
 
     fn depth(&self) -> usize {
@@ -126,22 +129,66 @@ impl Formula {
     /// The number of printed symbols.
     pub(super) fn length(&self) -> usize {
         let products: usize = self.products.iter().map(Product::length).sum();
-        let leading = self.products.first().is_some_and(|first| first.coefficient.is_negative());
-        products + self.products.len().saturating_sub(1) + usize::from(leading)
+        products + self.products.len().saturating_sub(1) + usize::from(self.has_leading_minus())
+    }
+
+    fn has_leading_minus(&self) -> bool {
+        self.products.first().is_some_and(|first| first.coefficient.is_negative())
     }
 
     /// Measures how hard a formula is to read, by the following numbers in this order: printed symbols, nested
-    /// brackets, squares that are split as in x (x + y), sines, cosines and motions within brackets, and products.
+    /// brackets with sines and cosines, squares that are split as in x (x + y), sines, cosines and motions within
+    /// brackets, and products.
     ///
-    /// A common factor reads better before brackets than in every term, but not if it is within brackets itself.
-    fn measure(&self, early: usize, is_within: bool) -> [usize; 5] {
+    /// A common factor reads better before brackets than in every term, but not if it is within brackets itself. The 1
+    /// in k (x + 1) is not counted, because people write k x + k in this way.
+    ///
+    /// A minus sign at the beginning counts only in the whole sum: the sign before brackets absorbs it otherwise.
+    fn measure(&self, kinds: &Kinds, place: Place) -> [usize; 5] {
+        let is_within = place.brackets < MAX_BRACKETS;
         let late = match self.depth() {
             0 if is_within => 1,
             0 => usize::MAX,
-            _ => self.products.iter().map(|product| product.late_in_brackets(early)).sum(),
+            _ => self.products.iter().map(|product| product.late_in_brackets(kinds.early)).sum(),
         };
         let split = self.products.iter().map(Product::split_powers).sum();
-        [self.length(), self.depth().saturating_sub(1), split, late, self.products.len()]
+        let absorbed = usize::from(place.depth > 0 && self.has_leading_minus());
+        let length = self.length() - absorbed - self.units_in_brackets(kinds);
+        [length, self.nesting(kinds).saturating_sub(1), split, late, self.products.len()]
+    }
+
+    /// The number of sums in brackets without sines and cosines in which one term is 1 or −1.
+    fn units_in_brackets(&self, kinds: &Kinds) -> usize {
+        let is_unit = |product: &Product| product.is_number() && is_unit(&product.coefficient);
+        let of_sum = |sum: &Formula| {
+            let own = sum.is_plain(kinds) && sum.products.iter().any(is_unit);
+            usize::from(own) + sum.units_in_brackets(kinds)
+        };
+        let sums = self.products.iter().flat_map(|product| &product.sums);
+        sums.map(|(sum, _)| of_sum(sum)).sum()
+    }
+
+    /// Whether the sum has neither brackets nor sines and cosines, as m₂ + m₃ and l + q₃.
+    fn is_plain(&self, kinds: &Kinds) -> bool {
+        let is_plain = |product: &Product| {
+            product.sums.is_empty() && !product.powers.iter().any(|(one, _)| kinds.is_circular(one))
+        };
+        self.products.iter().all(is_plain)
+    }
+
+    /// The depth of nested brackets, in which plain sums do not count within others.
+    fn nesting(&self, kinds: &Kinds) -> usize {
+        let sums = self.products.iter().flat_map(|product| &product.sums);
+        let of_sum = |sum: &Formula| match sum.nesting(kinds) {
+            0 => 1,
+            1 if sum.has_only_plain_sums(kinds) => 1,
+            depth => 1 + depth,
+        };
+        sums.map(|(sum, _)| of_sum(sum)).max().unwrap_or_default()
+    }
+
+    fn has_only_plain_sums(&self, kinds: &Kinds) -> bool {
+        self.products.iter().flat_map(|product| &product.sums).all(|(sum, _)| sum.is_plain(kinds))
     }
 
     /// The depth of nested brackets.
@@ -185,7 +232,7 @@ impl Formula {
     /// Removes the minus sign at the beginning if brackets can absorb it: `(b - a) c` for `-(a - b) c`. Otherwise
     /// `None`.
     fn without_leading_minus(&self, early: usize) -> Option<Formula> {
-        if !self.products.first()?.coefficient.is_negative() {
+        if !self.has_leading_minus() {
             return None;
         }
         let has_minus = |sum: &Formula| sum.products.iter().any(|it| it.coefficient.is_negative());
@@ -267,20 +314,33 @@ pub(super) struct Factoring {
     coefficients: FxHashSet<Rational>,
     known: FxHashMap<(Terms, usize), Rc<Formula>>,
     work: usize,
-    /// The number of variables that are written before brackets.
-    early: usize,
+    kinds: Kinds,
+}
+
+/// What determines how well variables read in brackets.
+pub(super) struct Kinds {
+    /// The number of variables that are written before brackets; they are the first ones.
+    pub(super) early: usize,
+    /// Whether each variable is a sine or cosine.
+    pub(super) circular: Vec<bool>,
+}
+
+impl Kinds {
+    pub(super) fn is_circular(&self, variable: Variable) -> bool {
+        self.circular.get(usize::from(variable)).copied().unwrap_or_default()
+    }
 }
 
 impl Factoring {
-    pub(super) fn new(terms: &Terms, early: usize) -> Factoring {
+    pub(super) fn new(terms: &Terms, kinds: Kinds) -> Factoring {
         let coefficients = terms.as_slice().iter().map(|(_, number)| number.abs()).collect();
-        Factoring { coefficients, known: FxHashMap::default(), work: 0, early }
+        Factoring { coefficients, known: FxHashMap::default(), work: 0, kinds }
     }
 
     /// Returns the shortest form that is found.
     pub(super) fn formula(&mut self, terms: &Terms) -> Formula {
         let best = self.best(terms, Place { depth: 0, brackets: MAX_BRACKETS });
-        best.without_leading_minus(self.early).unwrap_or_else(|| (*best).clone())
+        best.without_leading_minus(self.kinds.early).unwrap_or_else(|| (*best).clone())
     }
 
     fn best(&mut self, terms: &Terms, place: Place) -> Rc<Formula> {
@@ -298,7 +358,9 @@ impl Factoring {
             (powers, number) => {
                 let inner = divided(terms, &content);
                 let factor = Terms::single(powers.clone(), number.clone());
-                Formula { products: self.product(&[&factor, &inner], place).opened(self.early) }
+                Formula {
+                    products: self.product(&[&factor, &inner], place).opened(self.kinds.early),
+                }
             }
         };
         let formula = Rc::new(formula);
@@ -314,11 +376,13 @@ impl Factoring {
             false => WIDTHS.get(place.depth).copied().unwrap_or(1),
         };
         let mut best = Formula::flat(terms);
-        let mut least = best.measure(self.early, place.depth > 0);
-        for candidate in candidates(terms, &self.coefficients).into_iter().take(width) {
+        let mut least = best.measure(&self.kinds, place);
+        for candidate in candidates(terms, &self.coefficients, &self.kinds).into_iter().take(width)
+        {
             let formula = self.of_candidate(terms, &candidate, place);
-            for formula in formula.unnested(self.early).into_iter().chain([formula]) {
-                let measure = formula.measure(self.early, place.depth > 0);
+            let unnested = formula.unnested(self.kinds.early);
+            for formula in std::iter::once(formula).chain(unnested) {
+                let measure = formula.measure(&self.kinds, place);
                 if measure < least {
                     (best, least) = (formula, measure);
                 }
@@ -349,7 +413,7 @@ impl Factoring {
             }
             let sign = Rational::integer(if formula.is_rather_negative() { -1 } else { 1 });
             product.coefficient = &product.coefficient * &sign;
-            let sums = vec![(Rc::new(formula.in_brackets(&sign, self.early)), 1)];
+            let sums = vec![(Rc::new(formula.in_brackets(&sign, self.kinds.early)), 1)];
             product.times(&Product { sums, ..Product::single(Powers::default(), Rational::ONE) });
         }
         product.sums.sort_by_cached_key(|(sum, _)| sum.products.iter().map(Product::first).min());

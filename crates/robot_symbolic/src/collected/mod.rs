@@ -13,7 +13,8 @@
 //!    factorization of Boolean expressions", 1982, and the two-term divisors of J. Rajski and J. Vasudevamurthy, 1992.
 //!
 //! The length of a formula is the number of its printed symbols: a symbol with its index, a number, a sign, an
-//! exponent, a pair of brackets, and the sine or cosine of a sum of angles count one each. Numbers do not change: every
+//! exponent, a pair of brackets, and the sine or cosine of a sum of angles count one each. Where forms are compared, the
+//! 1 in k (x + 1) does not count if x has no sine or cosine. Numbers do not change: every
 //! printed coefficient is one of the polynomial or an integer. The result is proved equal to the polynomial by
 //! expanding it again; if the proof fails, the polynomial is printed as a plain sum.
 
@@ -101,7 +102,7 @@ impl<'g> Collector<'g, '_> {
         let formula = |terms: Terms| {
             let terms = squares::chosen(&terms, &variables);
             match self.factors {
-                true => Factoring::new(&terms, early).formula(&terms),
+                true => Factoring::new(&terms, variables.kinds(early)).formula(&terms),
                 false => Formula::flat(&terms),
             }
         };

@@ -63,6 +63,45 @@ fn coefficients_of_sines_are_in_brackets() {
 }
 
 #[test]
+fn a_factor_of_a_whole_term_leaves_a_one_in_brackets() {
+    for (source, expected) in [
+        ("F*b + F", "F*(b + 1)"),
+        ("M - F*b - F", "M - F*(b + 1)"),
+        ("(n*r + m*l + m)*sin(q9)", "(n*r + m*(l + 1))*sin(q9)"),
+        ("n*r + m*l^2 + 2*m*l + m", "n*r + m*(l + 1)^2"),
+        // A sum with sines would be longer and no clearer.
+        ("M - a*sin(q9) - a", "M - a*sin(q9) - a"),
+    ] {
+        assert_eq!(collected(source, 0), expected, "{source}");
+    }
+}
+
+/// Among forms of the same length, common factors stand before brackets, also after other brackets and within them.
+#[test]
+fn common_factors_of_the_rest_leave_brackets() {
+    for (source, expected) in [
+        (
+            "F*l*sin(q1) + F*k*sin(q2) + G*(h + l*cos(q1) + k*cos(q2))",
+            "F*(l*sin(q1) + k*sin(q2)) + G*(h + l*cos(q1) + k*cos(q2))",
+        ),
+        (
+            "g*((n*r + m*l + k*l)*cos(q1) + k*b*cos(q2))",
+            "g*(n*r + l*(m + k))*cos(q1) + g*k*b*cos(q2)",
+        ),
+    ] {
+        assert_eq!(collected(source, 0), expected, "{source}");
+    }
+}
+
+/// The sign before brackets absorbs a minus sign at their beginning, so both sums are written in the same way.
+#[test]
+fn a_sum_of_minus_signs_in_brackets_is_as_short_as_one_of_plus_signs() {
+    let sum = "0.5*b*sin(q5)*sin(q6) - 0.5*a*sin(q5)*cos(q6) + 0.5*c*cos(q5) + k*sin(q4)*sin(q5)";
+    let [plus, minus] = ["", "-"].map(|sign| collected(&format!("{sign}({sum})*sin(q2)"), 0).len());
+    assert!(minus <= plus + 1, "{minus} {plus}");
+}
+
+#[test]
 fn sums_under_fraction_bars_cancel() {
     // Masses can add up: the center of mass of two bodies has the sum of their masses in its denominator.
     for (source, expected) in [

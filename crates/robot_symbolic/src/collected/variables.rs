@@ -4,7 +4,7 @@
 use rustc_hash::FxHashMap;
 
 use super::angles::{Group, ParallelAngles};
-use super::factoring::{Formula, Product};
+use super::factoring::{Formula, Kinds, Product};
 use super::terms::{Powers, Term, Terms, Variable};
 use crate::expr::{Expr, View};
 use crate::graph::{Function, Graph, Id};
@@ -123,6 +123,12 @@ impl<'g> Variables<'g> {
     /// The number of variables whose atoms are `early`; they are the first variables.
     pub(super) fn before(&self, early: impl Fn(Expr<'g>) -> bool) -> usize {
         self.meanings.partition_point(|(atom, _)| early(*atom))
+    }
+
+    /// The kinds of the variables, of which the first `early` are written before brackets.
+    pub(super) fn kinds(&self, early: usize) -> Kinds {
+        let circular = self.meanings.iter().map(|(atom, _)| angle(*atom).is_some()).collect();
+        Kinds { early, circular }
     }
 
     /// Converts a formula to terms for printing. Sums in brackets stand after the factors among the first `early`
