@@ -35,8 +35,8 @@ const PERIOD: f64 = 16.0;
 const LAYERS: i32 = 4;
 /// The distance within which one curve hides another, in px.
 const NEAR: f64 = 1.0;
-/// The share of the time for which a curve may hide another.
-const SHARE: f64 = 0.05;
+/// The share of the time for which a curve may hide another; where they part, both are seen anyway.
+const SHARE: f64 = 0.3;
 
 /// The strokes of the curves of a panel, in their order, and the order in which they are drawn: sums first. `up` is the
 /// number of pixels per unit of the axis of values.
@@ -163,9 +163,12 @@ mod tests {
     }
 
     #[test]
-    fn curves_that_cross_or_have_no_values_stay_solid() {
+    fn curves_that_cross_or_part_or_have_no_values_stay_solid() {
         let crossing = [curve(0, &[0.0, 0.5, 1.0], false), curve(1, &[1.0, 0.5, 0.0], false)];
         assert_eq!(lengths(&crossing), [None, None]);
+        let parting = [curve(0, &[0.1, 0.1, 0.9], false), curve(1, &[0.1, 0.1, 0.2], false)];
+        let (strokes, _) = strokes(&[0.0, 0.2, 1.0], &parting, &AXIS, 100.0);
+        assert!(strokes.iter().all(|stroke| stroke.dashes.is_none()));
         let none = [curve(0, &[f64::NAN; 3], false), curve(1, &[f64::NAN; 3], false)];
         assert_eq!(lengths(&none), [None, None]);
         assert_eq!(lengths(&[curve(0, &[], false), curve(1, &[], false)]), [None, None]);
