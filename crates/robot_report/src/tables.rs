@@ -217,16 +217,16 @@ mod tests {
     fn denavit_hartenberg_parameters_are_a_table_of_their_convention() {
         let frame = "joint = { type = \"revolute\" }\n\
                      dh = { convention = \"modified\", a = \"a1\", alpha = \"-pi/2\", theta = \"pi/2\" }";
-        let robot = robot(frame, "xx = 1, yy = 1, zz = 1");
-        let symbols = Symbols::of(&robot);
-        let found: Vec<String> = dh(&robot, &symbols).map(|table| table.to_string()).collect();
+        let arm = robot(frame, "xx = 1, yy = 1, zz = 1");
+        let symbols = Symbols::of(&arm);
+        let found: Vec<String> = dh(&arm, &symbols).map(|table| format!("{table}")).collect();
         let [table] = found.as_slice() else { panic!("{found:?}") };
         for part in
             ["modified convention", "aᵢ₋₁", "θᵢ", ">−π/2<", "<small>0.4</small>", "<mo>+</mo>"]
         {
             assert!(table.contains(part), "{part}: {table}");
         }
-        assert_eq!(dh(&self::robot(PLAIN, "xx = 1, yy = 1, zz = 1"), &symbols).count(), 0);
+        assert_eq!(dh(&robot(PLAIN, "xx = 1, yy = 1, zz = 1"), &symbols).count(), 0);
     }
 
     #[test]

@@ -273,7 +273,8 @@ fn rows_are_kept_as_in_the_file() {
         let robot = read(&arm(&text)).robot;
         let rows = robot.dh.iter().map(|row| {
             assert_eq!(row.convention, convention);
-            let values = [&row.a, &row.alpha, &row.d, &row.theta].map(|value| value.text());
+            let values =
+                [&row.a, &row.alpha, &row.d, &row.theta].map(robot_symbolic::Formula::text);
             (row.link.as_str(), row.moving, values)
         });
         let expected = [
