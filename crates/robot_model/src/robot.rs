@@ -32,6 +32,9 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
+    /// The Denavit–Hartenberg parameters of the file, in the order of its links; empty if it places no link by them. The
+    /// placements already contain them.
+    pub dh: Vec<DhRow>,
     /// The body that the robot may carry, if the file has one. It is also one of the bodies of the link that carries
     /// it.
     pub payload: Option<Payload>,
@@ -67,6 +70,49 @@ impl BaseFrames {
     #[must_use]
     pub fn from_name(name: &str) -> Option<BaseFrames> {
         BaseFrames::ALL.into_iter().find(|frames| frames.name() == name)
+    }
+}
+
+/// The Denavit–Hartenberg parameters of a link, as the file gives them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DhRow {
+    /// The name of the link; it may be a fixed link, which is merged into the one that carries it.
+    pub link: String,
+    /// The index of the link if it moves: its joint position is added to θ if the joint is revolute, to d if it is
+    /// prismatic.
+    pub moving: Option<usize>,
+    /// The convention.
+    pub convention: DhConvention,
+    /// The distance a along x, m.
+    pub a: Formula,
+    /// The twist α about x, rad.
+    pub alpha: Formula,
+    /// The distance d along z at joint position 0, m.
+    pub d: Formula,
+    /// The angle θ about z at joint position 0, rad.
+    pub theta: Formula,
+}
+
+/// The two conventions of Denavit–Hartenberg parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DhConvention {
+    /// Joint i moves about or along z of frame i−1: Rz(θ) Tz(d) Tx(a) Rx(α).
+    Standard,
+    /// Joint i moves about or along z of frame i: Rx(α) Tx(a) Rz(θ) Tz(d), α and a of frame i−1.
+    Modified,
+}
+
+impl DhConvention {
+    /// Both conventions.
+    pub const ALL: [DhConvention; 2] = [DhConvention::Standard, DhConvention::Modified];
+
+    /// The name in robot files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            DhConvention::Standard => "standard",
+            DhConvention::Modified => "modified",
+        }
     }
 }
 

@@ -49,6 +49,7 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
         coordinates,
         links,
         frames,
+        dh: vec![],
         payload: None,
     }
 }

@@ -30,11 +30,11 @@ const LINE: f64 = 470.0;
 /// The forms in the order of the page, except that the open form comes first.
 const FORMS: [(Form, &str); 6] = [
     (Form::Grouped, "Grouped: mass matrix, Coriolis and centrifugal terms, gravity"),
-    (Form::Collected, "Collected: common factors in front of parentheses, without friction"),
-    (Form::Recursive, "Recursive: the iterations link by link"),
+    (Form::Collected, "Collected: one short formula for each joint torque, without friction"),
+    (Form::Recursive, "Recursive: the Newton-Euler algorithm link by link"),
     (Form::Compact, "Compact: names for repeated expressions"),
     (Form::Regrouped, "Regrouped: linear in the base parameters"),
-    (Form::Expanded, "Expanded: sums of products, without friction"),
+    (Form::Expanded, "Expanded: the same formulas multiplied out, without friction"),
 ];
 
 /// All forms as folded parts, of which one is open.

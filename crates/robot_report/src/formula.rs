@@ -3,6 +3,7 @@
 use robot_document::markup::{Element, holding};
 use robot_document::math::Math;
 use robot_document::mathml;
+use robot_document::robot::rows::DhParameter;
 use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::Robot;
 use robot_symbolic::{Formula, Graph};
@@ -38,5 +39,12 @@ impl Symbols {
         let value = formula.lower(&graph, &mut |name| graph.symbol(name));
         let look = self.table.as_ref().and_then(|table| table.expression(value).ok());
         look.map_or_else(|| holding("i", text::plain(formula)), |look| math(&look))
+    }
+
+    /// A Denavit–Hartenberg parameter; its value at joint position 0 if two symbols look the same.
+    pub(crate) fn parameter(&self, parameter: &DhParameter<'_>) -> Element {
+        let table = self.table.as_ref();
+        let look = table.and_then(|table| parameter.shown(|value| table.expression(value)).ok());
+        look.map_or_else(|| self.formula(parameter.formula), |look| math(&look))
     }
 }

@@ -136,7 +136,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
         }
     };
     let sections = vec![
-        kinematics(&shown, [snapped, lacks]),
+        kinematics(&shown, &symbols, [snapped, lacks]),
         Section {
             id: "masses",
             title: "Masses",
@@ -205,11 +205,13 @@ fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> 
     Some(holding("p", words).class("note"))
 }
 
-fn kinematics(robot: &Robot, notes: [Option<Element>; 2]) -> Section {
+fn kinematics(robot: &Robot, symbols: &Symbols, notes: [Option<Element>; 2]) -> Section {
     let caption = holding("figcaption", scheme::CAPTION);
     let figure = element("figure").with(scheme::scheme(robot)).with(caption);
-    let tables = [Some(tables::kinematics(robot)), tables::frames(robot)];
-    let parts = std::iter::once(Some(figure)).chain(notes).chain(tables);
+    let tables = std::iter::once(tables::kinematics(robot))
+        .chain(tables::dh(robot, symbols))
+        .chain(tables::frames(robot));
+    let parts = std::iter::once(Some(figure)).chain(notes).chain(tables.map(Some));
     Section {
         id: "kinematics",
         title: "Kinematics",
@@ -252,7 +254,7 @@ fn costs(input: &Input<'_>, programs: &Programs, notes: [Option<String>; 2]) -> 
         omitted,
         Some(folded("Operations of each function", [costs::functions(&programs.module)])),
         costs::passes(&programs.module, FUNCTION.name())
-            .map(|table| folded("Operations after each stage of the compiler", [table])),
+            .map(|table| folded("Operations after each step of the generation", [table])),
         options,
     ];
     let body = parts.into_iter().flatten().map(Node::from).collect();

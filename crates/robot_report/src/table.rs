@@ -1,4 +1,4 @@
-//! Tables with headings that screen readers recognize.
+//! Tables with headings that screen readers recognize. Columns in which all cells are empty are omitted.
 
 use robot_document::markup::{Element, Node, element, holding};
 
@@ -6,9 +6,17 @@ use robot_document::markup::{Element, Node, element, holding};
 pub(crate) struct Table {
     caption: String,
     columns: Vec<Node>,
-    rows: Vec<Element>,
+    rows: Vec<Row>,
     /// Whether phones show each row as a block in which each value follows its column's name.
     is_stacked: bool,
+}
+
+/// A row of a table.
+struct Row {
+    /// The tokens of the row's subject.
+    parts: String,
+    /// The heading, then the cells of the other columns.
+    cells: Vec<Node>,
 }
 
 impl Table {
@@ -33,28 +41,47 @@ impl Table {
         heading: impl Into<Node>,
         cells: impl IntoIterator<Item = C>,
     ) {
-        let heading = holding("th", heading).attribute("scope", "row");
-        let names = self.columns.iter().skip(1);
-        let cells = cells.into_iter().zip(names).map(|(cell, name)| match name {
+        let cells = std::iter::once(heading.into()).chain(cells.into_iter().map(Into::into));
+        self.rows.push(Row { parts: parts.to_owned(), cells: cells.collect() });
+    }
+
+    /// Whether a column has a cell that is not empty.
+    fn is_used(&self, column: usize) -> bool {
+        let is_empty = |cell: &Node| matches!(cell, Node::Text(text) if text.is_empty());
+        self.rows.iter().any(|row| row.cells.get(column).is_some_and(|cell| !is_empty(cell)))
+    }
+
+    /// The elements of a row: its heading and the cells of the columns that are shown.
+    fn row_of(&self, row: Row, shown: &[usize]) -> Element {
+        let cells = row.cells.into_iter().zip(&self.columns).enumerate();
+        let cells = cells.filter(|(column, _)| shown.contains(column));
+        let cells = cells.map(|(column, (cell, name))| match name {
+            _ if column == 0 => holding("th", cell).attribute("scope", "row"),
             Node::Text(name) if self.is_stacked => {
-                cell_of(cell.into()).attribute("data-name", name.as_str())
+                cell_of(cell).attribute("data-name", name.as_str())
             }
-            _ => cell_of(cell.into()),
+            _ => cell_of(cell),
         });
-        let row = element("tr").with(heading).with_all(cells);
-        self.rows.push(if parts.is_empty() { row } else { row.attribute("data-is", parts) });
+        let shown = element("tr").with_all(cells);
+        if row.parts.is_empty() { shown } else { shown.attribute("data-is", row.parts) }
     }
 
     /// Makes the element of the table, in a box that scrolls sideways if the table is too wide.
-    pub(crate) fn build(self) -> Element {
-        let headings =
-            self.columns.into_iter().map(|column| holding("th", column).attribute("scope", "col"));
+    pub(crate) fn build(mut self) -> Element {
+        let shown: Vec<usize> = (0..self.columns.len())
+            .filter(|column| *column == 0 || self.is_used(*column))
+            .collect();
+        let rows = std::mem::take(&mut self.rows).into_iter();
+        let rows: Vec<Element> = rows.map(|row| self.row_of(row, &shown)).collect();
+        let columns = self.columns.into_iter().enumerate();
+        let columns = columns.filter(|(column, _)| shown.contains(column));
+        let headings = columns.map(|(_, column)| holding("th", column).attribute("scope", "col"));
         let table = element("table");
         let table = if self.is_stacked { table.class("stacked") } else { table };
         let table = table
             .with(holding("caption", holding("span", self.caption.as_str())))
             .with(holding("thead", element("tr").with_all(headings)))
-            .with(element("tbody").with_all(self.rows));
+            .with(element("tbody").with_all(rows));
         // The box can get the focus, so that the keyboard can scroll it.
         element("div")
             .class("wide")
@@ -73,4 +100,25 @@ fn cell_of(cell: Node) -> Element {
     let is_long = matches!(&cell, Node::Text(text) if text.chars().count() > WORDS);
     let cell = holding("td", cell);
     if is_long { cell.class("words") } else { cell }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn empty_columns_are_omitted() {
+        let mut table = Table::stacked("c", ["name", "unit", "value"]);
+        table.row("link-1", "a", ["", "1"]);
+        table.row("", "b", ["", ""]);
+        let shown = table.build().to_string();
+        assert!(!shown.contains("unit") && shown.contains(">value</th>"), "{shown}");
+        assert!(
+            shown.contains(
+                "<tr data-is=\"link-1\"><th scope=\"row\">a</th><td data-name=\"value\">1</td></tr>"
+            ),
+            "{shown}"
+        );
+        assert_eq!(shown.matches("<td").count(), 2, "{shown}");
+    }
 }

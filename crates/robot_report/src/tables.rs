@@ -3,7 +3,7 @@
 use robot_document::markup::{Element, Node, element, holding};
 use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
-use robot_model::robot::{Body, Inertia, Robot};
+use robot_model::robot::{Body, DhConvention, Inertia, Robot};
 use robot_symbolic::{Formula, Rational};
 
 use crate::formula::Symbols;
@@ -37,10 +37,57 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
+/// The tables of Denavit–Hartenberg parameters, one for each convention that the robot file uses.
+pub(crate) fn dh<'r>(
+    robot: &'r Robot,
+    symbols: &'r Symbols,
+) -> impl Iterator<Item = Element> + use<'r> {
+    let tables = DhConvention::ALL.map(|convention| {
+        let indices = match convention {
+            DhConvention::Standard => ["aᵢ", "αᵢ", "dᵢ", "θᵢ"],
+            DhConvention::Modified => ["aᵢ₋₁", "αᵢ₋₁", "dᵢ", "θᵢ"],
+        };
+        let caption = format!("{} {}", rows::dh_caption(convention), displacements(convention));
+        let mut table = Table::new(&caption, ["Link"].into_iter().chain(indices));
+        let rows: Vec<_> = rows::dh(robot, convention).collect();
+        for (row, parameters) in &rows {
+            let cells = parameters.iter().map(|parameter| match parameter.joint {
+                Some(_) => symbols.parameter(parameter),
+                None => value_cell(robot, symbols, parameter.formula),
+            });
+            let part = row.moving.map_or_else(String::new, parts::link);
+            table.row(&part, row.link.as_str(), cells);
+        }
+        (!rows.is_empty()).then(|| table.build())
+    });
+    tables.into_iter().flatten()
+}
+
+/// The displacements of a Denavit–Hartenberg row in a sentence.
+const fn displacements(convention: DhConvention) -> &'static str {
+    match convention {
+        DhConvention::Standard => {
+            "The Denavit-Hartenberg frame i of a link is reached from that of its parent, i − 1, by rotating about z by \
+             θ, translating along z by d, translating along x by a and rotating about x by α; joint i moves about or \
+             along z of frame i − 1."
+        }
+        DhConvention::Modified => {
+            "The frame i of a link is reached from that of its parent, i − 1, by rotating about x by α, translating \
+             along x by a, rotating about z by θ and translating along z by d; joint i moves about or along z of frame \
+             i."
+        }
+    }
+}
+
 /// The table of named frames; `None` if there are none.
 pub(crate) fn frames(robot: &Robot) -> Option<Element> {
-    let caption = "Frames. A tip exerts the wrench with these components on its surroundings; \
-        the external wrench, which acts on the tip, is its negative.";
+    let caption = match robot.tips().next() {
+        Some(_) => {
+            "Frames. A tip exerts the wrench with these components on its surroundings; the external wrench, which \
+             acts on the tip, is its negative."
+        }
+        None => "Frames.",
+    };
     let mut table = Table::stacked(caption, ["Frame", "Fixed to", "Pose", "Wrench"]);
     for FrameRow { frame, link, wrench } in rows::frames(robot) {
         let pose = text::pose(robot, &frame.placement);
@@ -53,20 +100,35 @@ pub(crate) fn frames(robot: &Robot) -> Option<Element> {
 
 /// The table of masses and moments of inertia, as in Table 1 of the paper.
 pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
+    let bodies = || robot.links.iter().flat_map(|link| &link.bodies);
+    let occurs = |entry: &usize| {
+        bodies()
+            .any(|body| body.inertia.entries().get(*entry).is_some_and(|one| !words::is_zero(one)))
+    };
+    let (shown, omitted): (Vec<usize>, Vec<usize>) = (0..Inertia::NAMES.len()).partition(occurs);
+    let names =
+        |entries: &[usize]| entries.iter().map(|entry| Inertia::NAMES[*entry]).collect::<Vec<_>>();
     let columns = ["Body", "Mass, kg", "Center of mass and axes, m, rad"];
-    let columns = columns.into_iter().chain(Inertia::NAMES);
-    let caption = "Masses and moments of inertia, kg·m². The moments are about the center of \
-        mass, in the axes given; products of inertia are entries of the tensor, xy = −∫xy dm.";
-    let mut table = Table::stacked(caption, columns);
+    let columns = columns.into_iter().chain(names(&shown));
+    let products = match shown.iter().any(|entry| *entry > 2) {
+        true => "; products of inertia are entries of the tensor, xy = −∫xy dm",
+        false => "",
+    };
+    let caption = format!(
+        "Masses and moments of inertia, kg·m². The moments are about the center of mass, in the axes given{products}.{}",
+        words::zeros(&[], &names(&omitted))
+    );
+    let mut table = Table::stacked(&caption, columns);
     for (index, link) in robot.links.iter().enumerate() {
         for Body { name, mass, placement, inertia } in &link.bodies {
             let place = match text::pose(robot, placement) {
                 none if none == "none" => "at the link frame's origin".to_owned(),
                 pose => pose,
             };
-            let cells = [value_cell(robot, symbols, mass), holding("span", place)]
-                .into_iter()
-                .chain(inertia.entries().map(|entry| value_cell(robot, symbols, entry)));
+            let cells =
+                [value_cell(robot, symbols, mass), holding("span", place)].into_iter().chain(
+                    shown.iter().map(|entry| value_cell(robot, symbols, inertia.entries()[*entry])),
+                );
             table.row(&parts::link(index), name.as_str(), cells);
         }
     }
@@ -134,5 +196,57 @@ fn vector(components: &[Formula; 3]) -> String {
     match known.iter().find(|(_, unit)| *unit == texts) {
         Some((name, _)) => (*name).to_owned(),
         None => words::vector(components, text::plain),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn robot(frame: &str, inertia: &str) -> Robot {
+        let text = format!(
+            "format = 1\n[robot]\nname = \"arm\"\n[parameters]\na1 = {{ value = 0.4, unit = \"m\" }}\n\
+             [[link]]\nname = \"boom\"\nmass = 1\ncenter_of_mass = [0, 0, 0]\ninertia = {{ {inertia} }}\n{frame}\n"
+        );
+        robot_model::description::read_toml("arm.toml", &text).unwrap().robot
+    }
+
+    const PLAIN: &str = "joint = { type = \"revolute\", axis = \"z\" }";
+
+    #[test]
+    fn denavit_hartenberg_parameters_are_a_table_of_their_convention() {
+        let frame = "joint = { type = \"revolute\" }\n\
+                     dh = { convention = \"modified\", a = \"a1\", alpha = \"-pi/2\", theta = \"pi/2\" }";
+        let arm = robot(frame, "xx = 1, yy = 1, zz = 1");
+        let symbols = Symbols::of(&arm);
+        let found: Vec<String> = dh(&arm, &symbols).map(|table| format!("{table}")).collect();
+        let [table] = found.as_slice() else { panic!("{found:?}") };
+        for part in
+            ["modified convention", "aᵢ₋₁", "θᵢ", ">−π/2<", "<small>0.4</small>", "<mo>+</mo>"]
+        {
+            assert!(table.contains(part), "{part}: {table}");
+        }
+        assert_eq!(dh(&robot(PLAIN, "xx = 1, yy = 1, zz = 1"), &symbols).count(), 0);
+    }
+
+    #[test]
+    fn columns_of_zeros_are_named_in_the_caption() {
+        let shown = |inertia| {
+            let robot = robot(PLAIN, inertia);
+            masses(&robot, &Symbols::of(&robot)).to_string()
+        };
+        let plain = shown("xx = 1, yy = 1, zz = 1");
+        assert!(
+            plain.contains("Columns of zeros are omitted: the products of inertia."),
+            "{plain}"
+        );
+        assert!(plain.contains(">zz</th>") && !plain.contains(">xy</th>"), "{plain}");
+        let one = shown("xx = 1, yy = 1, zz = 1, xz = 0.1");
+        assert!(
+            one.contains("the products of inertia xy and yz.") && one.contains(">xz</th>"),
+            "{one}"
+        );
+        let all = shown("xx = 1, yy = 1, zz = 1, xy = 0.1, xz = 0.1, yz = 0.1");
+        assert!(!all.contains("Columns of zeros") && all.contains(">yz</th>"), "{all}");
     }
 }

@@ -1,6 +1,7 @@
 //! The document of a robot: its tables, its equations, its symbols and a check value.
 
 mod check_value;
+mod dh;
 mod families;
 mod numbers;
 pub mod rows;

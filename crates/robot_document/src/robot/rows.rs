@@ -1,12 +1,16 @@
 //! The rows of tables about a robot: all outputs describe a link, a frame and a parameter in the same words. Each
 //! output chooses its columns and their appearance, and writes formulas in its own notation.
 
-use robot_model::robot::{Frame, Link, Parameter, Robot, Wrench};
+use robot_model::robot::{
+    DhConvention, DhRow, Frame, Joint, JointKind, Link, Parameter, Robot, Wrench,
+};
 use robot_model::variable::JointVariable;
-use robot_symbolic::Rational;
 use robot_symbolic::print::exact_text;
+use robot_symbolic::{Expr, Formula, Graph, Rational};
 
 use super::words;
+use crate::layout::tidied;
+use crate::math::Math;
 
 /// A link and the joint that moves it.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +63,65 @@ pub fn links(robot: &Robot) -> impl Iterator<Item = LinkRow<'_>> {
             limits: coordinate.and_then(|coordinate| coordinate.limits.as_ref()),
         }
     })
+}
+
+/// A Denavit–Hartenberg parameter of a link.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DhParameter<'r> {
+    /// The value at joint position 0.
+    pub formula: &'r Formula,
+    /// The joint whose position is added; `None` for a parameter that is constant.
+    pub joint: Option<&'r Joint>,
+}
+
+impl DhParameter<'_> {
+    /// The layout of the parameter, with the coordinate first: q₂ + π/2. `layout` makes the layouts of expressions.
+    ///
+    /// # Errors
+    ///
+    /// The errors of `layout`.
+    pub fn shown<E>(&self, layout: impl Fn(Expr<'_>) -> Result<Math, E>) -> Result<Math, E> {
+        let graph = Graph::new();
+        let layout = |value| layout(value).map(|math| tidied(&math, None));
+        let lower = |formula: &Formula| formula.lower(&graph, &mut |name| graph.symbol(name));
+        let value = lower(self.formula);
+        let Some(joint) = self.joint else { return layout(value) };
+        let coordinate = graph.symbol(&JointVariable::Position.symbol(joint.coordinate));
+        let moving = layout(lower(&joint.ratio) * coordinate)?;
+        let constant = lower(&joint.offset) + value;
+        if constant.is_zero() {
+            return Ok(moving);
+        }
+        let constant = layout(constant)?;
+        let plus = (constant.pieces().first() != Some(&Math::Sign('-'))).then_some(Math::Sign('+'));
+        let constant = plus.iter().chain(constant.pieces());
+        Ok(Math::Row(moving.pieces().iter().chain(constant).cloned().collect()))
+    }
+}
+
+/// The Denavit–Hartenberg rows of a convention in the order of the robot file, each with its a, α, d and θ.
+pub fn dh(
+    robot: &Robot,
+    convention: DhConvention,
+) -> impl Iterator<Item = (&DhRow, [DhParameter<'_>; 4])> {
+    robot.dh.iter().filter(move |row| row.convention == convention).map(|row| {
+        let joint = row.moving.and_then(|index| robot.links.get(index)).map(|link| &link.joint);
+        let moved = |kind| joint.filter(|joint| joint.kind == kind);
+        let parameters = [
+            (&row.a, None),
+            (&row.alpha, None),
+            (&row.d, moved(JointKind::Prismatic)),
+            (&row.theta, moved(JointKind::Revolute)),
+        ];
+        (row, parameters.map(|(formula, joint)| DhParameter { formula, joint }))
+    })
+}
+
+/// The caption of a table of Denavit–Hartenberg parameters.
+#[must_use]
+pub fn dh_caption(convention: DhConvention) -> String {
+    let name = convention.name();
+    format!("Denavit-Hartenberg parameters, {name} convention; lengths in m, angles in rad.")
 }
 
 /// The rows of the named frames, in the order of the robot file.

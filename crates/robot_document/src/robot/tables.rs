@@ -4,7 +4,7 @@ use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Placement, Robot};
 use robot_symbolic::{Expr, Formula, Graph, walk};
 
-use super::{heading, numbers, paragraph};
+use super::{dh, heading, numbers, paragraph};
 use crate::document::{Block, Cell, Inline, Table};
 use crate::error::Error;
 use crate::figure::Figure;
@@ -30,6 +30,7 @@ pub(super) fn blocks(
     blocks.push(paragraph(
         "T denotes a translation and R a rotation, each in the frame reached by the preceding ones.",
     ));
+    blocks.extend(dh::blocks(robot, &formulas)?);
     blocks.push(Block::Table(masses(robot, symbols)?));
     if !robot.frames.is_empty() {
         blocks.push(Block::Table(frames(robot, &formulas)?));
@@ -37,7 +38,8 @@ pub(super) fn blocks(
     Ok((blocks, formulas.rounded.get()))
 }
 
-struct Formulas<'n> {
+/// Prints the formulas of tables.
+pub(super) struct Formulas<'n> {
     graph: Graph,
     symbols: &'n SymbolTable,
     /// The largest number of significant digits of decimals; `None` for all.
@@ -48,7 +50,11 @@ struct Formulas<'n> {
 
 impl Formulas<'_> {
     fn math(&self, formula: &Formula) -> Result<Math, Error> {
-        let value = formula.lower(&self.graph, &mut |name| self.graph.symbol(name));
+        self.expression(formula.lower(&self.graph, &mut |name| self.graph.symbol(name)))
+    }
+
+    /// An expression, whose decimals are rounded.
+    pub(super) fn expression(&self, value: Expr<'_>) -> Result<Math, Error> {
         let math = self.symbols.expression(value)?;
         if self.digits.is_some_and(|digits| has_longer(&math, digits)) {
             self.rounded.set(true);
@@ -104,7 +110,7 @@ fn link_cells(robot: &Robot, index: usize) -> Vec<Cell> {
 }
 
 /// The headings of these cells.
-fn link_heads(robot: &Robot) -> Vec<Cell> {
+pub(super) fn link_heads(robot: &Robot) -> Vec<Cell> {
     if are_numbered(robot) {
         return heads(&["Link"]);
     }
@@ -112,7 +118,7 @@ fn link_heads(robot: &Robot) -> Vec<Cell> {
 }
 
 /// Whether the names of all links are their numbers.
-fn are_numbered(robot: &Robot) -> bool {
+pub(super) fn are_numbered(robot: &Robot) -> bool {
     robot.links.iter().zip(1..).all(|(link, number)| link.name == number.to_string())
 }
 
@@ -196,8 +202,14 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
             _ => Inline::Math(Math::Letter('J').with_lower(letters(name))),
         }]);
     }
-    let caption = "Masses, kg; centers of mass, m; moments of inertia about the center of mass \
-        in the axes of the link frame, kg m²; columns of zeros are omitted, values are rounded."
-        .to_owned();
+    let omitted = |range: std::ops::Range<usize>| {
+        let without = range.filter(|column| !columns.contains(column));
+        without.filter_map(|column| names.get(column).copied()).collect::<Vec<_>>()
+    };
+    let caption = format!(
+        "Masses, kg; centers of mass, m; moments of inertia about the center of mass in the axes of the link frame, \
+         kg m². Values are rounded.{}",
+        words::zeros(&omitted(1..4), &omitted(4..names.len()))
+    );
     Ok(Table { caption, head, rows, keys })
 }

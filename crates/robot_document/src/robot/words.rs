@@ -57,9 +57,71 @@ pub fn moves(placement: &Placement) -> impl Iterator<Item = &Move> {
     })
 }
 
+/// The sentence about the columns of a table of masses that are omitted because all their values are 0, with a space
+/// before it: coordinates of the centers of mass, and entries of the inertia tensors by the
+/// names of [`Inertia`](robot_model::robot::Inertia). It is empty if there are none.
+#[must_use]
+pub fn zeros(coordinates: &[&str], entries: &[&str]) -> String {
+    let (products, moments): (Vec<&str>, Vec<&str>) =
+        entries.iter().partition(|name| is_product(name));
+    let mut subjects = vec![];
+    match coordinates {
+        [] => {}
+        [_, _, _] => subjects.push("the coordinates of the centers of mass".to_owned()),
+        [one] => subjects.push(format!("{one} of the centers of mass")),
+        some => subjects.push(format!("{} of the centers of mass", some.join(" and "))),
+    }
+    match moments.as_slice() {
+        [] => {}
+        [_, _, _] => subjects.push("the moments of inertia".to_owned()),
+        [one] => subjects.push(format!("the moment of inertia {one}")),
+        some => subjects.push(format!("the moments of inertia {}", some.join(" and "))),
+    }
+    match products.as_slice() {
+        [] => {}
+        [_, _, _] => subjects.push("the products of inertia".to_owned()),
+        [one] => subjects.push(format!("the product of inertia {one}")),
+        some => subjects.push(format!("the products of inertia {}", some.join(" and "))),
+    }
+    match subjects.split_last() {
+        None => String::new(),
+        Some((only, [])) => format!(" Columns of zeros are omitted: {only}."),
+        Some((last, others)) => {
+            format!(" Columns of zeros are omitted: {} and {last}.", others.join(", "))
+        }
+    }
+}
+
+/// Whether an entry of the inertia tensor, such as `xy`, is a product of inertia.
+fn is_product(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next() != letters.next()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use robot_model::robot::Inertia;
+
+    #[test]
+    fn zeros_are_named() {
+        assert_eq!(zeros(&[], &[]), "");
+        assert_eq!(
+            zeros(&[], &["xy", "xz", "yz"]),
+            " Columns of zeros are omitted: the products of inertia."
+        );
+        assert_eq!(
+            zeros(&["y", "z"], &["xx", "xz", "yz"]),
+            " Columns of zeros are omitted: y and z of the centers of mass, the moment of inertia xx and the \
+             products of inertia xz and yz."
+        );
+        let all = zeros(&["x", "y", "z"], &Inertia::NAMES);
+        assert_eq!(
+            all,
+            " Columns of zeros are omitted: the coordinates of the centers of mass, the moments of inertia and the \
+             products of inertia."
+        );
+    }
 
     #[test]
     fn poses_leave_out_what_moves_nothing() {

@@ -111,6 +111,7 @@ fn alone(robot: &Robot, limb: &Limb) -> Robot {
         coordinates: limb.coordinates.iter().enumerate().map(coordinate).collect(),
         links,
         frames: vec![],
+        dh: vec![],
         payload: None,
         ..robot.clone()
     }

@@ -35,21 +35,34 @@ pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
     for frame in &mut robot.frames {
         place(&frame.name, &mut frame.placement, tolerance, &mut snaps);
     }
+    // The placements contain these angles, so that their changes are in the list already.
+    for row in &mut robot.dh {
+        for angle in [&mut row.alpha, &mut row.theta] {
+            snap(angle, tolerance);
+        }
+    }
     (robot, snaps)
 }
 
 fn place(name: &str, placement: &mut Placement, tolerance: f64, snaps: &mut Vec<Snap>) {
     for step in &mut placement.0 {
         let Move::Rotate(_, formula) = step else { continue };
-        let Some(number) = formula.as_number() else { continue };
-        let Some((quarters, change)) = quarters(&number, tolerance) else { continue };
-        if let Ok(multiple) = Formula::parse(&multiple_text(quarters)) {
-            *formula = multiple;
-        }
+        let Some((angle, change)) = snap(formula, tolerance) else { continue };
         if change != 0.0 {
-            snaps.push(Snap { name: name.to_owned(), angle: number.to_f64(), change });
+            snaps.push(Snap { name: name.to_owned(), angle, change });
         }
     }
+}
+
+/// Replaces a constant angle within the tolerance of a multiple of π/2 by that multiple. Returns the angle, rad, and
+/// the multiple minus the angle; `None` if there is no such multiple.
+fn snap(formula: &mut Formula, tolerance: f64) -> Option<(f64, f64)> {
+    let number = formula.as_number()?;
+    let (quarters, change) = quarters(&number, tolerance)?;
+    if let Ok(multiple) = Formula::parse(&multiple_text(quarters)) {
+        *formula = multiple;
+    }
+    Some((number.to_f64(), change))
 }
 
 /// The text of a multiple of π/2: `-pi/2`, `3*pi/2`, `2*pi`.

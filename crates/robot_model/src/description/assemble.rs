@@ -4,9 +4,11 @@ use super::draft::{Draft, DraftFrame, DraftLink, DraftPayload, Parent};
 use super::locations::{DroppedBody, FrameLocation, Locations, ParameterLocation};
 use super::mimic::{self, Following};
 use super::payload;
-use super::placement::without_zero_moves;
+use super::placement::{Row, without_zero_moves};
 use super::reader::{Named, Reader};
-use crate::robot::{Coordinate, Frame, Joint, JointKind, Link, Parameter, Placement, Robot};
+use crate::robot::{
+    Coordinate, DhConvention, DhRow, Frame, Joint, JointKind, Link, Parameter, Placement, Robot,
+};
 
 /// The moving link that carries a link of the file (`None` for the base), and the frame of the link in that of its
 /// carrier.
@@ -39,6 +41,7 @@ pub(super) fn robot(
         coordinates: Vec::new(),
         links: Vec::new(),
         frames: Vec::new(),
+        dh: Vec::new(),
         payload: None,
     };
     let mut locations = Locations {
@@ -132,6 +135,7 @@ fn moving(
         bodies.push(body);
         places.bodies.push(place);
     }
+    push_dh(robot, &link.name, link.dh, Some(index));
     if !link.after.0.is_empty() {
         robot.frames.push(Frame {
             name: format!("{}_dh", link.name.name),
@@ -184,6 +188,7 @@ fn fixed(robot: &mut Robot, locations: &mut Locations, link: DraftLink, on: Carr
             }),
         }
     }
+    push_dh(robot, &link.name, link.dh, None);
     let frame = DraftFrame {
         name: link.name,
         parent: Parent::Base,
@@ -193,6 +198,18 @@ fn fixed(robot: &mut Robot, locations: &mut Locations, link: DraftLink, on: Carr
     };
     push_frame(robot, locations, frame, own.clone());
     own
+}
+
+/// Keeps the Denavit–Hartenberg row of a link, if the file places the link by one.
+fn push_dh(
+    robot: &mut Robot,
+    link: &Named,
+    row: Option<(DhConvention, Row)>,
+    moving: Option<usize>,
+) {
+    if let Some((convention, Row { a, alpha, d, theta })) = row {
+        robot.dh.push(DhRow { link: link.name.clone(), moving, convention, a, alpha, d, theta });
+    }
 }
 
 fn push_frame(robot: &mut Robot, locations: &mut Locations, frame: DraftFrame, on: Carried) {

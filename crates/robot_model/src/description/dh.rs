@@ -1,16 +1,16 @@
 //! `[dh]`: the joints of a whole arm in one table, a row for each link without a frame of its own.
 
 use super::joint;
-use super::placement::{Convention, Row, convention, row};
+use super::placement::{Row, convention, row};
 use super::reader::Reader;
 use super::shape::{DH_TABLE, DH_TABLE_ROW};
 use super::table;
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::robot::JointKind;
+use crate::robot::{DhConvention, JointKind};
 
 /// The rows of the table, handed out one by one in the order of the links.
 pub(super) struct Table {
-    convention: Convention,
+    convention: DhConvention,
     rows: std::vec::IntoIter<LinkRow>,
     /// The place of `rows`.
     place: Span,
@@ -20,7 +20,7 @@ pub(super) struct Table {
 
 /// A row of Denavit–Hartenberg parameters with its convention, joint type and place in the file.
 pub(super) struct LinkRow {
-    pub(super) convention: Convention,
+    pub(super) convention: DhConvention,
     /// `None` for a fixed link.
     pub(super) kind: Option<JointKind>,
     pub(super) row: Row,
@@ -32,7 +32,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Opti
     let entry = root.get("dh")?;
     let mut table = reader.table(entry.value, &DH_TABLE)?;
     // An invalid convention has been reported; this placeholder stands in for it.
-    let convention = convention(reader, &mut table).unwrap_or(Convention::Standard);
+    let convention = convention(reader, &mut table).unwrap_or(DhConvention::Standard);
     let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
     let rows = table.require(reader, "rows", example);
     table.finish(reader);
@@ -54,7 +54,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Opti
 fn link_row(
     reader: &mut Reader<'_>,
     mut table: table::Table<'_>,
-    convention: Convention,
+    convention: DhConvention,
 ) -> LinkRow {
     let kind = match table.get("type") {
         Some(entry) => joint::kind(reader, &entry).unwrap_or_default(),

@@ -5,9 +5,10 @@
 use robot_symbolic::{Formula, Rational};
 
 use super::locations::{BodyLocation, FrameLocation, LinkLocation};
+use super::placement::Row;
 use super::reader::Named;
 use crate::diagnostic::Span;
-use crate::robot::{BaseFrames, Body, Drive, Friction, JointKind, Placement, Wrench};
+use crate::robot::{BaseFrames, Body, DhConvention, Drive, Friction, JointKind, Placement, Wrench};
 
 /// A robot as a file describes it.
 #[derive(Clone)]
@@ -42,6 +43,8 @@ pub(super) struct DraftLink {
     pub(super) before: Placement,
     /// From the joint's frame to the link's own frame, if the file's convention distinguishes them.
     pub(super) after: Placement,
+    /// The Denavit–Hartenberg row that gives the two placements, with its convention.
+    pub(super) dh: Option<(DhConvention, Row)>,
     /// The body, placed in the link's own frame; `None` if the link has no mass.
     pub(super) body: Option<(Body, BodyLocation)>,
     pub(super) friction: Friction,

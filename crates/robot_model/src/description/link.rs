@@ -36,7 +36,7 @@ pub(super) fn read(
         Some(row) => frames_of_row(row.convention, row.row, row.kind, row.place),
         None => of_link(reader, &mut table, joint.kind),
     };
-    let Frames { before, after, place } = frames;
+    let Frames { before, after, dh, place } = frames;
     places.origin = place;
     let body = body::read(reader, &mut table, &named, joint.kind.is_some());
     let (friction, drive) = on_joint(reader, &mut table, joint.kind, &mut places);
@@ -47,6 +47,7 @@ pub(super) fn read(
         joint,
         before,
         after,
+        dh,
         body,
         friction,
         left_out: None,

@@ -7,7 +7,7 @@ use super::shape::{CONVENTIONS, DH_ROW, ORIGIN};
 use super::table::{Entry, Table, Value};
 use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::robot::{Axis, JointKind, Move, Placement};
+use crate::robot::{Axis, DhConvention, JointKind, Move, Placement};
 
 /// Angles about the fixed axes x, y, z: R = Rz(yaw) Ry(pitch) Rx(roll).
 pub(super) const RPY: Quantity = quantity("the roll, pitch and yaw angles", 0, 0, 0);
@@ -17,20 +17,14 @@ pub(super) const RPY: Quantity = quantity("the roll, pitch and yaw angles", 0, 0
 pub(super) struct Frames {
     pub(super) before: Placement,
     pub(super) after: Placement,
+    /// The Denavit–Hartenberg row that gives the placements, with its convention.
+    pub(super) dh: Option<(DhConvention, Row)>,
     /// The place of `origin` or `dh`.
     pub(super) place: Option<Span>,
 }
 
-/// The two conventions of Denavit–Hartenberg parameters.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Convention {
-    /// Joint i moves about or along z of frame i−1: Rz(θ) Tz(d) Tx(a) Rx(α).
-    Standard,
-    /// Joint i moves about or along z of frame i: Rx(α) Tx(a) Rz(θ) Tz(d), α and a of frame i−1.
-    Modified,
-}
-
 /// The angles and lengths of a row.
+#[derive(Clone)]
 pub(super) struct Row {
     pub(super) a: Formula,
     pub(super) alpha: Formula,
@@ -100,12 +94,10 @@ fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Fr
 }
 
 /// Reads the convention. It has no default, because the two conventions give different robots.
-pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<Convention> {
+pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<DhConvention> {
     let entry = table.require(reader, "convention", "convention = \"modified\"")?;
-    match reader.word(entry.value, "a DH convention", CONVENTIONS)? {
-        "standard" => Some(Convention::Standard),
-        _ => Some(Convention::Modified),
-    }
+    let word = reader.word(entry.value, "a DH convention", CONVENTIONS)?;
+    DhConvention::ALL.into_iter().find(|convention| convention.name() == word)
 }
 
 /// Reads `a`, `alpha`, `d` and `theta`, which default to zero.
@@ -124,26 +116,26 @@ pub(super) fn row(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Row {
 
 /// The frames of a row. Moves about and along z commute with the motion of the joint.
 pub(super) fn frames_of_row(
-    convention: Convention,
+    convention: DhConvention,
     row: Row,
     kind: Option<JointKind>,
     place: Span,
 ) -> Frames {
-    let Row { a, alpha, d, theta } = row;
+    let Row { a, alpha, d, theta } = row.clone();
     let rotate_z = Move::Rotate(Axis::Z, theta);
     let shift_z = Move::Translate([zero(), zero(), d]);
     let shift_x = Move::Translate([a, zero(), zero()]);
     let rotate_x = Move::Rotate(Axis::X, alpha);
     let moves = match convention {
-        Convention::Standard => vec![rotate_z, shift_z, shift_x, rotate_x],
-        Convention::Modified => vec![rotate_x, shift_x, rotate_z, shift_z],
+        DhConvention::Standard => vec![rotate_z, shift_z, shift_x, rotate_x],
+        DhConvention::Modified => vec![rotate_x, shift_x, rotate_z, shift_z],
     };
     let moves = without_zero_moves(Placement(moves));
     let (before, after) = match (convention, kind) {
-        (Convention::Standard, Some(_)) => (Placement::default(), moves),
+        (DhConvention::Standard, Some(_)) => (Placement::default(), moves),
         _ => (moves, Placement::default()),
     };
-    Frames { before, after, place: Some(place) }
+    Frames { before, after, dh: Some((convention, row)), place: Some(place) }
 }
 
 /// The placement without the moves that are zero.

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use nalgebra::{Matrix3, Vector3};
+use robot_model::robot::DhConvention;
 use robot_numeric::random::Random;
 use robot_numeric::{Mechanism, Pose};
 
@@ -234,4 +235,59 @@ fn rows_and_links_must_match() {
         "{STANDARD}\n[[link]]\nname = \"7\"\njoint = {{ type = \"fixed\" }}\norigin = {{}}\n"
     );
     read(&arm(&own));
+}
+
+/// A rotating column, a fixed flange and a sliding arm, whose lengths are parameters.
+const SYMBOLIC: &str = "
+[parameters]
+l1 = { value = 0.4, unit = \"m\" }
+
+[[link]]
+name = \"column\"
+massless = true
+joint = { type = \"revolute\" }
+dh = { convention = \"CONVENTION\", a = \"l1/2\", alpha = \"pi/2\", d = \"l1\", theta = \"-pi/2\" }
+
+[[link]]
+name = \"flange\"
+joint = { type = \"fixed\" }
+dh = { convention = \"CONVENTION\", alpha = 0.3 }
+
+[[link]]
+name = \"arm\"
+massless = true
+joint = { type = \"prismatic\" }
+dh = { convention = \"CONVENTION\", d = 0.25 }
+
+[[link]]
+name = \"hand\"
+massless = true
+joint = { type = \"revolute\", axis = \"x\" }
+origin = {}
+";
+
+#[test]
+fn rows_are_kept_as_in_the_file() {
+    for convention in DhConvention::ALL {
+        let text = SYMBOLIC.replace("CONVENTION", convention.name());
+        let robot = read(&arm(&text)).robot;
+        let rows = robot.dh.iter().map(|row| {
+            assert_eq!(row.convention, convention);
+            let values =
+                [&row.a, &row.alpha, &row.d, &row.theta].map(robot_symbolic::Formula::text);
+            (row.link.as_str(), row.moving, values)
+        });
+        let expected = [
+            ("column", Some(0), ["l1/2", "pi/2", "l1", "-pi/2"]),
+            ("flange", None, ["0", "0.3", "0", "0"]),
+            ("arm", Some(1), ["0", "0", "0.25", "0"]),
+        ];
+        assert_eq!(rows.collect::<Vec<_>>(), expected);
+    }
+    let table = read(&arm(STANDARD)).robot.dh;
+    assert_eq!(table.len(), 6);
+    assert_eq!(
+        (table[2].link.as_str(), table[2].moving, table[2].d.text()),
+        ("3", Some(2), "0.15005")
+    );
 }

@@ -1,47 +1,35 @@
 //! The drawing of a layout.
 
 use nalgebra::Vector2;
-use robot_document::document::Inline;
 use robot_document::figure::Figure;
 use robot_document::markup::{Element, element, holding};
-use robot_document::math::Math;
 use robot_document::robot::words;
 use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::{JointKind, Robot};
-use robot_model::variable::JointVariable;
-use robot_symbolic::{Formula, Graph};
 
 use super::labels::{Rectangle, Room};
 use super::layout::{BASE, Layout, Place, Segment};
-use super::shape::{Group, Shape, Words, arrow, group, line};
+use super::shape::{Group, Shape, arrow, group, line};
 use super::style::Style;
 use super::symbols;
 use super::view::View;
 use crate::drawing::coordinate;
 use crate::parts;
-use crate::text;
 
 type Point = Vector2<f64>;
 
-/// A drawing under construction. Labels are placed last, where there is space.
+/// A drawing under construction. Labels are placed last, where there is space, see [`super::writing`].
 pub(crate) struct Drawing<'r> {
-    robot: &'r Robot,
-    layout: &'r Layout,
-    view: View,
-    room: Room,
-    /// The dimension lines and labels, which are drawn on top of everything else.
-    written: Vec<Shape>,
+    pub(super) robot: &'r Robot,
+    pub(super) layout: &'r Layout,
+    pub(super) view: View,
+    pub(super) room: Room,
     /// The layouts of symbols in documents.
-    table: SymbolTable,
+    pub(super) table: SymbolTable,
 }
 
-/// The font size of labels.
-const LETTERS: f64 = 14.0;
-/// The font size of the letters at the axes of frames.
-const SMALL: f64 = 11.0;
-/// The possible distances of a dimension line from its link.
-const BESIDE: [f64; 6] = [20.0, -20.0, 32.0, -32.0, 48.0, -48.0];
-
+/// The distance from the origin of a named frame within which its symbol is drawn.
+const HAND: f64 = 12.0;
 /// The distance of a joint's arrow from the joint axis, if a link covers the axis.
 const BESIDE_AXIS: f64 = 18.0;
 /// The distance from the centerline of a link within which a point is covered.
@@ -52,7 +40,7 @@ impl<'r> Drawing<'r> {
     pub(crate) fn of(robot: &'r Robot, layout: &'r Layout, view: View) -> Drawing<'r> {
         let table = SymbolTable::new(robot, Trigonometry::Named)
             .unwrap_or_else(|_| SymbolTable::spelled(Trigonometry::Named));
-        Drawing { robot, layout, view, room: Room::default(), written: vec![], table }
+        Drawing { robot, layout, view, room: Room::default(), table }
     }
 
     /// Returns the drawing as SVG.
@@ -93,24 +81,28 @@ impl<'r> Drawing<'r> {
         shapes.extend(links.map(|index| self.joint(index).into()));
         let frames = self.layout.frames.iter();
         shapes.extend(frames.map(|(index, place)| self.frame(*index, place).into()));
-        self.write();
-        let bounds = self.room.bounds();
+        let (written, bounds) = self.written();
         let bounds = bounds.unwrap_or(Rectangle::about(Point::zeros(), Point::new(1.0, 1.0)));
-        shapes.append(&mut self.written);
+        shapes.extend(written);
         let low = bounds.low.map(|side| (side - 12.0).round());
         let size = (bounds.high - bounds.low).map(|side| (side + 24.0).round());
         (shapes, Rectangle { low, high: low + size })
     }
 
-    fn places(&self) -> impl Iterator<Item = &'r Place> + use<'r> {
+    pub(super) fn places(&self) -> impl Iterator<Item = &'r Place> + use<'r> {
         let layout = self.layout;
         layout.links.iter().chain(layout.frames.iter().map(|(_, place)| place))
     }
 
     /// Reserves the space of symbols and lines, so that labels are placed elsewhere.
-    fn reserve_room(&mut self) {
-        let size = Point::new(2.0, 2.0) * (symbols::HALF + 2.0);
-        for place in &self.layout.links {
+    pub(super) fn reserve_room(&mut self) {
+        for (link, place) in self.robot.links.iter().zip(&self.layout.links) {
+            // The rails of a guide are longer than its box.
+            let half = match link.joint.kind {
+                JointKind::Revolute => symbols::HALF + 2.0,
+                JointKind::Prismatic => symbols::HALF + 8.0,
+            };
+            let size = Point::new(2.0, 2.0) * half;
             self.room.reserve(Rectangle::about(self.view.point(&place.position), size));
             let ends =
                 symbols::AXIS.map(|reach| self.view.point(&(place.position + place.axis * reach)));
@@ -124,8 +116,12 @@ impl<'r> Drawing<'r> {
             }
             for axis in place.rotation.column_iter() {
                 let end = place.position + axis * symbols::TRIAD;
-                self.room.reserve_line(self.view.point(&place.position), self.view.point(&end));
+                self.room.reserve_axis(self.view.point(&place.position), self.view.point(&end));
             }
+        }
+        for (_, place) in &self.layout.frames {
+            let hand = Point::new(2.0, 2.0) * HAND;
+            self.room.reserve(Rectangle::about(self.view.point(&place.position), hand));
         }
         let base = self.view.point(&BASE);
         self.room.reserve(Rectangle::about(base + Point::new(0.0, 5.0), Point::new(60.0, 14.0)));
@@ -198,38 +194,8 @@ impl<'r> Drawing<'r> {
         }
     }
 
-    /// Places all labels, starting with those that have the fewest possible places.
-    fn write(&mut self) {
-        for place in self.places() {
-            for segment in &place.path {
-                self.dimension(segment);
-            }
-        }
-        for index in 0..self.layout.links.len() {
-            self.names(index);
-        }
-        for (index, place) in &self.layout.frames {
-            if let Some(frame) = self.robot.frames.get(*index) {
-                let point = self.view.point(&place.position);
-                let name = Inline::text(text::shortened(&frame.name, 22));
-                self.label(&frame.name, name, point, 12.0, "name", None);
-            }
-        }
-        let bases = self.layout.bases.iter().filter_map(|index| self.robot.frames.get(*index));
-        let bases: Vec<&str> = bases.map(|frame| frame.name.as_str()).collect();
-        let base = if bases.is_empty() { "base".to_owned() } else { bases.join(", ") };
-        let point = self.view.point(&BASE) + Point::new(0.0, 8.0);
-        self.label(&base, Inline::text(&base), point, 10.0, "name", None);
-        for place in self.places() {
-            for (axis, name) in place.rotation.column_iter().zip(["x", "y", "z"]) {
-                let end = self.view.point(&(place.position + axis * symbols::TRIAD));
-                self.letter(name, end);
-            }
-        }
-    }
-
     /// The arrow in the positive direction of a joint: on the joint axis, or beside it if a link covers the axis.
-    fn arrow(&self, place: &Place) -> [Point; 2] {
+    pub(super) fn arrow(&self, place: &Place) -> [Point; 2] {
         let [_, reach] = symbols::AXIS;
         let on = [symbols::HALF + 4.0, reach]
             .map(|reach| self.view.point(&(place.position + place.axis * reach)));
@@ -253,121 +219,6 @@ impl<'r> Drawing<'r> {
         segments.map(|segment| (COVERING - distance(segment)).max(0.0)).fold(0.0, f64::max)
     }
 
-    /// Places the name of the coordinate at the joint axis, and the name of the link beside the joint.
-    fn names(&mut self, index: usize) {
-        let (Some(link), Some(place)) = (self.robot.links.get(index), self.layout.links.get(index))
-        else {
-            return;
-        };
-        let [_, end] = self.arrow(place);
-        let name = JointVariable::Position.symbol(link.joint.coordinate);
-        let inline = Inline::Math(self.table.look(&name));
-        self.label(&text::symbol(&name), inline, end, 4.0, "coordinate", Some(index));
-        let point = self.view.point(&place.position);
-        let name = Inline::text(text::shortened(&link.name, 22));
-        self.label(&link.name, name, point, symbols::HALF + 2.0, "name", Some(index));
-    }
-
-    /// Draws a dimension line with the length beside a piece of a link.
-    fn dimension(&mut self, segment: &Segment) {
-        let Some(length) = &segment.length else { return };
-        let [from, to] = segment.ends.each_ref().map(|end| self.view.point(end));
-        let Some(along) = (to - from).try_normalize(8.0) else { return };
-        let across = Point::new(-along.y, along.x);
-        let (words, of) = length_words(self.robot, length);
-        let inline = self.length(length, &words);
-        let size = size_of(&words, LETTERS);
-        let label = |offset: f64| {
-            let beside = across * offset;
-            let off = beside.abs().component_mul(&size).sum() / (2.0 * offset.abs()) + 3.0;
-            let center = (from + to) / 2.0 + across * (offset + off.copysign(offset));
-            Rectangle::about(center, size)
-        };
-        let beside = |offset: f64| {
-            let middle = (from + to) / 2.0 + across * offset;
-            Rectangle::about(middle, along.abs() * (to - from).norm() + across.abs() * 4.0)
-        };
-        let cost = |offset: &f64| {
-            self.room.cost(&label(*offset)) + self.room.cost(&beside(*offset)) + offset.abs()
-        };
-        let best = BESIDE.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).unwrap_or(20.0);
-        let ends = [from, to].map(|end| end + across * best);
-        let over = across * 4f64.copysign(best);
-        let mut group = group().class("dimension");
-        if !of.is_empty() {
-            group = group.attribute("data-is", of);
-        }
-        for (end, drawn) in [from, to].into_iter().zip(ends) {
-            group = group.with(line(&[end, drawn + over], false).class("witness"));
-        }
-        let middle = (ends[0] + ends[1]) / 2.0;
-        group = group.with_all(arrow(middle, ends[0], 6.0)).with_all(arrow(middle, ends[1], 6.0));
-        self.room.reserve_line(ends[0], ends[1]);
-        let place = label(best);
-        // If this place is taken, the label goes to the best free place near it.
-        let place = if self.room.cost(&place) < 1e3 {
-            self.room.reserve_label(place);
-            place
-        } else {
-            self.room.find(middle, size, 4.0)
-        };
-        self.written.push(group.with(words_at(&words, inline, &place, LETTERS)).into());
-    }
-
-    /// Places a name near a point, with a line to it if it is far away.
-    fn label(
-        &mut self,
-        words: &str,
-        inline: Inline,
-        point: Point,
-        gap: f64,
-        class: &str,
-        link: Option<usize>,
-    ) {
-        let shown = text::shortened(words, 22);
-        let place = self.room.find(point, size_of(&shown, LETTERS), gap);
-        let hue = link.map(hue).unwrap_or_default();
-        let mut group = group().class(format!("{class} {hue}").trim_end());
-        if let Some(link) = link {
-            group = group.attribute("data-is", parts::link(link));
-        }
-        let nearest = point.sup(&place.low).inf(&place.high);
-        if (nearest - point).norm() > gap + 20.0 {
-            group = group.with(line(&[point, nearest], false).class("leader"));
-        }
-        if shown != words {
-            group = group.with(Shape::Title(words.to_owned()));
-        }
-        self.written.push(group.with(words_at(&shown, inline, &place, LETTERS)).into());
-    }
-
-    /// Places the letter of an axis beyond the end of the axis.
-    fn letter(&mut self, name: &str, end: Point) {
-        let place = self.room.find(end, size_of(name, SMALL), 0.0);
-        let class = match name {
-            "x" => "axis-x",
-            "y" => "axis-y",
-            _ => "axis-z",
-        };
-        let letter = Inline::Math(Math::row(name.chars().map(Math::Letter).collect()));
-        let text = words_at(name, letter, &place, SMALL);
-        self.written.push(group().class(class).with(text).into());
-    }
-
-    /// A length for documents: its formula, without a minus sign if it is a symbol.
-    fn length(&self, length: &Formula, words: &str) -> Inline {
-        let graph = Graph::new();
-        let value = length.lower(&graph, &mut |name| graph.symbol(name));
-        if length.is_constant() {
-            return Inline::text(words);
-        }
-        let formula = self.table.expression(value).unwrap_or_default();
-        match formula.pieces() {
-            [Math::Sign('-'), bare @ Math::Symbol(_)] => Inline::Math(bare.clone()),
-            _ => Inline::Math(formula),
-        }
-    }
-
     fn description(&self) -> String {
         let mut words = format!("{} joints. ", self.robot.links.len());
         for link in &self.robot.links {
@@ -381,41 +232,9 @@ impl<'r> Drawing<'r> {
         }
         words.trim_end().to_owned()
     }
-
-    /// Whether labels overlap.
-    #[cfg(test)]
-    pub(crate) fn crowds(mut self) -> bool {
-        self.reserve_room();
-        self.write();
-        self.room.is_crowded()
-    }
 }
 
 /// The class for the color of a link.
-fn hue(index: usize) -> String {
+pub(super) fn hue(index: usize) -> String {
     format!("hue-{}", index % 8)
-}
-
-/// The length of an offset without its sign, and the tokens of its parameters.
-fn length_words(robot: &Robot, length: &Formula) -> (String, String) {
-    let tokens: Vec<String> = length.symbols().map(|(name, _)| parts::parameter(name)).collect();
-    if length.is_constant() {
-        let value = text::value(robot, length).abs();
-        return (format!("{} m", text::number(value)), tokens.join(" "));
-    }
-    let plain = text::plain(length);
-    let bare = plain.strip_prefix('−').unwrap_or(&plain);
-    let is_symbol = robot.parameter(bare).is_some();
-    let words = if is_symbol { text::symbol(bare) } else { plain };
-    (text::shortened(&words, 22), tokens.join(" "))
-}
-
-/// The approximate size of a text.
-fn size_of(words: &str, letters: f64) -> Point {
-    Point::new((words.chars().count() as f64 * 0.6 + 0.3) * letters, letters * 1.15)
-}
-
-fn words_at(words: &str, inline: Inline, place: &Rectangle, letters: f64) -> Words {
-    let center = (place.low + place.high) / 2.0;
-    Words { center, text: words.to_owned(), inline, size: letters }
 }

@@ -2,18 +2,20 @@
 
 use nalgebra::Vector2;
 
+type Point = Vector2<f64>;
+
 /// A rectangle with horizontal and vertical sides.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rectangle {
     /// The corner with the smallest coordinates.
-    pub(crate) low: Vector2<f64>,
+    pub(crate) low: Point,
     /// The opposite corner.
-    pub(crate) high: Vector2<f64>,
+    pub(crate) high: Point,
 }
 
 impl Rectangle {
     /// The rectangle of this size around a center.
-    pub(crate) fn about(center: Vector2<f64>, size: Vector2<f64>) -> Rectangle {
+    pub(crate) fn about(center: Point, size: Point) -> Rectangle {
         Rectangle { low: center - size / 2.0, high: center + size / 2.0 }
     }
 
@@ -24,106 +26,270 @@ impl Rectangle {
         extent.x * extent.y
     }
 
+    /// The length of the part of a line within the rectangle.
+    pub(crate) fn length_within(&self, [from, to]: &[Point; 2]) -> f64 {
+        let along = to - from;
+        let (mut start, mut end) = (0.0_f64, 1.0_f64);
+        for axis in 0..2 {
+            let [low, high] = [self.low, self.high].map(|corner| corner[axis] - from[axis]);
+            if along[axis].abs() < 1e-9 {
+                if low >= 0.0 || high <= 0.0 {
+                    return 0.0;
+                }
+                continue;
+            }
+            let (one, other) = (low / along[axis], high / along[axis]);
+            start = start.max(one.min(other));
+            end = end.min(one.max(other));
+        }
+        (end - start).max(0.0) * along.norm()
+    }
+
     /// The smallest rectangle that contains both.
     pub(crate) fn around(&self, other: &Rectangle) -> Rectangle {
         Rectangle { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
 }
 
-/// The areas that are taken, as far as the placement of labels is concerned.
+/// A place that a label can take.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Candidate {
+    /// The area of the label.
+    pub(crate) label: Rectangle,
+    /// The line from the named point to the label, if the two are far apart.
+    pub(crate) leader: Option<[Point; 2]>,
+    /// The cost of the place itself, such as its distance from the named point.
+    pub(crate) cost: f64,
+}
+
+impl Candidate {
+    /// A place without a leader.
+    pub(crate) fn near(label: Rectangle, cost: f64) -> Candidate {
+        Candidate { label, leader: None, cost }
+    }
+}
+
+/// The shapes of a drawing, as far as they restrict the places of labels.
 #[derive(Default)]
 pub(crate) struct Room {
-    /// The labels, which nothing can cover.
-    labels: Vec<Rectangle>,
-    /// The symbols and the small pieces of lines, with the cost of covering a unit of their area.
-    drawn: Vec<(Rectangle, f64)>,
+    symbols: Vec<Rectangle>,
+    lines: Vec<[Point; 2]>,
+    /// The axes of frames, which other lines may cross more easily.
+    axes: Vec<[Point; 2]>,
 }
 
 /// The distances from the named point at which labels are tried.
 const RINGS: [f64; 9] = [0.0, 6.0, 14.0, 26.0, 42.0, 64.0, 92.0, 130.0, 180.0];
 /// The number of directions in which labels are tried.
 const DIRECTIONS: usize = 16;
+/// The distance beyond the gap from which a label has a line to its point.
+const FAR: f64 = 12.0;
+/// The distance that labels keep from lines.
+const PAD: f64 = 2.0;
+/// The cost of a line through a label, per px. A label on another costs so much that any other place is better.
+const CROSSED: f64 = 8.0;
+const ON_LABEL: f64 = 1e4;
+/// The distance within which two lines look like one, and that of the points at which this is tested.
+const CLOSE: f64 = 4.0;
+const PIECE: f64 = 6.0;
+/// The cost of a line across an axis of a frame, as a share of that across another line.
+const ON_AXIS: f64 = 0.3;
+/// The most passes in which labels move to better places.
+const PASSES: usize = 4;
 
 impl Room {
     /// Reserves the area of a symbol.
     pub(crate) fn reserve(&mut self, rectangle: Rectangle) {
-        self.drawn.push((rectangle, 1.0));
+        self.symbols.push(rectangle);
     }
 
-    /// Reserves the area of a line.
-    pub(crate) fn reserve_line(&mut self, from: Vector2<f64>, to: Vector2<f64>) {
-        let pieces = ((to - from).norm() / 5.0).ceil().max(1.0);
-        for piece in 0..=pieces as usize {
-            let point = from + (to - from) * (piece as f64 / pieces);
-            self.drawn.push((Rectangle::about(point, Vector2::new(5.0, 5.0)), 1.5));
-        }
+    /// Reserves a line.
+    pub(crate) fn reserve_line(&mut self, from: Point, to: Point) {
+        self.lines.push([from, to]);
     }
 
-    /// The cost of placing a label there: the area that it covers. Other labels cost so much that any other place is
-    /// better.
+    /// Reserves an axis of a frame.
+    pub(crate) fn reserve_axis(&mut self, from: Point, to: Point) {
+        self.axes.push([from, to]);
+    }
+
+    /// The cost of the symbols and lines that a label would cover.
     pub(crate) fn cost(&self, label: &Rectangle) -> f64 {
-        let labels: f64 = self.labels.iter().map(|taken| taken.overlap(label)).sum();
-        let drawn: f64 = self.drawn.iter().map(|(taken, cost)| taken.overlap(label) * cost).sum();
-        1e4 * labels + drawn
+        let padded =
+            Rectangle { low: label.low.add_scalar(-PAD), high: label.high.add_scalar(PAD) };
+        let symbols: f64 = self.symbols.iter().map(|symbol| symbol.overlap(label)).sum();
+        let lines: f64 = self.all_lines().map(|line| padded.length_within(line)).sum();
+        symbols + CROSSED * lines
     }
 
-    /// Reserves the area of a label with a fixed place.
-    pub(crate) fn reserve_label(&mut self, label: Rectangle) {
-        self.labels.push(label);
+    /// The length of lines through a label.
+    #[cfg(test)]
+    pub(crate) fn length_within(&self, label: &Rectangle) -> f64 {
+        self.all_lines().map(|line| label.length_within(line)).sum()
     }
 
-    /// Finds the best place for a label near a point, at least `gap` away from it, and reserves its area.
-    pub(crate) fn find(&mut self, point: Vector2<f64>, size: Vector2<f64>, gap: f64) -> Rectangle {
-        let mut best = (f64::INFINITY, Rectangle::about(point, size));
-        for ring in RINGS {
+    /// The cost of another line: the length on symbols, and that along other lines.
+    pub(crate) fn cost_of_line(&self, [from, to]: [Point; 2]) -> f64 {
+        let symbols: f64 =
+            self.symbols.iter().map(|symbol| symbol.length_within(&[from, to])).sum();
+        let pieces = ((to - from).norm() / PIECE).ceil().max(1.0);
+        let points =
+            (0..=pieces as usize).map(|piece| from + (to - from) * (piece as f64 / pieces));
+        let is_on = |lines: &[[Point; 2]], point: Point| {
+            lines.iter().any(|line| distance(point, line) < CLOSE)
+        };
+        let close = points.map(|point| match is_on(&self.lines, point) {
+            true => PIECE,
+            false if is_on(&self.axes, point) => ON_AXIS * PIECE,
+            false => 0.0,
+        });
+        symbols + close.sum::<f64>()
+    }
+
+    fn all_lines(&self) -> impl Iterator<Item = &[Point; 2]> {
+        self.lines.iter().chain(&self.axes)
+    }
+
+    /// Places of a label around a point, at least `gap` away from it; the nearest ones are at most `reach` farther.
+    pub(crate) fn around(point: Point, size: Point, gap: f64, reach: f64) -> Vec<Candidate> {
+        let mut places = vec![];
+        for ring in RINGS.into_iter().filter(|ring| *ring <= reach) {
             for step in 0..DIRECTIONS {
-                // Directions to the right and upward are tried first.
+                // Directions to the right and upward are preferred.
                 let angle = std::f64::consts::TAU * (step as f64 / DIRECTIONS as f64) - 0.6;
                 let (sin, cos) = angle.sin_cos();
-                let reach = Vector2::new(cos, sin) * (gap + ring);
-                let center = point + reach + Vector2::new(cos * size.x, sin * size.y) / 2.0;
+                let away = Point::new(cos, sin) * (gap + ring);
+                let center = point + away + Point::new(cos * size.x, sin * size.y) / 2.0;
                 let label = Rectangle::about(center, size);
-                let cost = self.cost(&label) + 1.2 * ring + 0.2 * step as f64;
-                if cost < best.0 {
-                    best = (cost, label);
-                }
+                let nearest = point.sup(&label.low).inf(&label.high);
+                let is_far = (nearest - point).norm() > gap + FAR;
+                places.push(Candidate {
+                    label,
+                    leader: is_far.then_some([point, nearest]),
+                    cost: 1.2 * ring + 0.2 * step as f64,
+                });
             }
         }
-        self.reserve_label(best.1);
-        best.1
+        places
     }
 
-    /// The smallest rectangle around all reserved areas.
-    pub(crate) fn bounds(&self) -> Option<Rectangle> {
-        let drawn = self.drawn.iter().map(|(rectangle, _)| *rectangle);
-        drawn.chain(self.labels.iter().copied()).reduce(|all, one| all.around(&one))
+    /// Chooses one of the places of each label. Each label first takes the best place beside the labels before it; then
+    /// labels move while this makes them better.
+    pub(crate) fn settled(&self, labels: &[Vec<Candidate>]) -> Vec<Candidate> {
+        let own = |candidate: &Candidate| {
+            let leader = candidate.leader.map_or(0.0, |leader| 20.0 + self.cost_of_line(leader));
+            Candidate { cost: candidate.cost + leader + self.cost(&candidate.label), ..*candidate }
+        };
+        let labels: Vec<Vec<Candidate>> =
+            labels.iter().map(|places| places.iter().map(own).collect()).collect();
+        let mut chosen: Vec<Option<Candidate>> = vec![None; labels.len()];
+        for _ in 0..PASSES {
+            let mut has_moved = false;
+            for (index, places) in labels.iter().enumerate() {
+                let others = chosen.iter().enumerate().filter(|(other, _)| *other != index);
+                let others: Vec<Candidate> = others.filter_map(|(_, other)| *other).collect();
+                let whole = |place: &Candidate| place.cost + conflict(place, &others);
+                let mut best = (f64::INFINITY, chosen[index].or(places.first().copied()));
+                for place in places {
+                    // Conflicts only add to the cost.
+                    let cost = if place.cost < best.0 { whole(place) } else { f64::INFINITY };
+                    if cost < best.0 {
+                        best = (cost, Some(*place));
+                    }
+                }
+                if chosen[index].is_none_or(|place| best.0 < whole(&place)) {
+                    has_moved |= chosen[index] != best.1;
+                    chosen[index] = best.1;
+                }
+            }
+            if !has_moved {
+                break;
+            }
+        }
+        chosen.into_iter().flatten().collect()
     }
 
-    /// Whether two labels overlap.
-    #[cfg(test)]
-    pub(crate) fn is_crowded(&self) -> bool {
-        let pairs = self.labels.iter().enumerate();
-        pairs.into_iter().any(|(index, label)| {
-            self.labels.iter().skip(index + 1).any(|other| label.overlap(other) > 0.5)
-        })
+    /// The smallest rectangle around the reserved areas and the labels.
+    pub(crate) fn bounds(&self, labels: &[Candidate]) -> Option<Rectangle> {
+        let ends = self.all_lines().flatten().map(|end| Rectangle { low: *end, high: *end });
+        let symbols = self.symbols.iter().copied().chain(ends);
+        symbols.chain(labels.iter().map(|one| one.label)).reduce(|all, one| all.around(&one))
     }
+}
+
+/// The cost of a label and its line on or across other labels and their lines.
+fn conflict(place: &Candidate, others: &[Candidate]) -> f64 {
+    let cost = |other: &Candidate| {
+        let labels = ON_LABEL * other.label.overlap(&place.label);
+        let crossed = |leader: &Option<[Point; 2]>, label: &Rectangle| {
+            leader.map_or(0.0, |leader| CROSSED * label.length_within(&leader))
+        };
+        labels + crossed(&place.leader, &other.label) + crossed(&other.leader, &place.label)
+    };
+    others.iter().map(cost).sum()
+}
+
+/// The distance of a point from a line between two others.
+fn distance(point: Point, [from, to]: &[Point; 2]) -> f64 {
+    let along = to - from;
+    let part = (point - from).dot(&along) / along.norm_squared().max(1e-9);
+    (point - from - along * part.clamp(0.0, 1.0)).norm()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn point(x: f64, y: f64) -> Point {
+        Point::new(x, y)
+    }
+
+    #[test]
+    fn the_part_of_a_line_within_a_rectangle() {
+        let area = Rectangle::about(point(0.0, 0.0), point(10.0, 4.0));
+        let within = |from, to| area.length_within(&[from, to]);
+        assert_eq!(within(point(-20.0, 0.0), point(20.0, 0.0)), 10.0);
+        assert_eq!(within(point(0.0, 1.0), point(0.0, 20.0)), 1.0);
+        assert_eq!(within(point(-20.0, 3.0), point(20.0, 3.0)), 0.0);
+        assert_eq!(within(point(6.0, -9.0), point(6.0, 9.0)), 0.0);
+        assert_eq!(within(point(1.0, 1.0), point(1.0, 1.0)), 0.0);
+    }
+
     #[test]
     fn labels_of_one_point_lie_apart() {
         let mut room = Room::default();
-        room.reserve(Rectangle::about(Vector2::zeros(), Vector2::new(30.0, 30.0)));
-        for _ in 0..12 {
-            room.find(Vector2::zeros(), Vector2::new(50.0, 14.0), 10.0);
+        room.reserve(Rectangle::about(Point::zeros(), point(30.0, 30.0)));
+        let labels = vec![Room::around(Point::zeros(), point(50.0, 14.0), 10.0, 200.0); 12];
+        let placed = room.settled(&labels);
+        assert_eq!(placed.len(), 12);
+        for (index, one) in placed.iter().enumerate() {
+            for other in &placed[index + 1..] {
+                assert_eq!(one.label.overlap(&other.label), 0.0);
+            }
         }
-        assert!(!room.is_crowded());
-        let bounds = room.bounds().unwrap();
+        let bounds = room.bounds(&placed).unwrap();
         assert!(bounds.high.x - bounds.low.x < 500.0);
-        room.reserve_label(Rectangle::about(Vector2::zeros(), Vector2::new(500.0, 500.0)));
-        assert!(room.is_crowded());
+    }
+
+    #[test]
+    fn labels_leave_lines_and_make_way() {
+        let mut room = Room::default();
+        room.reserve_line(point(-100.0, 0.0), point(100.0, 0.0));
+        let size = point(40.0, 14.0);
+        let on = Candidate::near(Rectangle::about(Point::zeros(), size), 0.0);
+        let above = Candidate::near(Rectangle::about(point(0.0, -20.0), size), 5.0);
+        let below = Candidate::near(Rectangle::about(point(0.0, 20.0), size), 9.0);
+        assert_eq!(room.settled(&[vec![on, above]])[0].label, above.label);
+        let placed = room.settled(&[vec![on, above, below], vec![on, above, below]]);
+        assert_eq!([placed[0].label, placed[1].label], [above.label, below.label]);
+        // The line of the second label would run through the first, which makes way.
+        let far = Rectangle::about(point(0.0, -90.0), size);
+        let led = Candidate {
+            label: far,
+            leader: Some([point(0.0, -9.0), point(0.0, -83.0)]),
+            cost: 0.0,
+        };
+        let placed = room.settled(&[vec![above, below], vec![led]]);
+        assert_eq!([placed[0].label, placed[1].label], [below.label, far]);
     }
 }

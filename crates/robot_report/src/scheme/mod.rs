@@ -2,7 +2,8 @@
 //! their axes, offsets as dimension lines, and links with their names.
 //!
 //! `layout` places the robot at q = 0 on the page, `view` chooses the direction from which it is seen, `symbols` draws
-//! the symbols, and `labels` finds space for labels.
+//! the symbols, and `writing` writes dimensions and labels, and `labels`
+//! finds space for them.
 
 mod draw;
 mod labels;
@@ -13,6 +14,7 @@ mod shape;
 mod style;
 mod symbols;
 mod view;
+mod writing;
 
 use robot_document::figure::Figure;
 use robot_document::markup::Element;
@@ -82,7 +84,38 @@ mod tests {
     fn no_label_lies_on_another() {
         for robot in robots() {
             let (layout, view) = best(&robot);
-            assert!(!draw::Drawing::of(&robot, &layout, view).crowds(), "{}", robot.name);
+            let labels = draw::Drawing::of(&robot, &layout, view).labels();
+            for (index, (words, label, _)) in labels.iter().enumerate() {
+                for (others, other, _) in &labels[index + 1..] {
+                    let overlap = label.overlap(other);
+                    assert!(overlap < 0.5, "{}: {words} on {others}: {overlap}", robot.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_length_between_two_joints_is_drawn_once() {
+        for (name, length, count) in
+            [("ur5", "0.0823 m", 1), ("panda", "0.0825 m", 1), ("panda", "0.384 m", 1)]
+        {
+            let robot = robots().into_iter().find(|robot| robot.name == name).unwrap();
+            let (layout, view) = best(&robot);
+            let labels = draw::Drawing::of(&robot, &layout, view).labels();
+            let found = labels.iter().filter(|(words, ..)| words == length).count();
+            assert_eq!(found, count, "{name}: {length}");
+        }
+    }
+
+    /// Lines of links, joints and dimensions leave names and lengths readable.
+    #[test]
+    fn no_line_runs_through_a_label() {
+        for robot in robots() {
+            let (layout, view) = best(&robot);
+            for (words, _, crossed) in draw::Drawing::of(&robot, &layout, view).labels() {
+                let is_letter = ["x", "y", "z"].contains(&words.as_str());
+                assert!(is_letter || crossed < 2.0, "{}: {words}, {crossed}", robot.name);
+            }
         }
     }
 

@@ -9,13 +9,13 @@ use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint, Ranged};
 use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingArea;
 use plotters::element::{PathElement, Text};
-use plotters::prelude::{BLACK, DrawingBackend, IntoFont, LineSeries, RGBColor, WHITE};
-use plotters::series::DashedLineSeries;
+use plotters::prelude::{BLACK, DrawingBackend, IntoFont, RGBColor, WHITE};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, ShapeStyle, TextStyle, register_font};
 
 use super::axis::{Axis, label};
 use super::simplify::simplified;
+use super::strokes::{COLORS, Stroke, dashed, strokes};
 use super::{Curve, Figure, Panel, SCALE};
 
 /// The width of a figure and the sizes of its parts, in px.
@@ -26,6 +26,11 @@ const TIME_LABELS: u32 = 42;
 const VALUE_LABELS: u32 = 76;
 const LEGEND: u32 = 110;
 const MARGIN: u32 = 12;
+/// The height of a row of a legend, and the length of the line before its name.
+const ROW: u32 = 21;
+const SAMPLE: f64 = 24.0;
+/// The most rows of a legend; robots have at most 64 coordinates.
+const MOST_ROWS: u32 = 64;
 
 /// The largest numbers of ticks of the axes.
 const TIME_TICKS: usize = 11;
@@ -37,7 +42,7 @@ const TEXT_SIZE: u32 = 14;
 
 /// The palette of Okabe and Ito (Color Universal Design, 2008), which color-blind readers can distinguish, without its
 /// black, which is used for sums, and its yellow, which is hard to see on white.
-const COLORS: [RGBColor; 6] = [
+const PALETTE: [RGBColor; COLORS] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),
@@ -53,8 +58,14 @@ const TOLERANCE: f64 = 0.1;
 
 /// The width and height of a figure, in px.
 pub(super) fn size(figure: &Figure) -> (u32, u32) {
-    let panels = u32::try_from(figure.panels.len()).unwrap_or(u32::MAX).clamp(1, 100);
-    (WIDTH, TITLE + panels * PANEL + TIME_LABELS)
+    let panels = figure.panels.iter().map(height).sum::<u32>().max(PANEL);
+    (WIDTH, TITLE + panels + TIME_LABELS)
+}
+
+/// The height of a panel, in px, in which the names of all curves have room.
+fn height(panel: &Panel) -> u32 {
+    let rows = u32::try_from(panel.curves.len()).unwrap_or(u32::MAX).min(MOST_ROWS);
+    PANEL.max(2 * MARGIN + rows * ROW)
 }
 
 /// Draws a figure at [`SCALE`] times its size.
@@ -79,7 +90,7 @@ fn fill<D: DrawingBackend>(figure: &Figure, area: &DrawingArea<D, Shift>) -> Dra
     let mut rest = rest;
     for (index, panel) in figure.panels.iter().enumerate() {
         let last = index + 1 == figure.panels.len();
-        let height = if last { PANEL + TIME_LABELS } else { PANEL };
+        let height = height(panel) + if last { TIME_LABELS } else { 0 };
         let (here, below) = rest.split_vertically(height * SCALE);
         draw_panel(&figure.t, panel, last, &here)?;
         rest = below;
@@ -117,18 +128,20 @@ fn draw_panel<D: DrawingBackend>(
         .y_desc(value_label)
         .draw()?;
     let width = f64::from(WIDTH - LEGEND - VALUE_LABELS);
-    for (number, curve) in panel.curves.iter().enumerate() {
-        let (across, up) =
-            (width / (time.high - time.low), f64::from(PANEL) / (axis.high - axis.low));
-        let points = points(t, curve, &axis, across, up);
-        match line(number, curve) {
-            (line, None) => chart.draw_series(LineSeries::new(points, line))?,
-            (line, Some(dash)) => {
-                chart.draw_series(DashedLineSeries::new(points, dash, dash / 2, line))?
-            }
-        };
+    let across = width / (time.high - time.low);
+    let up = f64::from(height(panel)) / (axis.high - axis.low);
+    let (strokes, order) = strokes(t, &panel.curves, &axis, up);
+    for index in order {
+        let stroke = &strokes[index];
+        let pixels = points(t, &panel.curves[index], &axis, across, up);
+        let pieces = pieces(&pixels, stroke).into_iter();
+        let values = |(x, y): (f64, f64)| (x / across, y / up);
+        chart.draw_series(pieces.map(|piece| {
+            let points: Vec<_> = piece.into_iter().map(values).collect();
+            PathElement::new(points, line(stroke))
+        }))?;
     }
-    draw_legend(&panel.curves, &right)
+    draw_legend(&panel.curves, &strokes, &right)
 }
 
 /// The coordinates of an axis and its ticks.
@@ -161,37 +174,48 @@ impl Ranged for Ticked {
     }
 }
 
-/// The style of a curve, and the length of its dashes in px.
-fn line(number: usize, curve: &Curve) -> (ShapeStyle, Option<u32>) {
-    if curve.is_sum {
-        return (BLACK.stroke_width(2 * SCALE), None);
+/// The style of a line.
+fn line(stroke: &Stroke) -> ShapeStyle {
+    match stroke.is_sum {
+        true => BLACK.stroke_width(2 * SCALE),
+        false => PALETTE[stroke.color].stroke_width(3 * SCALE / 2),
     }
-    let color = COLORS[number % COLORS.len()];
-    let dash = [None, Some(8), Some(3)][(number / COLORS.len()).min(2)];
-    (color.stroke_width(3 * SCALE / 2), dash.map(|dash| dash * SCALE))
 }
 
-/// The points that are needed to draw a curve; `across` and `up` are the numbers of pixels per unit of the axes.
+/// The pieces of a line through points in px: its dashes, or the whole line.
+fn pieces(points: &[(f64, f64)], stroke: &Stroke) -> Vec<Vec<(f64, f64)>> {
+    match &stroke.dashes {
+        Some(dashes) => dashed(points, dashes),
+        None => vec![points.to_vec()],
+    }
+}
+
+/// The points that are needed to draw a curve, in px; `across` and `up` are the numbers of pixels per unit of the axes.
 fn points(t: &[f64], curve: &Curve, axis: &Axis, across: f64, up: f64) -> Vec<(f64, f64)> {
     let values = curve.values.iter().map(|value| axis.scaled(*value));
     let finite = t.iter().zip(values).filter(|(_, value)| value.is_finite());
     let pixels: Vec<(f64, f64)> = finite.map(|(t, value)| (t * across, value * up)).collect();
-    let few = simplified(&pixels, TOLERANCE).into_iter();
-    few.map(|(x, y)| (x / across, y / up)).collect()
+    simplified(&pixels, TOLERANCE)
 }
 
-fn draw_legend<D: DrawingBackend>(curves: &[Curve], area: &DrawingArea<D, Shift>) -> Drawn<D> {
-    let most = (PANEL - MARGIN) / (TEXT_SIZE * 3 / 2);
-    let at = |x: u32, y: u32| ((x * SCALE) as i32, (y * SCALE) as i32);
+/// Draws the name of each curve after a piece of its line.
+fn draw_legend<D: DrawingBackend>(
+    curves: &[Curve],
+    strokes: &[Stroke],
+    area: &DrawingArea<D, Shift>,
+) -> Drawn<D> {
+    let scale = f64::from(SCALE);
     let left = style(TEXT_SIZE).pos(Pos::new(HPos::Left, VPos::Center));
-    for (row, curve) in (0..most).zip(curves) {
-        let y = MARGIN + row * TEXT_SIZE * 3 / 2;
-        let (line, dash) = line(row as usize, curve);
-        let sample = [0, 1, 2].map(|part| (at(part * 8, y), at(part * 8 + 8, y)));
-        for (from, to) in sample.into_iter().step_by(if dash.is_some() { 2 } else { 1 }) {
-            area.draw(&PathElement::new([from, to], line))?;
+    for (row, (curve, stroke)) in (0..).zip(curves.iter().zip(strokes)) {
+        let y = MARGIN + row * ROW;
+        let sample = [(0.0, f64::from(y)), (SAMPLE, f64::from(y))];
+        for piece in pieces(&sample, stroke) {
+            let place = |(x, y): (f64, f64)| ((x * scale) as i32, (y * scale) as i32);
+            let points: Vec<_> = piece.into_iter().map(place).collect();
+            area.draw(&PathElement::new(points, line(stroke)))?;
         }
-        area.draw(&Text::new(curve.name.as_str(), at(30, y), left.clone()))?;
+        let place = ((30 * SCALE) as i32, (y * SCALE) as i32);
+        area.draw(&Text::new(curve.name.as_str(), place, left.clone()))?;
     }
     Ok(())
 }
@@ -207,4 +231,26 @@ fn register() -> Result<(), String> {
     let known =
         REGISTERED.get_or_init(|| register_font("sans-serif", FontStyle::Normal, regular).is_ok());
     if *known { Ok(()) } else { Err("the font cannot be read".to_owned()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_legend_names_every_curve() {
+        let curve = |color: usize| Curve {
+            name: format!("curve {color}."),
+            values: vec![color as f64; 2],
+            is_sum: false,
+            color,
+        };
+        let panel = Panel { curves: (0..20).map(curve).collect(), ..Panel::default() };
+        let figure = Figure { t: vec![0.0, 1.0], panels: vec![panel], ..Figure::default() };
+        let svg = figure.svg().unwrap();
+        for color in 0..20 {
+            assert!(svg.contains(&format!("curve {color}.")), "{color}: {svg}");
+        }
+        assert_eq!(size(&figure), (WIDTH, TITLE + 2 * MARGIN + 20 * ROW + TIME_LABELS));
+    }
 }

@@ -23,24 +23,25 @@ pub fn motion_figure(
     if motion.tau.iter().flatten().any(|tau| *tau != 0.0) {
         panels.extend(by_unit(robot, "torque", JointVariable::Torque, &motion.tau));
     }
-    let curve = |name: &str, values: &[f64]| Curve {
+    let curve = |color: usize, name: &str, values: &[f64]| Curve {
         name: name.to_owned(),
         values: values.to_vec(),
         is_sum: name == "total",
+        color,
     };
     panels.push(Panel {
         quantity: "energy".to_owned(),
         unit: "J".to_owned(),
         curves: vec![
-            curve("kinetic", &energies.kinetic),
-            curve("potential", &energies.potential),
-            curve("total", &energies.total),
+            curve(0, "kinetic", &energies.kinetic),
+            curve(1, "potential", &energies.potential),
+            curve(2, "total", &energies.total),
         ],
     });
     if conserved {
         let start = energies.total.first().copied().unwrap_or_default();
         let change: Vec<f64> = energies.total.iter().map(|energy| energy - start).collect();
-        let curves = vec![curve("error", &change)];
+        let curves = vec![curve(0, "error", &change)];
         panels
             .push(Panel { quantity: "energy − start".to_owned(), unit: "J".to_owned(), curves });
     }
@@ -51,15 +52,16 @@ pub fn motion_figure(
 #[must_use]
 pub fn contributions_figure(robot: &Robot, contributions: &TorqueContributions) -> Figure {
     let panel = |(index, kind): (usize, JointKind)| {
-        let curve = |(name, series): (&str, &Vec<Vec<f64>>)| Curve {
+        let curve = |(color, (name, series)): (usize, (&str, &Vec<Vec<f64>>))| Curve {
             name: name.to_owned(),
             values: entries(series, index),
             is_sum: name == "total",
+            color,
         };
         Panel {
             quantity: name(JointVariable::Torque, Some(index)),
             unit: JointVariable::Torque.unit(kind).to_owned(),
-            curves: contributions.titled().into_iter().map(curve).collect(),
+            curves: contributions.titled().into_iter().enumerate().map(curve).collect(),
         }
     };
     let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind).enumerate();
@@ -81,6 +83,7 @@ fn by_unit(
             name: name(variable, Some(index)),
             values: entries(samples, index),
             is_sum: false,
+            color: index,
         };
         let curves: Vec<Curve> = numbers.map(curve).collect();
         let quantity = format!("{quantity} {}", name(variable, None));

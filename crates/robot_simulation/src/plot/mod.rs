@@ -8,6 +8,7 @@ mod draw;
 mod figures;
 mod letters;
 mod simplify;
+mod strokes;
 
 use plotters::backend::{BitMapBackend, SVGBackend};
 use plotters::drawing::IntoDrawingArea;
@@ -50,6 +51,8 @@ pub struct Curve {
     pub values: Vec<f64>,
     /// Whether the curve is the sum of the others, which is drawn in black.
     pub is_sum: bool,
+    /// The number of the color: curves of one coordinate or cause have the same in all panels.
+    pub color: usize,
 }
 
 /// The factor by which figures are drawn larger than they are shown, because coordinates are integers.
