@@ -93,7 +93,7 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
 
     /// The range ends below the limit, and only angles count.
     #[test]
-    fn the_limit_is_out_of_range_and_lengths_are_no_angles() {
+    fn the_limit_is_out_of_range_and_lengths_are_not_angles() {
         let why = |q: [f64; 2]| too_large_angle(&arm(), &q, Polynomial);
         let below = LIMIT.next_down();
         assert_eq!([why([below, 0.0]), why([0.0, -below])], [None, None]);

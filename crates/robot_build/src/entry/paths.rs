@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_robot_file_has_its_reason() {
+    fn what_is_not_a_robot_file_has_its_reason() {
         let reason = |path: &Path| RobotFile::read(path).unwrap_err().to_string();
         assert!(reason(Path::new("")).contains("the path of a robot file is empty"));
         assert!(reason(&std::env::temp_dir()).contains("it is a folder; name a robot file"));

@@ -192,9 +192,9 @@ fn everything_that_is_wrong_is_said_at_once() {
     assert_eq!(lines.len(), 4);
 }
 
-/// A text that is no list of states is told beside a wrong option, and in place of what was wrong with its states.
+/// A text that is not a list of states is told beside a wrong option, and in place of what was wrong with its states.
 #[test]
-fn what_is_no_list_of_states_is_told_with_wrong_options() {
+fn what_is_not_a_list_of_states_is_told_with_wrong_options() {
     let path = crate::folder("eval-no-states").join("states.json");
     std::fs::write(&path, r#"[{"q": [1]}, {"q": [1, 2, 3]} oops"#).unwrap();
     let (file, path) = (robot("planar_2r"), path.to_str().unwrap());
@@ -427,7 +427,7 @@ fn a_wrench_of_0_by_default_is_noted() {
     }
 }
 
-/// Numbers are no arrays, in JSON and in the header of CSV.
+/// Numbers are not arrays, in JSON and in the header of CSV.
 #[test]
 fn energies_are_numbers() {
     let file = robot("planar_2r");

@@ -101,7 +101,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn streams_of_the_process_are_no_files() {
+    fn streams_of_the_process_are_not_files() {
         for path in [
             "/dev/stdin",
             "/dev/stdout",
