@@ -40,12 +40,9 @@ impl TorqueContributions {
     #[must_use]
     pub fn functions(friction: bool, wrench: bool) -> Vec<FunctionKind> {
         use FunctionKind as Kind;
-        let mut kinds = vec![Kind::MassMatrix, Kind::Bias, Kind::Gravity];
+        let mut kinds = vec![Kind::MassMatrix, Kind::Bias];
         if friction || wrench {
-            kinds.push(Kind::InverseDynamics(Effects::NONE));
-        }
-        if wrench {
-            kinds.push(Kind::InverseDynamics(Effects::WRENCH));
+            kinds.push(Kind::InverseDynamics(Effects { friction: false, wrench }));
         }
         if friction {
             kinds.push(Kind::InverseDynamics(Effects { friction, wrench }));
@@ -162,6 +159,8 @@ impl Motion<'_> {
         Ok(handle.states(self.trajectory.t.len(), inputs)?)
     }
 
+    /// The contributions at all times. Each difference is one of the same function, at rest or without a wrench, so that
+    /// it is exactly 0 where nothing acts; only that of friction is one of two functions.
     fn contributions(&self, friction: bool) -> Result<TorqueContributions, Error> {
         use FunctionKind as Kind;
         let Trajectory { t, q, qd, qdd, wrenches } = self.trajectory;
@@ -172,7 +171,8 @@ impl Motion<'_> {
         let matrices = self.series(Kind::MassMatrix, &motion[..1])?;
         let inertia: Series =
             matrices.iter().zip(qdd).map(|(matrix, qdd)| product(matrix, qdd)).collect();
-        let gravity = self.series(Kind::Gravity, &motion[..1])?;
+        let at_rest = zeros(qd);
+        let gravity = self.series(Kind::Bias, &[motion[0], (Velocity.name(), &at_rest)])?;
         let coriolis = differences(&self.series(Kind::Bias, &motion[..2])?, &gravity);
         let wrench = wrenches.is_some();
         let of = |friction| Kind::InverseDynamics(Effects { friction, wrench });
@@ -182,8 +182,12 @@ impl Motion<'_> {
         };
         let friction = friction.then(|| self.series(of(true), &loaded)).transpose()?;
         let friction = friction.map(|with| differences(&with, &without));
-        let unloaded = wrench.then(|| self.series(Kind::InverseDynamics(Effects::NONE), &motion));
-        let wrench = unloaded.transpose()?.map(|unloaded| differences(&without, &unloaded));
+        let zero_loads: Vec<Series> = self.loads.iter().map(|(_, wrench)| zeros(wrench)).collect();
+        let zero_loads = self.loads.iter().zip(&zero_loads);
+        let zero_loads = zero_loads.map(|((name, _), wrench)| (name.as_str(), wrench.as_slice()));
+        let unloaded: Vec<(&str, &[Vec<f64>])> = motion.into_iter().chain(zero_loads).collect();
+        let unloaded = wrench.then(|| self.series(of(false), &unloaded)).transpose()?;
+        let wrench = unloaded.map(|unloaded| differences(&without, &unloaded));
         let mut contributions = TorqueContributions {
             t: t.clone(),
             total: vec![],
@@ -205,6 +209,11 @@ impl Motion<'_> {
 fn product(matrix: &[f64], qdd: &[f64]) -> Vec<f64> {
     let rows = matrix.chunks(qdd.len().max(1));
     rows.map(|row| row.iter().zip(qdd).map(|(m, qdd)| m * qdd).sum()).collect()
+}
+
+/// Samples of the same lengths, all 0.
+fn zeros(samples: &[Vec<f64>]) -> Series {
+    samples.iter().map(|sample| vec![0.0; sample.len()]).collect()
 }
 
 /// The differences a − b at all times.

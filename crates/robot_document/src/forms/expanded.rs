@@ -58,7 +58,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let (title, introduction) = match writer.options.form {
         Form::Collected => (
             "Equations of motion, collected",
-            "Common factors stand in front of parentheses. Each equation is equal to its expanded form, term by term.",
+            "Each joint torque is one formula, with common factors in front of parentheses. Multiplied out, it is the expanded form, term by term.",
         ),
         _ if !writer.options.order.is_empty() => (
             "Equations of motion, expanded",

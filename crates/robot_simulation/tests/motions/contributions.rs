@@ -157,6 +157,19 @@ fn all_contributions_add_up() {
     assert!(header.starts_with("t,tau1,tau2,tau3,tau4,tau5,inertia1,"), "{header}");
 }
 
+/// Without velocity there is no Coriolis torque, and without force none of a wrench: not even one of rounding.
+#[test]
+fn what_does_not_act_has_no_torque() {
+    let programs = compiled(&robot_file("puma560"), false, true);
+    let rest = ["q1 = 0.3", "q2 = -0.7", "q3 = 1.1", "q4 = 0.2", "q5 = 0.9", "q6 = -0.4", "fx = 0"];
+    let trajectory = Trajectory::from_expressions(&programs.robot, &[], &rest, 1.0, 0.5).unwrap();
+    let found = torque_contributions(&programs, &[], &trajectory, false).unwrap();
+    for series in [&found.coriolis, &found.inertia, found.wrench.as_ref().unwrap()] {
+        assert!(series.iter().flatten().all(|torque| *torque == 0.0), "{series:?}");
+    }
+    assert!(found.gravity.iter().flatten().any(|torque| torque.abs() > 1.0));
+}
+
 /// The contributions for a pendulum are known: m l²/3 q̈, 0, m g l/2 cos q.
 #[test]
 fn expressions_are_differentiated() {
