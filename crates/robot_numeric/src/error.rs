@@ -31,7 +31,7 @@ pub enum NumericError {
     #[error("no such mechanism: {}", listed(.0))]
     Mechanism(Vec<Fault>),
     /// The mechanism cannot be evaluated at nominal values, because these parameters have none.
-    #[error("`{}` has no nominal value", .0.join("`, `"))]
+    #[error("no nominal value is given for `{}`", .0.join("`, `"))]
     WithoutValues(Vec<String>),
     /// Arguments have the wrong length: all of them.
     #[error("{}", listed(.0))]

@@ -59,8 +59,8 @@ pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
         (of_pass(pass.pass).into(), counts, None)
     });
     let caption = format!(
-        "Operations of {function} after each step of its generation, apart from sines and cosines. Repeated steps run \
-         until none saves an operation."
+        "Operations of {function} after each step of its generation, apart from sines and cosines. Some steps run \
+         several times."
     );
     Some(counted(&caption, ["After", ""], rows.collect()))
 }

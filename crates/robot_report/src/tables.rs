@@ -67,13 +67,13 @@ pub(crate) fn dh<'r>(
 const fn displacements(convention: DhConvention) -> &'static str {
     match convention {
         DhConvention::Standard => {
-            "The Denavit-Hartenberg frame i of a link is reached from that of its parent, i − 1, by rotating about z by \
-             θ, translating along z by d, translating along x by a and rotating about x by α; joint i moves about or \
+            "The Denavit-Hartenberg frame i of a link is reached from that of its parent link, written i − 1, by rotating \
+             about z by θ, translating along z by d, translating along x by a and rotating about x by α; joint i moves about or \
              along z of frame i − 1."
         }
         DhConvention::Modified => {
-            "The frame i of a link is reached from that of its parent, i − 1, by rotating about x by α, translating \
-             along x by a, rotating about z by θ and translating along z by d; joint i moves about or along z of frame \
+            "The frame i of a link is reached from that of its parent link, written i − 1, by rotating about x by α, \
+             translating along x by a, rotating about z by θ and translating along z by d; joint i moves about or along z of frame \
              i."
         }
     }

@@ -133,8 +133,9 @@ mod tests {
 
     #[test]
     fn a_plan_is_searched_once_and_only_if_none_is_given() {
-        let text = include_str!("../../../../robots/planar_2r.toml");
-        let robot = description::read("planar_2r.toml", text).unwrap().robot;
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/planar_2r.toml");
+        let text = std::fs::read_to_string(path).unwrap();
+        let robot = description::read("planar_2r.toml", &text).unwrap().robot;
         let usual = Options { fused: true, ..Options::default() };
         assert_eq!(planned(&robot, &usual), usual);
         let searching = Options { search: true, ..usual.clone() };

@@ -48,7 +48,7 @@ fn a_parameter_without_a_value_is_named() {
     let path = folder("diff_value").join("unknown.toml");
     std::fs::write(&path, text.replace("m2 = { value = 3.0,", "m2 = {")).unwrap();
     let shown = run(&["diff", &robot("planar_2r"), path.to_str().unwrap(), "--states", "5"]).output;
-    assert!(shown.contains("`m2` has no nominal value\n"), "{shown}");
+    assert!(shown.contains("no nominal value is given for `m2`\n"), "{shown}");
 }
 
 #[test]

@@ -255,7 +255,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             // Named parts of the expression cancel each other.
             value = arranged_value(&shorter, self.named.graph);
             terms = shorter;
-            if self.is_economical && is_product_of_two(&terms) {
+            if self.is_economical && is_short_product(&terms) {
                 self.named.replace(expr, value);
                 return Ok(());
             }
@@ -346,9 +346,9 @@ fn unfolded<'h>(
     Some(short_terms(writer, value))
 }
 
-/// Whether the terms are one product of two symbols, sines or cosines, possibly with a minus sign; it is as easy to
-/// read as a name.
-fn is_product_of_two(terms: &[ArrangedTerm<'_>]) -> bool {
+/// Whether the terms are one product of at most two symbols, sines or cosines, possibly with a minus sign; it is as
+/// easy to read as a name.
+fn is_short_product(terms: &[ArrangedTerm<'_>]) -> bool {
     let [ArrangedTerm { coefficient, factors, .. }] = terms else { return false };
     let is_plain = |(factor, exponent): &(ArrangedFactor<'_>, i32)| {
         factor.as_atom().is_some() && *exponent > 0
@@ -375,7 +375,8 @@ fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> 
 mod tests {
     use crate::{EquationOptions, Form, equations};
 
-    /// Of the Stanford arm, sin q₂ q̈₁ and q̇₁² were x₁₃ = −2 cos q₂ q̇₁ q̇₂ + x₈ and x₁₄ = cos² q₂ q̇₁² + x₉ − q̇₂².
+    /// For the Stanford arm, sin q₂ q̈₁ must not be printed as −2 cos q₂ q̇₁ q̇₂ + x, where x is defined as
+    /// 2 cos q₂ q̇₁ q̇₂ + sin q₂ q̈₁.
     #[test]
     fn named_parts_that_cancel_are_not_used() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../robots/stanford.toml");

@@ -87,7 +87,7 @@ const MOMENTS: &str = "In the names of base parameters, SXX is the second moment
     of the same name.";
 
 /// The explanation of the name of a friction that is the same in both directions.
-const UNITED: &str = "FC is a constant friction that is the same forward and backward.";
+const UNITED: &str = "FC is constant dry friction that is the same in both directions.";
 
 /// The places of the forward and backward friction of each joint at which these are equal, so that one term with the
 /// sign of the velocity stands for both: ½ f (s² + s) + ½ f (s − s²) = f s.
@@ -150,10 +150,11 @@ fn definitions<'g>(
     let mut symbols = vec![];
     let mut has_united = false;
     for (place, pair) in found.base.iter().zip(values).enumerate() {
-        let is_one = |side: fn(&(usize, usize)) -> usize| equal.iter().any(|it| side(it) == place);
-        symbols.push(if !is_used(&pair) || is_one(|pair| pair.1) {
+        let is_backward = equal.iter().any(|(_, backward)| *backward == place);
+        let stands_for_both = equal.iter().any(|(forward, _)| *forward == place);
+        symbols.push(if !is_used(&pair) || is_backward {
             None
-        } else if is_one(|pair| pair.0) {
+        } else if stands_for_both {
             let known = equations.len();
             let symbol = united_friction(writer, pair.0.kept.link, pair.1, &mut equations)?;
             has_united |= equations.len() > known;

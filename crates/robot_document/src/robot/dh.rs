@@ -80,7 +80,7 @@ fn displacements(convention: DhConvention) -> Block {
     Block::Paragraph(vec![
         Inline::text(frames),
         Inline::Math(Math::Letter('i')),
-        Inline::text(" of a link is reached from that of its parent link, "),
+        Inline::text(" of a link is reached from that of its parent link, written "),
         Inline::Math(parent()),
         Inline::text(", by "),
         Inline::Math(Math::Row(moves)),

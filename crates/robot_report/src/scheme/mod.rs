@@ -2,8 +2,7 @@
 //! their axes, offsets as dimension lines, and links with their names.
 //!
 //! `layout` places the robot at q = 0 on the page, `view` chooses the direction from which it is seen, `symbols` draws
-//! the symbols, and `writing` writes dimensions and labels, and `labels`
-//! finds space for them.
+//! the symbols, `writing` writes dimensions and labels, and `labels` finds space for them.
 
 mod draw;
 mod labels;

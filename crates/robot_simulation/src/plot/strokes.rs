@@ -29,8 +29,10 @@ pub(super) const COLORS: usize = 6;
 const AGAIN: [Dashes; 2] =
     [Dashes { length: 8.0, period: 12.0 }, Dashes { length: 3.0, period: 4.5 }];
 
-/// The distance between the dashes of curves that lie on another curve.
+/// The distance between the beginnings of the dashes of curves that lie on another curve, and what is added to it each
+/// time that a color occurs again.
 const PERIOD: f64 = 16.0;
+const LONGER: f64 = 8.0;
 /// The number of curves on each other that have different dashes; further ones have those of the last.
 const LAYERS: i32 = 4;
 /// The distance within which one curve hides another, in px.
@@ -63,9 +65,9 @@ pub(super) fn strokes(
         let dashes = match (layer, again) {
             (0, 0) => None,
             (0, again) => AGAIN.get((again - 1).min(AGAIN.len() - 1)).copied(),
-            (layer, _) => {
-                let length = PERIOD / 2_f64.powi(layer.min(LAYERS));
-                Some(Dashes { length, period: PERIOD })
+            (layer, again) => {
+                let period = PERIOD + LONGER * again as f64;
+                Some(Dashes { length: period / 2_f64.powi(layer.min(LAYERS)), period })
             }
         };
         Stroke { color: curve.color % COLORS, is_sum: curve.is_sum, dashes }
@@ -73,7 +75,7 @@ pub(super) fn strokes(
     (curves.iter().zip(layers).map(stroke).collect(), order)
 }
 
-/// Whether a curve, drawn solid, would hide another for a part of the time.
+/// Whether a curve, drawn solid, would hide another for more than [`SHARE`] of the time.
 fn hides(t: &[f64], curve: &Curve, other: &Curve, axis: &Axis, up: f64) -> bool {
     let is_near = |index: usize| match (curve.values.get(index), other.values.get(index)) {
         (Some(one), Some(other)) => (axis.scaled(*one) - axis.scaled(*other)).abs() * up <= NEAR,
@@ -151,6 +153,10 @@ mod tests {
         assert_eq!(lengths(&three), [None, None, Some(8.0)]);
         let same = [0, 1, 2].map(|color| curve(color, &low, false));
         assert_eq!(lengths(&same), [None, Some(8.0), Some(4.0)]);
+        // Where a color occurs again, the dashes are others.
+        let again = [curve(0, &low, false), curve(1, &low, false), curve(7, &low, false)];
+        let again = [&again[..], &[curve(2, &high, false), curve(7, &high, false)]].concat();
+        assert_eq!(lengths(&again), [None, Some(8.0), Some(6.0), None, Some(12.0)]);
     }
 
     #[test]

@@ -134,7 +134,7 @@ fn has_force(name: &str, text: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// What leaves the dynamics as they are says nothing: a reduction of 1, a motor without inertia.
+    /// Elements that do not affect the dynamics are not reported: a reduction of 1, a motor without inertia.
     #[test]
     fn gears_and_motors_that_act_are_told_from_those_that_do_not() {
         for name in ["mechanicalReduction", "mechanical_reduction"] {
