@@ -176,3 +176,45 @@ fn commented(
 ) -> Result<String, robot_document::Error> {
     Ok(format!("{start}{MARKER}{end}\n{}", document?))
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_document::document::NumberedEquation;
+    use robot_document::forms::Equation;
+    use robot_document::math::Math;
+
+    use super::*;
+
+    /// The messages about a document that has lists of so many equations.
+    fn note(lengths: &[usize], forms: &[Form]) -> String {
+        let [left, right] = [Math::Letter('a'), Math::Letter('b')];
+        let equation = Equation { name: "a".to_owned(), text: "b".to_owned(), left, right };
+        let one = NumberedEquation { label: None, number: None, equation };
+        let lists = lengths.iter().map(|length| Block::Equations(vec![one.clone(); *length]));
+        let document = Document { title: String::new(), blocks: lists.collect() };
+        let mut errors = vec![];
+        let mut terminal = Terminal {
+            input: &mut std::io::empty(),
+            output: &mut std::io::sink(),
+            errors: &mut errors,
+            colors: false,
+            progress: false,
+            screen: None,
+        };
+        assert!(note_length(&document, forms, &mut terminal).is_ok());
+        String::from_utf8(errors).unwrap()
+    }
+
+    #[test]
+    fn shorter_forms_are_named_above_the_longest_document_and_not_at_it() {
+        let grouped = [Form::Expanded, Form::Grouped];
+        for lengths in [&[LONG][..], &[LONG - 1, 1], &[]] {
+            assert_eq!(note(lengths, &grouped), "", "{lengths:?}");
+        }
+        for lengths in [&[LONG + 1][..], &[1, LONG]] {
+            let start = format!("note: the document has {} equations; ", LONG + 1);
+            assert!(note(lengths, &grouped).starts_with(&start), "{lengths:?}");
+        }
+        assert_eq!(note(&[LONG + 1], &[Form::Expanded]), "");
+    }
+}

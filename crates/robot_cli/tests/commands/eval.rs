@@ -4,7 +4,7 @@ use robot_model::description::read_toml;
 use robot_numeric::{Loads, Mechanism, Wrench};
 use serde_json::{Value, json};
 
-use crate::{WRIST, complaint, output, robot, run_with};
+use crate::{WRIST, complaint, folder, output, robot, run_with};
 
 /// The numeric mechanism of a robot with some parameters changed.
 fn mechanism(name: &str, settings: &[(&str, f64)]) -> Mechanism {
@@ -398,6 +398,43 @@ fn wrong_states_on_the_command_line_are_told_with_their_place() {
         scara.contains("entry 3, q3: `90deg` is an angle, and the joint is prismatic"),
         "{scara}"
     );
+}
+
+#[test]
+fn each_tip_has_one_wrench_on_the_command_line() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let two = "[[tip]]\nname = \"left\"\nparent = \"1\"\n\n[[tip]]\nname = \"right\"\n";
+    let file = folder("eval-tips").join("two.toml");
+    std::fs::write(&file, text.replace("[tip]\n", two)).unwrap();
+    let (one, two) = (robot("planar_2r"), file.display().to_string());
+    let rest = ["--function", "inverse_dynamics", "--q=0,0", "--qd=0,0", "--qdd=0,0"];
+    let arguments = |file: &str, wrenches: &[&str]| -> Vec<String> {
+        let wrenches = wrenches.iter().map(|wrench| format!("--wrench={wrench}"));
+        ["eval", file].into_iter().chain(rest).map(str::to_owned).chain(wrenches).collect()
+    };
+    let run = |file: &str, wrenches: &[&str]| {
+        let arguments = arguments(file, wrenches);
+        run_with(&arguments.iter().map(String::as_str).collect::<Vec<_>>(), b"")
+    };
+    let (left, right) = ("left=0,10,0,0,0,0", "right=0,20,0,0,0,0");
+    let both = run(&two, &[left, right]);
+    assert_eq!((both.code, both.errors.as_str()), (0, ""));
+    assert_eq!(run(&two, &[right, left]).output, both.output);
+    for (file, wrenches, message) in [
+        (&one, &["0,1,0,0,0,0"; 2][..], "--wrench: `wrench` is given twice"),
+        (&two, &[left, right, left], "--wrench: `wrench_left` is given twice"),
+        (&two, &[right, left, "right=0,20,0,0,0,0"], "--wrench: `wrench_right` is given twice"),
+        (
+            &two,
+            &["0,1,0,0,0,0"],
+            "--wrench: the robot has several tips; write TIP=FX,FY,FZ,MX,MY,MZ for one of left, right",
+        ),
+    ] {
+        let done = run(file, wrenches);
+        let lines: Vec<&str> = done.errors.lines().collect();
+        assert_eq!((done.code, done.output.as_str()), (2, ""), "{wrenches:?}");
+        assert_eq!(lines, [format!("error: {message}")], "{wrenches:?}");
+    }
 }
 
 #[test]

@@ -331,6 +331,21 @@ mod unix {
             assert!(folder.names().is_empty(), "{:?}", folder.names());
         }
     }
+
+    /// A virtual file looks regular; no text and no force makes it one that can be replaced.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_system_file_is_refused_by_any_of_its_names() {
+        let folder = Folder::new("system");
+        let link = folder.path("status.rs");
+        symlink("/proc/self/status", &link).unwrap();
+        for path in [Path::new("/proc/self/status"), &link] {
+            for force in [false, true] {
+                let written = Writer::new().force(force).write(&[output(path, NEW)]);
+                assert!(message(written).contains("it is a system file"), "{path:?} {force}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -74,9 +74,8 @@ impl Arguments {
         let robot = self.robot.read(terminal)?.robot;
         let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
-        let code = Options { fused: self.fused, snap: self.robot.snap(), ..Options::default() };
         let find = || match self.tune {
-            true => tune::search(&robot, (&options, measure), &code),
+            true => tune::search(&robot, (&options, measure), &self.code_options()),
             false => Ok(search(&robot, &options, measure).map(|found| (found, vec![]))),
         };
         let Some((found, times)) = watched("searching", terminal, find)? else {
@@ -100,6 +99,11 @@ impl Arguments {
             writeln!(terminal.output, "\npinned in {}", shown(&path))?;
         }
         Ok(())
+    }
+
+    /// The options of the code that `--tune` times.
+    fn code_options(&self) -> Options {
+        Options { fused: self.fused, snap: self.robot.snap(), ..Options::default() }
     }
 
     /// Sets the modification time of the robot file to now. Builds watch this file, because a plan did not exist
@@ -224,5 +228,27 @@ const fn moment_of(entry: Entry) -> &'static str {
         Entry::Xz => "Sxz",
         Entry::Yz => "Syz",
         Entry::XxYy => "Sxx-Syy",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::{Command, FromArgMatches};
+
+    use super::*;
+
+    #[test]
+    fn the_code_that_is_timed_has_the_options_of_the_search() {
+        for (more, expected) in [
+            (&[][..], Options::default()),
+            (&["--fused"], Options { fused: true, ..Options::default() }),
+            (&["--snap", "0.01"], Options { snap: Some(0.01), ..Options::default() }),
+        ] {
+            let line = [&["search", "arm.toml", "--tune"], more].concat();
+            let command = Arguments::augment_args(Command::new("search"));
+            let matches = command.try_get_matches_from(line).unwrap();
+            let arguments = Arguments::from_arg_matches(&matches).unwrap();
+            assert_eq!(arguments.code_options(), expected, "{more:?}");
+        }
     }
 }
