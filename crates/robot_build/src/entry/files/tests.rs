@@ -332,7 +332,7 @@ mod unix {
         }
     }
 
-    /// A virtual file looks regular; no text and no force makes it one that can be replaced.
+    /// A file in /proc looks regular, but is refused even with force.
     #[test]
     #[cfg(target_os = "linux")]
     fn a_system_file_is_refused_by_any_of_its_names() {
