@@ -93,7 +93,7 @@ fn parameters_can_be_set() {
 /// A pendulum whose mass and length have no value in the file.
 #[test]
 fn parameters_without_a_value_have_to_be_set() {
-    let file = crate::folder("parameters_without_a_value").join("arm.toml");
+    let file = folder("parameters_without_a_value").join("arm.toml");
     let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nm = {}\nl = {}\n[[link]]\n\
         name = \"rod\"\nmass = \"m\"\ncenter_of_mass = [\"l\", 0, 0]\n\
         inertia = { xx = 0, yy = 0, zz = 0 }\njoint = { type = \"revolute\", axis = \"y\" }\n";
@@ -195,7 +195,7 @@ fn everything_that_is_wrong_is_said_at_once() {
 /// A text that is not a list of states is told beside a wrong option, and in place of what was wrong with its states.
 #[test]
 fn what_is_not_a_list_of_states_is_told_with_wrong_options() {
-    let path = crate::folder("eval-no-states").join("states.json");
+    let path = folder("eval-no-states").join("states.json");
     std::fs::write(&path, r#"[{"q": [1]}, {"q": [1, 2, 3]} oops"#).unwrap();
     let (file, path) = (robot("planar_2r"), path.to_str().unwrap());
     let eval = ["eval", &file, "--function", "gravity", "--states", path, "--set", "m9=1"];
@@ -214,7 +214,7 @@ fn a_robot_without_a_tip_takes_no_wrench() {
     let file = robot("planar_3r");
     let text = std::fs::read_to_string(&file).unwrap();
     let (without_tip, _) = text.split_once("[tip]").unwrap();
-    let path = crate::folder("eval-no-tip").join("arm.toml");
+    let path = folder("eval-no-tip").join("arm.toml");
     std::fs::write(&path, without_tip).unwrap();
     let zero = [0.0; 3];
     let arguments =
@@ -251,7 +251,7 @@ fn wrong_arguments_are_usage_errors() {
 #[test]
 fn functions_of_a_frame_are_called_by_their_names() {
     let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
-    let path = crate::folder("eval-frames").join("arm.toml");
+    let path = folder("eval-frames").join("arm.toml");
     assert!(text.contains("[tip]"));
     let frame = "\n[[frame]]\nname = \"elbow\"\nparent = \"1\"\n";
     std::fs::write(&path, format!("{text}{frame}")).unwrap();
@@ -273,7 +273,7 @@ fn functions_of_a_frame_are_called_by_their_names() {
 #[test]
 fn bundles_of_the_file_are_called_by_their_names() {
     let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
-    let path = crate::folder("eval-bundles").join("arm.toml");
+    let path = folder("eval-bundles").join("arm.toml");
     let code = "\n[code]\nbundles = { both = [\"mass_matrix\", \"bias\"] }\n";
     std::fs::write(&path, format!("{text}{code}")).unwrap();
     let states = json!([{"q": [0.3, 0.5], "qd": [1, 2]}]).to_string();
@@ -316,7 +316,7 @@ fn a_nearly_singular_mass_matrix_is_reported() {
 /// The reason is that of the robot with the parameters that are set, and the nominal values of the others.
 #[test]
 fn a_set_parameter_that_makes_the_mass_matrix_singular_is_the_reason() {
-    let file = crate::folder("eval-set-singular").join("arm.toml");
+    let file = folder("eval-set-singular").join("arm.toml");
     let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nm = 2\nl = 3\n[[link]]\n\
         name = \"rod\"\nmass = \"m\"\ncenter_of_mass = [\"l - 1\", 0, 0]\n\
         inertia = { xx = 0, yy = 0, zz = 0 }\njoint = { name = \"swing\", type = \"revolute\", axis = \"z\" }\n";
