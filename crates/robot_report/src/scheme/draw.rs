@@ -7,7 +7,7 @@ use robot_document::robot::words;
 use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::{JointKind, Robot};
 
-use super::labels::{Rectangle, Room};
+use super::labels::{Rectangle, Room, distance};
 use super::layout::{BASE, Layout, Place, Segment};
 use super::shape::{Group, Shape, arrow, group, line};
 use super::style::Style;
@@ -210,13 +210,9 @@ impl<'r> Drawing<'r> {
     /// How deeply a point is covered by a link.
     fn covered(&self, point: Point) -> f64 {
         let segments = self.places().flat_map(|place| &place.path);
-        let distance = |segment: &Segment| {
-            let [from, to] = segment.ends.each_ref().map(|end| self.view.point(end));
-            let along = to - from;
-            let part = (point - from).dot(&along) / along.norm_squared().max(1e-9);
-            (point - from - along * part.clamp(0.0, 1.0)).norm()
-        };
-        segments.map(|segment| (COVERING - distance(segment)).max(0.0)).fold(0.0, f64::max)
+        let ends = |segment: &Segment| segment.ends.each_ref().map(|end| self.view.point(end));
+        let depth = |segment| (COVERING - distance(point, &ends(segment))).max(0.0);
+        segments.map(depth).fold(0.0, f64::max)
     }
 
     fn description(&self) -> String {

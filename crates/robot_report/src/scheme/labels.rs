@@ -230,7 +230,7 @@ fn conflict(place: &Candidate, others: &[Candidate]) -> f64 {
 }
 
 /// The distance of a point from a line between two others.
-fn distance(point: Point, [from, to]: &[Point; 2]) -> f64 {
+pub(super) fn distance(point: Point, [from, to]: &[Point; 2]) -> f64 {
     let along = to - from;
     let part = (point - from).dot(&along) / along.norm_squared().max(1e-9);
     (point - from - along * part.clamp(0.0, 1.0)).norm()
