@@ -122,6 +122,18 @@ mod tests {
         joint = { type = \"revolute\", axis = \"y\" }\nmass = 2\n\
         center_of_mass = [0.5, 0, 0]\ninertia = { xx = 0, yy = 0, zz = 0 }\n";
 
+    fn found(plan: Plan) -> Found {
+        Found {
+            plan,
+            measure: Measure::Operations,
+            operations: 7,
+            instructions: 5,
+            tried: 1,
+            cut_short: false,
+            tuned: false,
+        }
+    }
+
     #[test]
     fn a_robot_file_and_the_urdf_it_comes_from_have_pins_of_their_own() {
         let pin = |robot: &str| pin_path(Path::new(robot));
@@ -139,15 +151,7 @@ mod tests {
         std::fs::write(&path, ROBOT).unwrap();
         let file = RobotFile::read(&path).unwrap();
         let robot = crate::read(&file.source).unwrap().robot;
-        let found = Found {
-            plan: Plan::default_for(&robot),
-            measure: Measure::Operations,
-            operations: 7,
-            instructions: 5,
-            tried: 1,
-            cut_short: false,
-            tuned: false,
-        };
+        let found = found(Plan::default_for(&robot));
         let text = pin_text(&robot, &found);
         let pinned = |text: &str| {
             std::fs::write(pin_path(&path), text).unwrap();
@@ -179,15 +183,7 @@ mod tests {
 
         let robot = crate::read(&file.source).unwrap().robot;
         let plan = Plan { unit_length: Some((0, 1)), ..Plan::default_for(&robot) };
-        let found = Found {
-            plan: plan.clone(),
-            measure: Measure::Operations,
-            operations: 7,
-            instructions: 5,
-            tried: 1,
-            cut_short: false,
-            tuned: false,
-        };
+        let found = found(plan.clone());
         std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
         assert_eq!(file.with_pin(&options).unwrap().plan, Some(plan));
 

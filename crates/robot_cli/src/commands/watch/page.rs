@@ -103,7 +103,7 @@ fn marked<'a>(path: &Path, text: &'a str) -> Output<'a> {
 mod tests {
     use super::*;
 
-    /// The user is told about a picture that stays; one that is gone already, or is not the own one, is no error.
+    /// The user is told about a picture that stays; one that is gone already, or is not its own, is not an error.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_picture_that_cannot_be_removed_is_told() {
