@@ -3,7 +3,7 @@
 /// The most messages that are shown; further ones are only counted.
 const MAX_SHOWN: usize = 20;
 
-/// The first messages, and the number of all.
+/// The first messages, and how many there are.
 #[derive(Debug, Default)]
 pub(crate) struct Complaints {
     first: Vec<String>,

@@ -131,7 +131,7 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
         None => (None, None),
         Some(Ok(live)) => (Some(live), None),
         Some(Err(reason)) => {
-            let words = format!("This robot cannot be moved in the page: {reason}");
+            let words = format!("This robot cannot be moved on the page: {reason}");
             (None, Some(holding("p", words).class("note")))
         }
     };

@@ -356,11 +356,11 @@ fn pages_say_why_a_robot_cannot_be_moved() {
     let nameless = chain(2).replace("mass = 1\n", "mass = \"m\"\n");
     let nameless = nameless.replace("[robot]", "[parameters]\nm = { unit = \"kg\" }\n[robot]");
     for (text, reason) in [
-        (nameless, "parameters have no values in the file: m."),
+        (nameless, "the file has no value for m; give it a `value`."),
         (chain(26), "the limit is 80 kB."),
     ] {
         let page = page("chain.toml", &text);
-        assert!(page.contains("This robot cannot be moved in the page: ") && page.contains(reason));
+        assert!(page.contains("This robot cannot be moved on the page: ") && page.contains(reason));
         assert!(!page.contains("wasm-unsafe-eval") && !page.contains("data-live"));
     }
 }

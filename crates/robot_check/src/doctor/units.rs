@@ -87,10 +87,10 @@ fn wide(body: &BodyFacts<'_>, size: f64) -> Diagnostic {
     Diagnostic::warning(code::UNITS, message)
         .at(body.of_tensor(), format!("in {unit}?"))
         .and_at(body.of_mass(), format!("{} kg", significant(body.mass)))
-        .because(format!(
-            "this is the root-mean-square distance of the mass from the axis; for a rod of 10 m \
-             it is {WIDEST} m"
-        ))
+        .because(
+            "this is the root-mean-square distance of the mass from the center of mass; for a rod \
+             of 10 m it is 2.9 m",
+        )
         .help(format!("give moments of inertia in kg m^2: multiply values in {unit} by {factor:e}"))
 }
 

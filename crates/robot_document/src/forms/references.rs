@@ -1,4 +1,4 @@
-//! Coefficients that are written by earlier ones: b₁₂₂ = ½ b₁₁₂.
+//! Coefficients in terms of earlier ones: b₁₂₂ = ½ b₁₁₂.
 
 use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
@@ -17,7 +17,7 @@ const MAX_DEPTH: usize = 2;
 /// The number of differences from earlier coefficients that are written out to find the shortest.
 const MAX_TRIED: usize = 3;
 
-/// A coefficient by which others can be written.
+/// A coefficient in terms of which others can be written.
 struct Earlier<'g> {
     name: String,
     value: Polynomial<'g>,

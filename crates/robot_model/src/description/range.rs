@@ -79,7 +79,7 @@ impl Range<'_, '_> {
                 format!("the axis of `{joint}` has a component of {}", significant(largest));
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
-                    .at(at, "its square is outside the range of floating-point numbers")
+                    .at(at, "the square of an axis's length may overflow or underflow")
                     .help("give a direction with a length near 1"),
             );
         }

@@ -56,8 +56,8 @@ pub(crate) fn live(input: &Input<'_>, robot: &Robot) -> Result<Live, String> {
         .map(|parameter| parameter.name.as_str())
         .collect();
     if !lacking.is_empty() {
-        let names = lacking.join(", ");
-        return Err(format!("parameters have no values in the file: {names}."));
+        let (names, them) = (lacking.join(", "), if lacking.len() == 1 { "it" } else { "them" });
+        return Err(format!("the file has no value for {names}; give {them} a `value`."));
     }
     // These options make the page's results the same, to the last bit, as those of Rust code without options.
     let options = Options {

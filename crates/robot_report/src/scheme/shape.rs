@@ -50,9 +50,9 @@ pub(crate) struct Cylinder {
     pub(crate) turn: f64,
     /// Half the length on the page.
     pub(crate) half: f64,
-    /// The radius: the half axis of the end ellipses across the axis.
+    /// The radius: the semi-axis of the end ellipses across the axis.
     pub(crate) radius: f64,
-    /// The half axis of the end ellipses along the axis.
+    /// The semi-axis of the end ellipses along the axis.
     pub(crate) bulge: f64,
     /// Whether the visible end is the one in the direction of the axis.
     pub(crate) is_near: bool,

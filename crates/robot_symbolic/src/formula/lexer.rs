@@ -150,7 +150,7 @@ impl<'t> Lexer<'t> {
                 `1,5`",
             ),
             ',' => {
-                ("`,` has no meaning in a formula".to_owned(), "every function takes one argument")
+                ("`,` has no meaning in an expression".to_owned(), "every function takes one argument")
             }
             '·' | '×' | '∗' | '⋅' => (unknown(character), "write a product as `a*b`"),
             '÷' | '∕' => (unknown(character), "write a quotient as `a/b`"),
@@ -161,7 +161,7 @@ impl<'t> Lexer<'t> {
             '²' | '³' => (unknown(character), "write a power as `x^2`"),
             '√' => (unknown(character), "write a root as `sqrt(x)`"),
             '[' | ']' | '{' | '}' => (unknown(character), "use parentheses, `(` and `)`"),
-            '=' | '<' | '>' | '!' => (unknown(character), "a formula is one expression"),
+            '=' | '<' | '>' | '!' => (unknown(character), "an expression is a value, not a relation"),
             _ => (
                 unknown(character),
                 "names are ASCII letters, digits and `_`; the operators are + - * / ^ ( )",
@@ -172,7 +172,7 @@ impl<'t> Lexer<'t> {
 }
 
 fn unknown(character: char) -> String {
-    format!("`{}` has no meaning in a formula", character.escape_debug().collect::<String>())
+    format!("`{}` has no meaning in an expression", character.escape_debug().collect::<String>())
 }
 
 /// Whether the nearest `f64` is finite, and is 0 only for the number 0.

@@ -59,7 +59,7 @@ struct Parser<'t> {
 /// Parses a formula; see [`Formula::parse`].
 pub(super) fn parse(text: &str, names: Names) -> Result<Formula, ParseError> {
     if text.trim().is_empty() {
-        return Err(ParseError::new(0..text.len(), "expected a formula, found nothing")
+        return Err(ParseError::new(0..text.len(), "expected an expression, found nothing")
             .help("write a number such as `0.35` or an expression such as `l1 + l2/2`"));
     }
     let mut parser = Parser {

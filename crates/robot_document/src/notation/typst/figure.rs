@@ -90,7 +90,7 @@ mod tests {
     use super::*;
     use crate::document::Inline;
 
-    /// In a box without a width, Typst breaks a line at every space.
+    /// In a box of width 0, Typst breaks a line at every space.
     #[test]
     fn labels_are_as_wide_as_their_words() {
         let words = Inline::Text("0.4 m".to_owned());
