@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use robot_query::Error;
+use robot_query::log::{check_vacant, write_new};
 use robot_query::motion::{Excitation, excite, limits};
 
-use super::generate::positive;
-use super::{Engine, noise, written};
+use super::{Engine, noise, positive};
 
 /// Finds a periodic trajectory within the joint limits that determines the base parameters well
 ///
@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SPEED", default_value_t = 2.0, value_parser = positive)]
     speed: f64,
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
-    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "1")]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "1", value_parser = positive)]
     noise: Vec<f64>,
     /// The number of trajectories to try
     #[arg(long, value_name = "N", default_value_t = 1000)]
@@ -45,6 +45,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) fn run(&self, engine: &Engine) -> Result<(), Error> {
+        check_vacant(&self.output)?;
         let model = engine.robots()?.model(&self.robot)?;
         let joints = model.joints();
         let how = Excitation {
@@ -69,7 +70,7 @@ impl Arguments {
             row.iter().for_each(|value| text.push_str(&format!(",{value}")));
             text.push('\n');
         }
-        written(&self.output, text.as_bytes())?;
+        write_new(&self.output, text.as_bytes())?;
         eprintln!("condition {condition:.3}");
         Ok(())
     }

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use robot_query::Error;
 use robot_query::motion::{Generation, Layout, generate, limits};
 
-use super::{Engine, noise};
+use super::{Engine, noise, not_negative, positive};
 
 /// Writes a log of simulated measurements, of any size
 ///
@@ -34,7 +34,7 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "SPEED", default_value_t = 2.0, value_parser = positive)]
     speed: f64,
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
-    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "0")]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "0", value_parser = not_negative)]
     noise: Vec<f64>,
     /// The layout: a list for each variable, or a column for each variable and joint, which is faster to read
     #[arg(long, value_enum, default_value_t = Columns::Lists)]
@@ -61,13 +61,6 @@ fn count(text: &str) -> Result<u64, String> {
     let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     let is_count = (1.0..9e15).contains(&number) && number.fract() == 0.0;
     if is_count { Ok(number as u64) } else { Err("not a whole number above 0".to_owned()) }
-}
-
-/// A number above 0.
-pub(super) fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    let is_positive = number.is_finite() && number > 0.0;
-    if is_positive { Ok(number) } else { Err("not a number above 0".to_owned()) }
 }
 
 impl Arguments {

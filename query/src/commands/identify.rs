@@ -12,11 +12,11 @@ use datafusion::physical_plan::collect;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
 use robot_query::identify::{Estimate, Known, Prior};
-use robot_query::log::{Progress, check_row_count};
+use robot_query::log::{Progress, check_row_count, check_vacant, write_new};
 
 use super::Engine;
 use super::inputs::{Inputs, Opened, explained};
-use super::{noise, show, written};
+use super::{noise, not_negative, positive, show};
 
 /// Estimates the base parameters from measured torques, with their standard deviations
 ///
@@ -33,11 +33,11 @@ pub(super) struct Arguments {
     #[command(flatten)]
     inputs: Inputs,
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint [default: estimated]
-    #[arg(long, value_delimiter = ',', value_name = "NUMBERS")]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", value_parser = positive)]
     noise: Option<Vec<f64>>,
     /// Keep parameters near those of the robot file: the weight of its values relative to that of all rows of the
     /// log, such as 0.001
-    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0)]
+    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0, value_parser = not_negative)]
     ridge: f64,
     /// A known parameter: its value, by default that of the robot file, and its standard deviation, 0 to fix the
     /// parameter
@@ -54,6 +54,7 @@ pub(super) struct Arguments {
 
 impl Arguments {
     pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
+        self.output.iter().chain(&self.write_back).try_for_each(|path| check_vacant(path))?;
         let session = engine.session(engine.threads())?;
         let opened = self.inputs.open(&session).await?;
         let Some(estimate) = self.estimate(&session, &opened).await? else {
@@ -65,7 +66,7 @@ impl Arguments {
             eprintln!("warning: the measured torques are {unit}");
         }
         if let Some(path) = &self.output {
-            written(path, csv(&estimate).as_bytes())?;
+            write_new(path, csv(&estimate).as_bytes())?;
         }
         match &self.write_back {
             Some(path) => write_back(&estimate, &opened, path),
@@ -122,7 +123,7 @@ fn write_back(estimate: &Estimate, opened: &Opened, path: &Path) -> Result<(), E
     };
     show(&said)?;
     eprint!("{complaints}");
-    written(path, text.as_bytes())
+    write_new(path, text.as_bytes())
 }
 
 /// Shows the estimate as text.

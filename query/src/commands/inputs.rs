@@ -129,11 +129,21 @@ impl Opened {
     }
 
     /// The columns of the log that are kept beside a result: those that are named, otherwise all.
-    pub(super) fn kept(&self, columns: Option<&[String]>) -> Vec<Expr> {
-        let all =
-            || self.table.schema().fields().iter().map(|field| field.name().clone()).collect();
-        let names: Vec<String> = columns.map_or_else(all, <[String]>::to_vec);
-        names.into_iter().map(ident).collect()
+    ///
+    /// # Errors
+    ///
+    /// A column that the log does not have.
+    pub(super) fn kept(&self, columns: Option<&[String]>) -> Result<Vec<Expr>, Error> {
+        let fields = self.table.schema().fields();
+        let all: Vec<&str> = fields.iter().map(|field| field.name().as_str()).collect();
+        let Some(columns) = columns else { return Ok(all.into_iter().map(ident).collect()) };
+        match columns.iter().find(|column| !all.contains(&column.as_str())) {
+            Some(missing) => Err(Error::Columns(format!(
+                "--columns: the log has no column `{missing}`; its columns are {}",
+                all.join(", ")
+            ))),
+            None => Ok(columns.iter().map(ident).collect()),
+        }
     }
 
     /// The number of rows that a result must have, if the files state it.

@@ -13,7 +13,8 @@ mod torques;
 mod worker;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 use robot_query::Error;
@@ -59,7 +60,7 @@ struct Engine {
     friction: bool,
     /// Number of threads; with 1, the rows of one file stay in their order [default: one for each core]
     #[arg(long, global = true, help_heading = SHARED, value_name = "N")]
-    threads: Option<usize>,
+    threads: Option<NonZeroUsize>,
     /// The maximum memory of a query, MiB
     #[arg(long, global = true, help_heading = SHARED, value_name = "MIB", default_value_t = 1024)]
     memory: usize,
@@ -80,7 +81,7 @@ impl Engine {
 
     fn threads(&self) -> usize {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-        self.threads.unwrap_or_else(cores).max(1)
+        self.threads.map_or_else(cores, usize::from)
     }
 
     /// A session with this number of threads.
@@ -113,6 +114,20 @@ pub(crate) fn run() -> Result<(), Error> {
     })
 }
 
+/// A number above 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    let is_positive = number.is_finite() && number > 0.0;
+    if is_positive { Ok(number) } else { Err("not a number above 0".to_owned()) }
+}
+
+/// A number that is 0 or above.
+fn not_negative(text: &str) -> Result<f64, String> {
+    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    let is_allowed = number.is_finite() && number >= 0.0;
+    if is_allowed { Ok(number) } else { Err("not a number of at least 0".to_owned()) }
+}
+
 /// The noise of every joint, from one number or from one for each joint.
 fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
     match given {
@@ -123,17 +138,6 @@ fn noise(given: &[f64], joints: usize) -> Result<Vec<f64>, Error> {
             other.len()
         ))),
     }
-}
-
-/// Writes a file that does not exist yet.
-fn written(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let failed = |error: std::io::Error| Error::File {
-        path: path.to_owned(),
-        row_group: None,
-        reason: error.to_string(),
-    };
-    let mut file = std::fs::File::create_new(path).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)
 }
 
 /// Writes to standard output, whose reader may close it before the end.

@@ -9,12 +9,12 @@ use datafusion::logical_expr::Expr;
 use datafusion::prelude::ident;
 use robot_model::variable::JointVariable;
 use robot_query::Error;
-use robot_query::log::{Session, check_row_count};
+use robot_query::log::{Session, check_row_count, check_vacant, write_new};
 use robot_query::residual::{Residuals, Statistics, figure, statistics};
 
 use super::inputs::{Inputs, Opened, explained};
 use super::rows::Rows;
-use super::{Engine, show, written};
+use super::{Engine, show};
 
 /// Computes the residuals of measured torques: the measured torques minus those of the model, joint by joint
 ///
@@ -62,6 +62,7 @@ impl Arguments {
             };
             return rows.write(engine).await;
         }
+        self.plot.iter().try_for_each(|path| check_vacant(path))?;
         // A plot has the same bytes for any number of threads.
         let session = engine.session(if self.plot.is_some() { 1 } else { engine.threads() })?;
         let opened = self.inputs.open(&session).await?;
@@ -84,7 +85,7 @@ impl Arguments {
         let time = ident(self.time.as_str()).alias("t");
         let table = opened.table.clone().select(vec![residuals, time])?;
         let figure = figure(table, &opened.model).await.map_err(|error| opened.located(error))?;
-        written(path, figure.svg()?.as_bytes())
+        write_new(path, figure.svg()?.as_bytes())
     }
 }
 

@@ -42,7 +42,7 @@ impl Rows<'_> {
     }
 
     fn table(&self, session: &Session, opened: &Opened) -> Result<DataFrame, Error> {
-        let mut columns = opened.kept(self.columns);
+        let mut columns = opened.kept(self.columns)?;
         columns.push((self.column)(session, opened)?);
         Ok(opened.table.clone().select(columns)?)
     }

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use clap::Args;
 use datafusion::arrow::util::pretty::pretty_format_batches;
+use datafusion::execution::context::SQLOptions;
+use datafusion::prelude::DataFrame;
 use robot_query::Error;
-use robot_query::log::{Answer, Log, write};
+use robot_query::log::{Answer, Log, Session, write};
 
 use super::{Engine, show};
 
@@ -31,6 +33,19 @@ pub(super) struct Arguments {
     output: Option<PathBuf>,
 }
 
+/// The answer of a query, which only reads.
+async fn queried(session: &Session, query: &str) -> Result<DataFrame, Error> {
+    let plan = session.context.state().create_logical_plan(query).await?;
+    let options = SQLOptions::new().with_allow_ddl(false).with_allow_dml(false);
+    if options.with_allow_statements(false).verify_plan(&plan).is_err() {
+        return Err(Error::Query(
+            "only queries that read can be run, such as SELECT; -o writes the answer to a new file"
+                .to_owned(),
+        ));
+    }
+    Ok(session.context.execute_logical_plan(plan).await?)
+}
+
 impl Arguments {
     pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
         let session = engine.session(engine.threads())?;
@@ -43,7 +58,7 @@ impl Arguments {
             Some(log) => log.located(error),
             None => error,
         };
-        let table = session.context.sql(&self.query).await?;
+        let table = queried(&session, &self.query).await?;
         match &self.output {
             Some(path) => {
                 let rows = write(table, &Answer::at(path)?, None).await.map_err(located)?;

@@ -15,6 +15,7 @@ pub use check::{Finding, check};
 pub use files::Log;
 pub(crate) use files::reader;
 pub(crate) use place::{Place, empty_folder};
+pub use place::{check_vacant, write_new};
 pub use progress::Progress;
 pub use resume::{FileQuery, Resumed, resume};
 pub(crate) use session::runtime;

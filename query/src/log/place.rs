@@ -1,6 +1,7 @@
 //! Files and folders that are written completely or not at all.
 
 use std::fs::File;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
@@ -26,16 +27,40 @@ pub(crate) fn empty_folder(folder: &Path) -> Result<(), Error> {
     }
 }
 
+/// Refuses a path that is taken, before a long computation whose result would be written there.
+///
+/// # Errors
+///
+/// A path at which something exists.
+pub fn check_vacant(path: &Path) -> Result<(), Error> {
+    match std::fs::symlink_metadata(path) {
+        Err(_) => Ok(()),
+        Ok(found) if found.is_file() || found.is_dir() => {
+            Err(Error::file(path, "it exists; remove it or choose another name"))
+        }
+        Ok(_) => Err(Error::file(path, "it is not a regular file; choose another name")),
+    }
+}
+
+/// Writes a new file, completely or not at all.
+///
+/// # Errors
+///
+/// A path that is taken; a file that cannot be written.
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let (place, mut file) = Place::create(path)?;
+    file.write_all(bytes).map_err(|error| Error::file(path, error))?;
+    place.keep()
+}
+
 impl Place {
     /// Creates the file under its temporary name.
     ///
     /// # Errors
     ///
-    /// A path that exists already; a file that cannot be created.
+    /// A path that is taken; a file that cannot be created.
     pub(crate) fn create(path: &Path) -> Result<(Place, File), Error> {
-        if std::fs::symlink_metadata(path).is_ok() {
-            return Err(Error::file(path, "it exists; remove it or choose another name"));
-        }
+        check_vacant(path)?;
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(".incomplete");
         let beside = path.with_file_name(name);

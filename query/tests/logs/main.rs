@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod cluster;
+mod commands;
 mod conversion;
 mod damaged;
 mod derivatives;

@@ -365,3 +365,10 @@ fn every_byte_is_in_its_line() {
         assert_eq!(lines.at(text.len()), line, "{text:?}");
     }
 }
+
+#[test]
+fn mistakes_are_counted_in_words() {
+    let counted = [(MistakeKind::Sign, 1), (MistakeKind::Index, 9), (MistakeKind::Dot, 2)]
+        .map(|(kind, count)| kind.counted(count));
+    assert_eq!(counted, ["1 sign", "9 indices", "2 dots"]);
+}
