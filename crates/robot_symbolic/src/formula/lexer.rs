@@ -149,9 +149,10 @@ impl<'t> Lexer<'t> {
                 "write `1.5` instead of \
                 `1,5`",
             ),
-            ',' => {
-                ("`,` has no meaning in an expression".to_owned(), "every function takes one argument")
-            }
+            ',' => (
+                "`,` has no meaning in an expression".to_owned(),
+                "every function takes one argument",
+            ),
             '·' | '×' | '∗' | '⋅' => (unknown(character), "write a product as `a*b`"),
             '÷' | '∕' => (unknown(character), "write a quotient as `a/b`"),
             '−' | '–' | '—' => {
@@ -161,7 +162,9 @@ impl<'t> Lexer<'t> {
             '²' | '³' => (unknown(character), "write a power as `x^2`"),
             '√' => (unknown(character), "write a root as `sqrt(x)`"),
             '[' | ']' | '{' | '}' => (unknown(character), "use parentheses, `(` and `)`"),
-            '=' | '<' | '>' | '!' => (unknown(character), "an expression is a value, not a relation"),
+            '=' | '<' | '>' | '!' => {
+                (unknown(character), "an expression is a value, not a relation")
+            }
             _ => (
                 unknown(character),
                 "names are ASCII letters, digits and `_`; the operators are + - * / ^ ( )",
