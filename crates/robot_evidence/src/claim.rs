@@ -29,8 +29,8 @@ const CIRCULAR: [&str; 10] = [
 pub struct Evidence {
     /// The name, such as `Model::inverse_dynamics`.
     pub name: String,
-    /// Whether it takes slices of states and therefore loops over them.
-    pub takes_slices: bool,
+    /// Whether it takes several states (slices, columns or a block) and may therefore loop over them.
+    pub takes_states: bool,
     /// The measurements.
     pub measurements: Measurements,
     /// The called functions whose code is not examined, by name, with the number of calls.
@@ -148,13 +148,13 @@ pub(crate) fn module(object: &Object, roots: &[Root], profile: Profile) -> Resul
         return Err(Error::Object(format!("it contains {found} functions, not {expected}")));
     }
     for (root, place) in roots.iter().zip(&object.table) {
-        let (evidence, trigonometry) = reader.evidence(*place, &root.path, root.takes_slices);
+        let (evidence, trigonometry) = reader.evidence(*place, &root.path, root.takes_states);
         functions.push(evidence);
         reached.extend(trigonometry);
     }
     let trigonometry = reached.into_iter().map(|place| {
         let evidence = reader.evidence(place, reader.name(place), true).0;
-        Evidence { violations: vec![], takes_slices: false, ..evidence }
+        Evidence { violations: vec![], takes_states: false, ..evidence }
     });
     Ok(Module { profile, functions, trigonometry: trigonometry.collect() })
 }
@@ -228,7 +228,7 @@ impl Reader<'_> {
     }
 
     /// The evidence about a function, and the functions for sines and cosines that it reaches.
-    fn evidence(&self, root: usize, name: &str, takes_slices: bool) -> (Evidence, Vec<usize>) {
+    fn evidence(&self, root: usize, name: &str, takes_states: bool) -> (Evidence, Vec<usize>) {
         let walk = self.walk(root);
         let mut measurements = Measurements {
             functions: walk.functions.len(),
@@ -247,7 +247,7 @@ impl Reader<'_> {
             measurements.conditional_jumps += listing.conditional_jumps - choices;
             measurements.choices += choices;
             measurements.bytes += listing.bytes;
-            self.add_violations(*place, takes_slices, &mut violations);
+            self.add_violations(*place, takes_states, &mut violations);
             for called in &listing.calls {
                 let symbol = match called {
                     Referred::Outside(symbol) => symbol,
@@ -263,10 +263,10 @@ impl Reader<'_> {
         }
         measurements.panics =
             calls.keys().filter(|symbol| Outside::of(symbol) == Outside::Panic).count();
-        let nothing_is_claimed = takes_slices && self.profile == Profile::Dev;
+        let nothing_is_claimed = takes_states && self.profile == Profile::Dev;
         let evidence = Evidence {
             name: name.to_owned(),
-            takes_slices,
+            takes_states,
             measurements,
             calls: calls.into_iter().collect(),
             violations: if nothing_is_claimed { vec![] } else { violations.into_iter().collect() },
@@ -278,11 +278,11 @@ impl Reader<'_> {
     fn add_violations(
         &self,
         place: usize,
-        takes_slices: bool,
+        takes_states: bool,
         violations: &mut BTreeSet<Violation>,
     ) {
         let (listing, here) = (&self.listings[place], self.name(place).to_owned());
-        let jumps = if takes_slices { 0 } else { listing.conditional_jumps - self.choices(place) };
+        let jumps = if takes_states { 0 } else { listing.conditional_jumps - self.choices(place) };
         if jumps > 0 {
             violations.insert(Violation::Jumps { count: jumps, place: here.clone() });
         }
@@ -297,7 +297,7 @@ impl Reader<'_> {
             let (symbol, place) = (symbol.clone(), here.clone());
             match Outside::of(&symbol) {
                 Outside::Circular | Outside::Zeros => {}
-                Outside::Memory if takes_slices || self.profile == Profile::Dev => {}
+                Outside::Memory if takes_states || self.profile == Profile::Dev => {}
                 Outside::Panic => _ = violations.insert(Violation::Panic { symbol, place }),
                 Outside::Memory | Outside::Other => {
                     _ = violations.insert(Violation::Call { symbol, place });

@@ -12,7 +12,7 @@
 //! | copies of arrays | may call `memcpy` | none |
 //! | zeros of large results, such as the regressor's | may call `memset` | may call `memset` |
 //! | the choice between copies of a kernel, each for a different processor | one or two jumps on x86-64; each copy is flat | the same |
-//! | batches, which take slices | shown, nothing claimed | a loop over the states, no panic |
+//! | functions of several states: batches, columns, blocks | shown, nothing claimed | a loop over the states, no panic |
 //!
 //! This is the only part of the project that starts another program. Everything except [`prove`] works on bytes:
 //! [`Module::read`] reads an object file from any source.

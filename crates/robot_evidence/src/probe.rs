@@ -18,8 +18,8 @@ pub(crate) const TABLE: &str = "ROBOT_FUNCTIONS";
 pub struct Root {
     /// The path in the module, such as `Model::inverse_dynamics`.
     pub path: String,
-    /// Whether it takes slices and therefore loops.
-    pub takes_slices: bool,
+    /// Whether it takes several states: slices, arrays of slices (columns), or arrays of arrays (a block).
+    pub takes_states: bool,
 }
 
 /// A crate of generated code of which all public functions are compiled.
@@ -95,17 +95,24 @@ fn root(visibility: &Visibility, signature: &Signature, prefix: &str) -> Option<
     if !is_public || !signature.generics.params.is_empty() {
         return None;
     }
-    let is_slice = |argument: &FnArg| match argument {
-        FnArg::Typed(argument) => match &*argument.ty {
-            Type::Reference(reference) => matches!(&*reference.elem, Type::Slice(_)),
-            _ => false,
-        },
+    let is_of_states = |argument: &FnArg| match argument {
+        FnArg::Typed(argument) => holds_states(&argument.ty),
         FnArg::Receiver(_) => false,
     };
     Some(Root {
         path: format!("{prefix}{}", signature.ident),
-        takes_slices: signature.inputs.iter().any(is_slice),
+        takes_states: signature.inputs.iter().any(is_of_states),
     })
+}
+
+/// Whether a type is a slice, an array of slices or an array of arrays, or a reference to one.
+fn holds_states(ty: &Type) -> bool {
+    match ty {
+        Type::Reference(reference) => holds_states(&reference.elem),
+        Type::Slice(_) => true,
+        Type::Array(array) => matches!(&*array.elem, Type::Array(_)) || holds_states(&array.elem),
+        _ => false,
+    }
 }
 
 #[cfg(test)]
@@ -115,12 +122,20 @@ mod tests {
     #[test]
     fn public_functions_that_are_not_generic_are_roots() {
         let text = "impl Model { pub const fn new() -> Model { Model } fn hidden() {} \
-             pub fn many(&self, q: &[[f64; 2]]) {} pub fn generic<T>(x: T) {} }\n\
+             pub fn many(&self, q: &[[f64; 2]]) {} pub fn generic<T>(x: T) {} \
+             pub fn columns(&self, q: [&[f64]; 2]) {} pub fn block(&self, q: &[[f64; 8]; 2]) {} }\n\
              impl Default for Model { fn default() -> Model { Model } }\n\
              pub fn free(q: &[f64; 2]) {}";
         let found = roots(text).unwrap();
-        let found: Vec<_> = found.iter().map(|root| (&*root.path, root.takes_slices)).collect();
-        assert_eq!(found, [("Model::new", false), ("Model::many", true), ("free", false)]);
+        let found: Vec<_> = found.iter().map(|root| (&*root.path, root.takes_states)).collect();
+        let expected = [
+            ("Model::new", false),
+            ("Model::many", true),
+            ("Model::columns", true),
+            ("Model::block", true),
+            ("free", false),
+        ];
+        assert_eq!(found, expected);
         assert!(roots("fn {").is_err());
     }
 }

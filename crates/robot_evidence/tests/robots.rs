@@ -112,11 +112,27 @@ fn every_function_is_flat() {
         // Only functions with many zeros in their results call a function that fills them in.
         for function in module.functions.iter().filter(|_| module.profile == Profile::Release) {
             let fills = function.calls.iter().any(|(symbol, _)| symbol.contains("memset"));
-            let slices = function.takes_slices;
+            let slices = function.takes_states;
             assert!(slices || !fills || function.name.contains("regressor"), "{}", function.name);
         }
     }
     assert_estimated(&path, &options, &modules);
+}
+
+/// Batches, columns and blocks loop over states; they do not panic, and call no other function than those that copy and
+/// fill memory.
+#[test]
+fn functions_of_several_states_only_loop() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots/planar_2r.toml");
+    let options = options(&path, Trigonometry::Polynomial, Functions::All);
+    for module in proved(&path, &Options { batch: Some(8), ..options }) {
+        assert_eq!(module.violations().collect::<Vec<_>>(), []);
+        for form in ["_batch", "_columns", "_block"] {
+            let name = format!("Model::inverse_dynamics{form}");
+            let function = module.functions.iter().find(|function| function.name == name).unwrap();
+            assert!(function.takes_states && function.measurements.panics == 0, "{name}");
+        }
+    }
 }
 
 #[test]

@@ -63,8 +63,8 @@ fn profile(module: &Module) -> Element {
         "Stack, bytes",
     ];
     let mut table = Table::new(&format!("Profile {}", module.profile.name()), columns);
-    for Evidence { name, measurements, calls, violations, takes_slices } in &module.functions {
-        let claim = match (violations.as_slice(), *takes_slices) {
+    for Evidence { name, measurements, calls, violations, takes_states } in &module.functions {
+        let claim = match (violations.as_slice(), *takes_states) {
             ([], false) => "flat".to_owned(),
             ([], true) => "loops over states".to_owned(),
             (violations, _) => {

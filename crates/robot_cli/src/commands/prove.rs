@@ -25,8 +25,8 @@ rustc, which must be installed. Nothing is linked, so a target needs only `rustu
 
 The claim: no conditional jump, no panic, and no call except those of sines and cosines. The exit code is 1 if
 the claim is false. In dev builds the runtime's sines and cosines loop over the angles, and are shown but not
-part of the claim; arrays may be copied by memcpy. Functions that take slices loop over the states; nothing is
-claimed about them in dev builds.
+part of the claim; arrays may be copied by memcpy. Functions of several states
+(batches, columns, blocks) loop over the states; nothing is claimed about them in dev builds.
 
 The counts of a function include all functions that it calls, each once. `frame` is the function's own stack, `stack`
 that of the deepest chain of calls, in bytes; the stack of sin and cos is not included.")]
@@ -123,7 +123,7 @@ fn text_of(module: &Module) -> String {
     title.extend(["claim", "calls"].map(str::to_owned));
     let mut rows = vec![title];
     rows.extend(module.functions.iter().map(|function| {
-        let claim = match (function.takes_slices, function.violations.as_slice()) {
+        let claim = match (function.takes_states, function.violations.as_slice()) {
             (true, []) if module.profile == Profile::Dev => "none",
             (true, []) => "loops",
             (false, []) => "flat",
@@ -163,7 +163,7 @@ fn entry(function: &Evidence) -> Value {
     }
     let calls = function.calls.iter().map(|(symbol, count)| (symbol.clone(), json!(count)));
     object.insert("calls".to_owned(), Value::Object(calls.collect()));
-    object.insert("takes_slices".to_owned(), json!(function.takes_slices));
+    object.insert("takes_states".to_owned(), json!(function.takes_states));
     let violations: Vec<String> = function.violations.iter().map(ToString::to_string).collect();
     object.insert("violations".to_owned(), json!(violations));
     Value::Object(object)
