@@ -45,6 +45,8 @@ pub(crate) struct Listing {
     pub(crate) conditional_jumps: usize,
     /// The number of jumps and calls through registers or memory without a relocation that names the target.
     pub(crate) indirect: usize,
+    /// The functions whose addresses it loads: those that it can call through registers.
+    pub(crate) loaded: Vec<Referred>,
     /// The number of traps. Without a call of a panic, they are for `unreachable` or a stack overflow.
     pub(crate) traps: usize,
     /// The stack in bytes, including the return address.
@@ -94,7 +96,10 @@ impl Listing {
         };
         let named = code.reference_within(naming.place..naming.place + naming.length);
         match instruction.flow {
-            Flow::Next | Flow::Return => {}
+            Flow::Next => {
+                self.loaded.extend(named.filter(|named| !matches!(named, Referred::Data)));
+            }
+            Flow::Return => {}
             Flow::Conditional => self.conditional_jumps += 1,
             Flow::Trap => self.traps += 1,
             Flow::Jump(to) => {

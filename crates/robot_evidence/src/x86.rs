@@ -24,10 +24,10 @@ const VOLATILE: [Register; 9] = [
 
 /// The instructions of a function.
 pub(crate) fn instructions(bytes: &[u8]) -> Vec<Instruction> {
-    let decoder = || Decoder::with_ip(64, bytes, 0, DecoderOptions::NONE).into_iter();
-    let mut addresses = Addresses::of(decoder());
+    let decoder = Decoder::with_ip(64, bytes, 0, DecoderOptions::NONE);
+    let mut addresses = Addresses { loads: BTreeMap::new(), info: InstructionInfoFactory::new() };
     let mut instructions: Vec<Instruction> = vec![];
-    for decoded in decoder() {
+    for decoded in decoder {
         // Padding between functions and before loops does not count.
         if matches!(decoded.mnemonic(), Mnemonic::Nop | Mnemonic::Int3) {
             continue;
@@ -46,35 +46,18 @@ pub(crate) fn instructions(bytes: &[u8]) -> Vec<Instruction> {
 /// The offsets of the instructions that loaded registers from fixed addresses: the address of a function that is called
 /// several times is kept in a register.
 struct Addresses {
-    /// On the path without jumps to the current instruction.
     loads: BTreeMap<Register, usize>,
-    /// In the whole function: registers that only one instruction writes, apart from those that restore the caller's
-    /// value. The address of a function that a loop calls is loaded before the loop.
-    only: BTreeMap<Register, usize>,
     info: InstructionInfoFactory,
 }
 
 impl Addresses {
-    /// The registers that only one instruction of a function writes.
-    fn of(function: impl Iterator<Item = Decoded>) -> Addresses {
-        let mut info = InstructionInfoFactory::new();
-        let mut writes: BTreeMap<Register, Vec<Option<usize>>> = BTreeMap::new();
-        for decoded in function.filter(|decoded| decoded.mnemonic() != Mnemonic::Pop) {
-            for register in written(&mut info, &decoded) {
-                let load = is_load(&decoded).then_some(decoded.ip() as usize);
-                writes.entry(register).or_default().push(load);
-            }
-        }
-        let only = writes.into_iter().filter_map(|(register, loads)| match loads[..] {
-            [Some(load)] if !VOLATILE.contains(&register) => Some((register, load)),
-            _ => None,
-        });
-        Addresses { loads: BTreeMap::new(), only: only.collect(), info }
-    }
-
     fn follow(&mut self, decoded: &Decoded) {
-        for register in written(&mut self.info, decoded) {
-            self.loads.remove(&register);
+        for used in self.info.info(decoded).used_registers() {
+            let writes =
+                !matches!(used.access(), OpAccess::None | OpAccess::Read | OpAccess::CondRead);
+            if writes {
+                self.loads.remove(&used.register().full_register());
+            }
         }
         match decoded.flow_control() {
             FlowControl::Call | FlowControl::IndirectCall => {
@@ -84,7 +67,10 @@ impl Addresses {
             FlowControl::Next => {}
             _ => self.loads.clear(),
         }
-        if is_load(decoded) {
+        let is_load = decoded.mnemonic() == Mnemonic::Mov
+            && decoded.op0_kind() == OpKind::Register
+            && decoded.memory_base() == Register::RIP;
+        if is_load {
             self.loads.insert(decoded.op0_register(), decoded.ip() as usize);
         }
     }
@@ -92,30 +78,11 @@ impl Addresses {
     /// The offset of the instruction that determines the target of an indirect jump or call.
     fn source(&self, decoded: &Decoded) -> usize {
         let loaded = match decoded.op0_kind() {
-            OpKind::Register => {
-                let register = decoded.op0_register();
-                self.loads.get(&register).or_else(|| self.only.get(&register))
-            }
+            OpKind::Register => self.loads.get(&decoded.op0_register()),
             _ => None,
         };
         loaded.copied().unwrap_or(decoded.ip() as usize)
     }
-}
-
-/// The registers that an instruction writes, in full width.
-fn written(info: &mut InstructionInfoFactory, decoded: &Decoded) -> Vec<Register> {
-    let used = info.info(decoded).used_registers().iter();
-    let writes = used.filter(|used| {
-        !matches!(used.access(), OpAccess::None | OpAccess::Read | OpAccess::CondRead)
-    });
-    writes.map(|used| used.register().full_register()).collect()
-}
-
-/// Whether an instruction loads a register from a fixed address.
-fn is_load(decoded: &Decoded) -> bool {
-    decoded.mnemonic() == Mnemonic::Mov
-        && decoded.op0_kind() == OpKind::Register
-        && decoded.memory_base() == Register::RIP
 }
 
 fn flow(decoded: &Decoded, addresses: &Addresses) -> Flow {
@@ -212,13 +179,6 @@ mod tests {
         let twice = calls(&[&load, &call, &call]);
         assert_eq!(twice, [Flow::IndirectCall(0), Flow::IndirectCall(0)]);
         assert_eq!(calls(&[&load, &change, &call]), [Flow::IndirectCall(10)]);
-        // In a loop, of which the load is not a part; the caller's value is restored at the end.
-        let back = [0x75, 0xfb]; // jne
-        let restore = [0x41, 0x5e]; // pop r14
-        let looped = calls(&[&load, &back, &call, &restore]);
-        assert_eq!(looped, [Flow::Conditional, Flow::IndirectCall(0)]);
-        let reloaded = calls(&[&load, &back, &load, &back, &call]);
-        assert_eq!(reloaded.last(), Some(&Flow::IndirectCall(18)));
     }
 
     #[test]

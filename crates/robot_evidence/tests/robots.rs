@@ -130,7 +130,11 @@ fn functions_of_several_states_only_loop() {
         for form in ["_batch", "_columns", "_block"] {
             let name = format!("Model::inverse_dynamics{form}");
             let function = module.functions.iter().find(|function| function.name == name).unwrap();
-            assert!(function.takes_states && function.measurements.panics == 0, "{name}");
+            let may_panic = module.profile == Profile::Dev;
+            assert!(
+                function.takes_states && (may_panic || function.measurements.panics == 0),
+                "{name}"
+            );
         }
     }
 }
