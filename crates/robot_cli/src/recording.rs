@@ -120,6 +120,18 @@ mod tests {
         }
     }
 
+    /// Commands keep what they compute only for a plot.
+    #[test]
+    fn a_plot_is_there_only_if_it_was_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plot.svg");
+        for plot in [None, Some(path.as_path())] {
+            let recording = Recording::open(None, plot, Writer::new());
+            let has_plot = recording.ok().map(|recording| recording.has_plot());
+            assert_eq!(has_plot, Some(plot.is_some()));
+        }
+    }
+
     #[test]
     fn pictures_are_svg_or_png() {
         for name in ["a.svg", "a.png", "b/a.b.svg"] {

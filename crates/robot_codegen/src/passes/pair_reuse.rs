@@ -344,6 +344,21 @@ mod tests {
         assert_eq!(sums.0, 7);
     }
 
+    /// A pair is queued once for each occurrence after the first.
+    #[test]
+    fn pairs_that_occur_once_are_not_queued() {
+        let queued = |rows: &[&[Id]]| {
+            let mut found = Rows::new(&mut Nary::new(&Builder::new().finish(vec![])), Kind::Sum);
+            for row in rows {
+                found.add(0, row.iter().copied().map(Term::positive).collect());
+            }
+            found.heap.len()
+        };
+        assert_eq!(queued(&[&[0, 1, 2], &[3, 4, 5]]), 0);
+        assert_eq!(queued(&[&[0, 1, 2], &[1, 3, 0]]), 1);
+        assert_eq!(queued(&[&[0, 1], &[0, 1], &[0, 1, 2]]), 2);
+    }
+
     /// Terms known early are joined in the constructor; the same terms with opposite signs share a node.
     #[test]
     fn early_terms_of_many_sums_are_one() {

@@ -223,6 +223,21 @@ friction = { viscous = \"J\" }
         }
     }
 
+    /// The name of a parameter means it where it is defined and in expressions, not in other texts and comments.
+    #[test]
+    fn parameters_are_used_in_expressions_alone() {
+        let text = "# l1
+[parameters]
+l1 = 0.35 # l1
+[[link]]
+name = \"l1\"
+origin.xyz = [0, \"2*l1\", 0] # l1
+mass = \"l1\"
+";
+        let places = text.match_indices("l1").map(|(byte, _)| meaning_at(text, byte).is_some());
+        assert!(places.eq([false, true, false, false, true, false, true]));
+    }
+
     #[test]
     fn hostile_texts_have_none() {
         let deep = "[".repeat(100_000);

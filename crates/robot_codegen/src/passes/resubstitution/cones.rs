@@ -191,6 +191,19 @@ mod tests {
         assert!(cones.visits.get() > MAX_VISITS, "{}", cones.visits.get());
     }
 
+    /// The last query may reach the limit of visits; after that, every gain is 0.
+    #[test]
+    fn gains_end_after_the_limit_of_visits() {
+        let mut b = Builder::new();
+        let x = b.load(Source::Input(0));
+        let square = b.mul(x, x);
+        let cones = Cones::new(&b.finish(vec![square]));
+        for (visits, size) in [(0, 1), (MAX_VISITS, 1), (MAX_VISITS + 1, 0)] {
+            cones.visits.set(visits);
+            assert_eq!(cones.size(square), size, "{visits}");
+        }
+    }
+
     /// Returns the cost of all needed values, with one value computed from other operands.
     fn needed(
         cones: &Cones,

@@ -123,4 +123,15 @@ mod tests {
         assert!(check(&namespaces(MAX_NAMESPACES)).is_none());
         assert!(check(&namespaces(MAX_NAMESPACES + 1)).is_some());
     }
+
+    /// Reading goes on directly behind what is skipped.
+    #[test]
+    fn elements_behind_what_is_skipped_are_counted() {
+        let open = |depth: usize| "<a>".repeat(depth);
+        for skipped in ["<!-- -->", "<![CDATA[ ]]>", "<? ?>"] {
+            let behind = |depth: usize| check(&format!("{}{skipped}{}", open(20), open(depth)));
+            assert!(behind(MAX_DEPTH - 20).is_none(), "{skipped}");
+            assert!(behind(MAX_DEPTH - 19).is_some(), "{skipped}");
+        }
+    }
 }
