@@ -79,10 +79,11 @@ impl<'g> Collector<'g, '_> {
             Some(Proved::Same) => terms,
             // A sum in the numerator has cancelled the same sum in a denominator.
             Some(Proved::Shorter(cancelled)) => self.collect(&cancelled, rank, brackets),
-            None => {
+            Some(Proved::Different) => {
                 debug_assert!(false, "a collected formula differs from its polynomial");
                 polynomial.arranged(&rank)
             }
+            None => polynomial.arranged(&rank),
         }
     }
 
@@ -188,9 +189,11 @@ enum Proved<'g> {
     Same,
     /// The terms, multiplied out, are this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
     Shorter(Polynomial<'g>),
+    /// The terms are another polynomial.
+    Different,
 }
 
-/// Proves that terms are equal to the polynomial by multiplying them out; `None` if this fails.
+/// Compares terms with the polynomial by multiplying them out; `None` if this cannot be decided within the limits.
 fn proved<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> Option<Proved<'g>> {
     let value = crate::print::arranged_value(terms, polynomial.graph());
     let expanded = Polynomial::of(value, &PolynomialOptions::default()).ok()?;
@@ -199,10 +202,10 @@ fn proved<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> Option
     }
     let difference = expanded.sub(polynomial).ok()?;
     let is_shorter = expanded.len() < polynomial.len();
-    is_zero(difference)?.then_some(if is_shorter {
-        Proved::Shorter(expanded)
-    } else {
-        Proved::Same
+    Some(match is_zero(difference)? {
+        true if is_shorter => Proved::Shorter(expanded),
+        true => Proved::Same,
+        false => Proved::Different,
     })
 }
 
