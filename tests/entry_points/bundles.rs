@@ -65,9 +65,12 @@ fn a_bundle_gives_what_its_functions_give() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("robots/{name}.toml"));
         let file = RobotFile::read(&path).unwrap();
         let bundle = Bundle { name: "everything".to_owned(), functions: KINDS.to_vec() };
+        // The name of a type of the code.
+        let named_as_a_type =
+            Bundle { name: "Model".to_owned(), functions: vec![FunctionKind::Bias] };
         let options = Options {
             functions: Functions::Chosen(KINDS.to_vec()),
-            bundles: vec![bundle],
+            bundles: vec![bundle, named_as_a_type],
             ..Options::default()
         };
         let options = file.with_pin(&options).unwrap();

@@ -26,10 +26,10 @@ const FUNCTIONS: [FunctionKind; 5] = [
 ];
 
 /// A robot, its programs, and states with the numeric solver for comparison.
-struct Case {
+pub(crate) struct Case {
     name: String,
     programs: Programs,
-    states: Vec<State>,
+    pub(crate) states: Vec<State>,
     solver: robot_numeric::Mechanism,
 }
 
@@ -38,7 +38,13 @@ impl Case {
         Case::of(&FUNCTIONS, name, robot, seed, states)
     }
 
-    fn of(kinds: &[FunctionKind], name: &str, robot: Robot, seed: u64, states: usize) -> Case {
+    pub(crate) fn of(
+        kinds: &[FunctionKind],
+        name: &str,
+        robot: Robot,
+        seed: u64,
+        states: usize,
+    ) -> Case {
         let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
         let mut random = Random::new(seed);
         let states = (0..states).map(|_| state(&mut random, &solver, &robot)).collect();
@@ -87,7 +93,7 @@ impl Case {
         worst
     }
 
-    fn interpret(&self) -> f64 {
+    pub(crate) fn interpret(&self) -> f64 {
         let interpreter = Interpreter::new(&self.programs.module, &[]).unwrap();
         let mut worst = 0.0_f64;
         for &kind in &self.programs.functions {

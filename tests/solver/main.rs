@@ -5,6 +5,7 @@
 mod base_parameters;
 mod functions;
 mod generated;
+mod light;
 mod options;
 mod parallel;
 mod recursions;

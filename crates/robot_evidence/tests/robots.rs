@@ -112,8 +112,8 @@ fn every_function_is_flat() {
         // Only functions with many zeros in their results call a function that fills them in.
         for function in module.functions.iter().filter(|_| module.profile == Profile::Release) {
             let fills = function.calls.iter().any(|(symbol, _)| symbol.contains("memset"));
-            let slices = function.takes_states;
-            assert!(slices || !fills || function.name.contains("regressor"), "{}", function.name);
+            let loops = function.takes_states;
+            assert!(loops || !fills || function.name.contains("regressor"), "{}", function.name);
         }
     }
     assert_estimated(&path, &options, &modules);

@@ -116,16 +116,19 @@ pub(crate) fn run() -> Result<(), Error> {
 
 /// A number above 0.
 fn positive(text: &str) -> Result<f64, String> {
-    let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    let is_positive = number.is_finite() && number > 0.0;
-    if is_positive { Ok(number) } else { Err("not a number above 0".to_owned()) }
+    number(text, "above 0", |number| number > 0.0)
 }
 
 /// A number that is 0 or above.
 fn not_negative(text: &str) -> Result<f64, String> {
+    number(text, "of at least 0", |number| number >= 0.0)
+}
+
+/// A finite number in a range, which `range` has in words.
+fn number(text: &str, range: &str, is_allowed: fn(f64) -> bool) -> Result<f64, String> {
     let number: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    let is_allowed = number.is_finite() && number >= 0.0;
-    if is_allowed { Ok(number) } else { Err("not a number of at least 0".to_owned()) }
+    let is_in_range = number.is_finite() && is_allowed(number);
+    if is_in_range { Ok(number) } else { Err(format!("not a number {range}")) }
 }
 
 /// The noise of every joint, from one number or from one for each joint.

@@ -2,8 +2,8 @@
 //!
 //! The readers reject impossible mechanisms. This module reports possible but unlikely ones: inertias in kg mm², a
 //! tensor about the wrong point, a right angle with four digits. Each file contains one family of checks. The reasons
-//! for its thresholds are stated there and on the page of the diagnostic code (`crates/robot_model/diagnostics`). Nothing is ever
-//! changed. Values that depend on a parameter without a nominal value are skipped.
+//! for its thresholds are stated there and on the page of the diagnostic code (`crates/robot_model/diagnostics`).
+//! Nothing is ever changed. Values that depend on a parameter without a nominal value are skipped.
 
 mod angles;
 mod axes;

@@ -25,8 +25,8 @@ rustc, which must be installed. Nothing is linked, so a target needs only `rustu
 
 The claim: no conditional jump, no panic, and no call except those of sines and cosines. The exit code is 1 if
 the claim is false. In dev builds the runtime's sines and cosines loop over the angles, and are shown but not
-part of the claim; arrays may be copied by memcpy. Functions of several states
-(batches, columns, blocks) loop over the states; nothing is claimed about them in dev builds.
+part of the claim; arrays may be copied by memcpy. Functions of several states (batches, columns, blocks) loop
+over the states; nothing is claimed about them in dev builds.
 
 The counts of a function include all functions that it calls, each once. `frame` is the function's own stack, `stack`
 that of the deepest chain of calls, in bytes; the stack of sin and cos is not included.")]

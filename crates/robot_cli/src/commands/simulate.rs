@@ -175,7 +175,7 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
         (first.unwrap_or_default(), last.unwrap_or_default())
     };
     let ((_, end), (before, after)) = (ends(&motion.t), ends(&energies.total));
-    let drift = drift(&energies.total);
+    let drift = drift(energies);
     // Further digits are not needed, because the change is also printed.
     let rounded = |energy: f64| format!("{energy:.5e}").parse().unwrap_or(energy);
     let [end, before, after] = [end, rounded(before), rounded(after)].map(number);
@@ -191,10 +191,12 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
     )
 }
 
-/// The change of the energy, relative to its largest value; `None` if it is always 0.
-fn drift(energies: &[f64]) -> Option<f64> {
-    let (first, last) = (energies.first()?, energies.last()?);
-    let largest = energies.iter().fold(0.0_f64, |largest, energy| largest.max(energy.abs()));
+/// The change of the energy, relative to the largest value of the energy or of its kinetic part; `None` if both are
+/// always 0. The zero of the potential energy is arbitrary, so the sum alone may be 0 up to rounding.
+fn drift(energies: &Energies) -> Option<f64> {
+    let (first, last) = (energies.total.first()?, energies.total.last()?);
+    let sizes = energies.total.iter().chain(&energies.kinetic).map(|energy| energy.abs());
+    let largest = sizes.fold(0.0, f64::max);
     (largest > 0.0).then(|| (last - first) / largest)
 }
 
@@ -204,8 +206,14 @@ mod tests {
 
     #[test]
     fn the_drift_is_relative_to_the_largest_energy() {
-        assert_eq!(drift(&[2.0, -4.0, 3.0]), Some(0.25));
-        assert_eq!(drift(&[0.0, 0.0]), None);
-        assert_eq!(drift(&[]), None);
+        let drift = |kinetic: &[f64], total: &[f64]| {
+            let [kinetic, total] = [kinetic, total].map(<[f64]>::to_vec);
+            drift(&Energies { kinetic, potential: vec![], total })
+        };
+        assert_eq!(drift(&[0.0; 3], &[2.0, -4.0, 3.0]), Some(0.25));
+        // From rest at the height of the base.
+        assert_eq!(drift(&[0.0, 4.0], &[0.0, 1e-9]), Some(2.5e-10));
+        assert_eq!(drift(&[0.0, 0.0], &[0.0, 0.0]), None);
+        assert_eq!(drift(&[], &[]), None);
     }
 }

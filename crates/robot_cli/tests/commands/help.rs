@@ -26,8 +26,8 @@ fn example(command: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// Words that mark examples that are not run, because they need other programs, targets that may not be installed, a browser
-/// or an editor.
+/// Words that mark examples that are not run, because they need other programs, targets that may not be installed, a
+/// browser or an editor.
 const ELSEWHERE: [&str; 4] = ["cargo ", "--target", "--open", " lsp "];
 
 #[test]

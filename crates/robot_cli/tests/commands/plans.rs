@@ -38,6 +38,24 @@ fn what_is_no_change_of_the_mechanics_keeps_the_plan() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_plan_stands_next_to_the_file_that_a_link_leads_to() {
+    let folder = folder("plans_linked");
+    std::fs::create_dir(folder.join("robots")).unwrap();
+    std::fs::write(folder.join("robots/arm.toml"), ARM).unwrap();
+    let link = folder.join("current.toml");
+    std::os::unix::fs::symlink("robots/arm.toml", &link).unwrap();
+    let link = link.to_str().unwrap();
+    let said = output(&["search", link], "");
+    assert!(said.contains("robots/arm.plan"), "{said}");
+    assert!(folder.join("robots/arm.plan").is_file() && !folder.join("current.plan").exists());
+    // What reads the plan through the link finds it stale.
+    std::fs::write(folder.join("robots/arm.toml"), ARM.replace("[0.1, 0, 0]", "[0.1, 0.2, 0]"))
+        .unwrap();
+    assert!(run(&["stats", link]).errors.contains("search"));
+}
+
 #[test]
 fn a_stale_plan_is_a_warning_where_nothing_is_built_and_an_error_where_code_is() {
     let arm = pinned("plans_stale");

@@ -294,6 +294,26 @@ fn the_noise_of_doubles_is_not_printed() {
     );
 }
 
+/// The derivation ends at its limit, and nothing is made of what it has by then.
+#[test]
+fn a_form_that_no_limit_of_joints_holds_ends_at_a_limit_of_expressions() {
+    let link = |number: usize| {
+        let axis = ["x", "y", "z"][number % 3];
+        format!(
+            "[[link]]\nname = \"{number}\"\njoint = {{ type = \"revolute\", axis = \"{axis}\" }}\n\
+             origin = {{ xyz = [0.1, 0, 0.05] }}\nmass = 1\ncenter_of_mass = [0.05, 0, 0]\n\
+             inertia = {{ xx = 0.01, yy = 0.01, zz = 0.01 }}\n"
+        )
+    };
+    let links: String = (1..=64).map(link).collect();
+    let path = folder("printing_long_chain").join("chain.toml");
+    std::fs::write(&path, format!("format = 1\n[robot]\nname = \"chain\"\n{links}")).unwrap();
+    let arguments = ["equations", path.to_str().unwrap(), "--form", "regrouped"];
+    let said = complaint(1, &arguments, "");
+    assert!(said.contains("need more than 300000 expressions"), "{said}");
+    assert!(said.contains("`recursive` and `compact`"), "{said}");
+}
+
 #[test]
 fn a_long_document_names_shorter_forms() {
     let done = run(&["document", &robot("panda")]);

@@ -90,8 +90,12 @@ impl<'g> Shown<'g> {
 
 /// The ways in which the coefficients are printed, section by section.
 pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Vec<Shown<'g>>> {
-    let coefficient =
-        |coefficient: &Coefficient<'g>| match Polynomial::of(coefficient.value, &LIMITS) {
+    let coefficient = |coefficient: &Coefficient<'g>| {
+        // The equations of a full graph are refused.
+        if writer.graph.is_full() {
+            return Shown::Zero;
+        }
+        match Polynomial::of(coefficient.value, &LIMITS) {
             Ok(value) if value.is_zero() => Shown::Zero,
             Ok(value) if value.len() <= MAX_TERMS => {
                 let terms = writer.collected(&value);
@@ -101,7 +105,8 @@ pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Ve
                 }
             }
             value => Shown::Long { value: value.ok() },
-        };
+        }
+    };
     sections.iter().map(|section| section.coefficients.iter().map(coefficient).collect()).collect()
 }
 

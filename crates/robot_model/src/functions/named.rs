@@ -68,10 +68,12 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
         if suffix == "dot_qd" || suffix.starts_with("dot_qd_") {
             suffix = format!("frame_{suffix}");
         }
+        // A suffix that was made must not be the name of anything else in the file.
         let of_others = |suffix: &String| {
             found.iter().any(|(_, other)| other == suffix)
-                || frames.iter().any(|(other, name)| {
-                    matches!(other, FrameRef::Named(_)) && other != frame && name == suffix
+                || frames.iter().any(|(other, others)| {
+                    let counts = matches!(other, FrameRef::Named(_)) || suffix != name;
+                    counts && other != frame && others == suffix
                 })
         };
         while of_others(&suffix) {
@@ -234,5 +236,27 @@ mod tests {
         );
         assert!(!all.contains("mean"), "{all}");
         assert_eq!(other, "there is no function `bais`. Did you mean `bias`? Available: bias.");
+    }
+
+    /// A frame `Arm` takes the name of link `arm`, whose function must not get that of link `arm_link`.
+    #[test]
+    fn a_name_that_was_made_is_not_that_of_another_link() {
+        let link = |name: &str| {
+            format!(
+                "[[link]]\nname = \"{name}\"\nmass = 1\njoint = {{ type = \"revolute\", \
+                 axis = \"z\" }}\ncenter_of_mass = [1, 0, 0]\n\
+                 inertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
+            )
+        };
+        let frame = "[[frame]]\nname = \"Arm\"\nparent = \"arm_link\"\n";
+        let text = ["format = 1\n[robot]\nname = \"r\"\n", &link("arm"), &link("arm_link"), frame];
+        let robot = crate::description::read_toml("r.toml", &text.concat()).unwrap().robot;
+        let asked = |name: &str| named(&robot, name).unwrap().frame();
+        assert_eq!(asked("jacobian_arm_link"), Some(FrameRef::Link(1)));
+        assert_eq!(asked("jacobian_arm_link_link"), Some(FrameRef::Link(0)));
+        assert_eq!(asked("jacobian_Arm"), Some(FrameRef::Named(0)));
+        for (name, kind) in names(&robot) {
+            assert_eq!(named(&robot, &name), Ok(kind), "{name}");
+        }
     }
 }

@@ -111,3 +111,17 @@ fn sums_under_fraction_bars_cancel() {
         assert_eq!(collected(source, 0), expected, "{source}");
     }
 }
+
+/// A full graph builds wrong expressions. What is proved with them would differ from the polynomial.
+#[test]
+fn a_full_graph_proves_nothing() {
+    let graph = Graph::limited(12);
+    let [a, b, c, x] = ["a", "b", "c", "x"].map(|name| graph.symbol(name));
+    let sum = a * x + b * x + c;
+    let polynomial = Polynomial::of(sum, &PolynomialOptions::default()).unwrap();
+    (1..20).fold(x, |power, _| power * x);
+    assert!(graph.is_full());
+    let terms =
+        Collector { angles: &[], factors: true }.collect(&polynomial, default_rank, &u8::MAX);
+    assert_eq!(arranged_text(&terms).unwrap(), "a*x + b*x + c");
+}

@@ -336,9 +336,11 @@ impl Builder {
         directives.rerun_if_changed(path)?;
         // Cargo regards a missing path as changed in every build, so it is not watched. It notices a first plan because
         // `robot-symbolic search` updates the modification time of the robot file.
-        let pin = pin_path(path);
-        if package.join(&pin).is_file() {
-            directives.rerun_if_changed(&pin)?;
+        let (beside, read) = (pin_path(path), pin_path(&file.path));
+        if read.is_file() {
+            // If the path of the file is a symbolic link, its plan is elsewhere.
+            let is_beside = package.join(&beside).canonicalize().ok() == read.canonicalize().ok();
+            directives.rerun_if_changed(if is_beside { &beside } else { &read })?;
         }
         let options = self.options_for(&file)?;
         let options = file.with_pin(&options)?;

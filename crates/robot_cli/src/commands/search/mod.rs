@@ -5,7 +5,7 @@ mod tune;
 use std::time::SystemTime;
 
 use clap::Args;
-use robot_build::{Options, Output, Ownership, pin_path, pin_text, shown, snapping};
+use robot_build::{Options, Output, Ownership, pin_text, robot_inputs, shown, snapping};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{Entry, LinkPlan, Origin, Turn};
 use robot_dynamics::economical::search::{Found, Measure, search};
@@ -58,7 +58,8 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let path = pin_path(self.robot.path());
+        // Plans are read next to the file that a symbolic link leads to.
+        let [_, path] = robot_inputs(self.robot.path());
         let remedy = "move it away, or replace it with --force";
         let writer =
             self.force.writer([self.robot.path().to_owned()], !self.dry_run)?.remedy(remedy);

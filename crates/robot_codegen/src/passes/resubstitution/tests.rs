@@ -106,6 +106,51 @@ fn a_sum_with_a_multiple_is_found() {
     assert_eq!(operations, 2);
 }
 
+/// Of y − c x with a c far below the rounding of y, whether the pass keeps the term: y may be as small as c.
+#[test]
+fn a_term_stays_however_small_its_constant_is() {
+    let operations = |constant: f64, small: fn(&mut Builder) -> Value| {
+        let mut b = Builder::new();
+        let y = small(&mut b);
+        let (x, constant) = (b.load(Source::Cos(0)), b.constant(constant));
+        let weight = b.mul(constant, x);
+        let (rest, both) = (b.sub(y, weight), b.add(y, weight));
+        let inertia = b.load(Source::Input(1));
+        // Two uses each, as in forward dynamics: a force less a weight, by an inertia.
+        let results = vec![b.div(rest, inertia), b.div(both, inertia), b.mul(rest, both)];
+        let program = b.finish(results);
+        let left = Counts::of(&with(Resubstitution::Multiples)(&program)).operations();
+        (left, Counts::of(&program).operations())
+    };
+    let [force, parameter, friction] = [
+        |b: &mut Builder| b.load(Source::Input(0)),
+        |b: &mut Builder| b.load(Source::Parameter(0)),
+        |b: &mut Builder| {
+            let speed = b.load(Source::Input(0));
+            b.call(Function::Tanh, speed)
+        },
+    ];
+    for constant in [1.0, 1e-9, 2e-17, 3e-30, 4e-200, 5e-300] {
+        for small in [force, parameter, friction] {
+            let (left, all) = operations(constant, small);
+            assert_eq!(left, all, "{constant:e}");
+        }
+    }
+}
+
+/// A term that follows from rounding alone is still dropped: x − (x + y − y) is 0 at any size.
+#[test]
+fn a_term_that_is_rounding_is_dropped() {
+    let operations = left(|b, [x, y, z, ..]| {
+        let sum = b.add(x, y);
+        let again = b.sub(sum, y);
+        let nothing = b.sub(x, again);
+        let result = b.add(z, nothing);
+        vec![b.mul(result, z)]
+    });
+    assert_eq!(operations, 1);
+}
+
 /// cos kθ by its recursion: the bounds on rounding errors grow with each step, but the values do not.
 #[test]
 fn a_long_recursion_is_not_taken_for_rounding() {

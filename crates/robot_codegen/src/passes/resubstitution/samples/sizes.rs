@@ -1,0 +1,147 @@
+//! Sizes of loads at which no term of a sum is lost beside another.
+//!
+//! The torques of a robot of micrograms are far below 10⁻¹⁶ N·m. At torques of size one, τ − 2·10⁻¹⁷ cos q and τ
+//! round to the same number, and the term of gravity would count as rounding. So at one set of points the loads are
+//! of the size of the terms beside them.
+
+use rustc_hash::FxHashMap;
+
+use super::{POINTS_PER_SET, Sample};
+use crate::program::{Operation, Program, Source, Value};
+
+/// The points at which loads have sizes of their own.
+const RESIZED: std::ops::Range<usize> = POINTS_PER_SET..2 * POINTS_PER_SET;
+/// A term of a sum is noticed if it is larger than the rounding error of the sum by this factor, so that as many digits
+/// of it are compared.
+const NOTICED: f64 = 1e6;
+/// The most adjustments: each reveals the sums that the one before made unbalanced.
+const ROUNDS: usize = 4;
+/// The relative change of a load from which the share of that load in a value is computed.
+const STEP: f64 = 1e-9;
+/// The least share of a load in a value that depends on it.
+const SHARE: f64 = 1e-3;
+
+/// The sizes of loads at one set of points; 1 for those that are not listed.
+#[derive(Clone, Default)]
+pub(super) struct Sizes {
+    factors: FxHashMap<Source, f64>,
+    /// Whether the values of functions have the size of their arguments at these points.
+    is_used: bool,
+}
+
+impl Sizes {
+    /// Chooses sizes at which the terms of each sum are noticed, as far as this is possible by making smaller what only
+    /// the larger term depends on. `evaluate` returns the samples of the program at given sizes.
+    pub(super) fn balancing(program: &Program, evaluate: impl Fn(&Sizes) -> Vec<Sample>) -> Sizes {
+        let mut sizes = Sizes { is_used: true, ..Sizes::default() };
+        for _ in 0..ROUNDS {
+            let samples = evaluate(&sizes);
+            let mut sums = unbalanced_sums(program, &samples);
+            if sums.is_empty() {
+                break;
+            }
+            for source in program.sources().into_iter().filter(is_free) {
+                let changed = evaluate(&sizes.times(source, 1.0 + STEP));
+                sums.iter_mut().for_each(|sum| sum.note(source, &samples, &changed));
+            }
+            if !sizes.reduce(&sums) {
+                break;
+            }
+        }
+        if sizes.factors.is_empty() { Sizes::default() } else { sizes }
+    }
+
+    /// The size of a load at a point.
+    pub(super) fn at(&self, source: Source, point: usize) -> f64 {
+        let known = self.factors.get(&source).filter(|_| RESIZED.contains(&point));
+        known.copied().unwrap_or(1.0)
+    }
+
+    /// Whether loads have sizes of their own at a point.
+    pub(super) fn are_used_at(&self, point: usize) -> bool {
+        self.is_used && RESIZED.contains(&point)
+    }
+
+    fn times(&self, source: Source, factor: f64) -> Sizes {
+        let mut sizes = self.clone();
+        *sizes.factors.entry(source).or_insert(1.0) *= factor;
+        sizes
+    }
+
+    /// Makes the loads smaller that only the larger term of a sum depends on; returns whether there are any.
+    fn reduce(&mut self, sums: &[Unbalanced]) -> bool {
+        let mut factors: FxHashMap<Source, f64> = FxHashMap::default();
+        for (source, wanted) in sums.iter().flat_map(Unbalanced::factors) {
+            let factor = factors.entry(source).or_insert(1.0);
+            *factor = factor.min(wanted);
+        }
+        for (source, factor) in &factors {
+            *self.factors.entry(*source).or_insert(1.0) *= factor;
+        }
+        !factors.is_empty()
+    }
+}
+
+/// A sum in which one term can be lost.
+struct Unbalanced {
+    larger: Value,
+    smaller: Value,
+    /// The size of the smaller term relative to the larger one.
+    ratio: f64,
+    /// The loads that only the larger term depends on, with their shares in it: (x/v) ∂v/∂x.
+    shares: Vec<(Source, f64)>,
+}
+
+impl Unbalanced {
+    /// Notes a load, from the values before and after it has changed.
+    fn note(&mut self, source: Source, before: &[Sample], after: &[Sample]) {
+        let share = |value: Value| {
+            let [before, after] = [before, after].map(|samples| &samples[value.index()]);
+            let share = |point: usize| {
+                let change = after.values[point] - before.values[point];
+                (change / before.values[point]).to_f64() / STEP
+            };
+            let shares = RESIZED.map(share);
+            shares.fold(0.0, |most: f64, share| if share.abs() > most.abs() { share } else { most })
+        };
+        if share(self.larger).abs() > SHARE && share(self.smaller).abs() < SHARE {
+            self.shares.push((source, share(self.larger)));
+        }
+    }
+
+    /// The factors of loads at which both terms are of one size. The shares in a homogeneous function add up to its
+    /// degree (Euler).
+    fn factors(&self) -> impl Iterator<Item = (Source, f64)> {
+        let degree: f64 = self.shares.iter().map(|(_, share)| share).sum();
+        let factor = self.ratio.powf(1.0 / degree.max(1.0));
+        let factor = if degree > 0.5 && factor > 0.0 { factor } else { 1.0 };
+        let smaller = self.shares.iter().filter(move |_| factor < 1.0);
+        smaller.map(move |(source, _)| (*source, factor))
+    }
+}
+
+/// The sums with a term that is not noticed although it is different from 0.
+fn unbalanced_sums(program: &Program, samples: &[Sample]) -> Vec<Unbalanced> {
+    let largest = |value: Value| {
+        let sample = &samples[value.index()];
+        RESIZED.map(|point| sample.value(point).abs()).fold(0.0, f64::max)
+    };
+    let sums = program.values().filter_map(|(sum, operation)| {
+        let (Operation::Add(a, b) | Operation::Sub(a, b)) = operation else { return None };
+        let (larger, smaller) = if largest(a) < largest(b) { (b, a) } else { (a, b) };
+        let ratio = largest(smaller) / largest(larger);
+        let [sum, term] = [sum, smaller].map(|value| &samples[value.index()]);
+        let is_lost = sum.is_trusted
+            && RESIZED.into_iter().all(|point| {
+                let rounding = sum.errors[point];
+                !term.vanishes_at(point) && term.value(point).abs() <= NOTICED * rounding
+            });
+        is_lost.then_some(Unbalanced { larger, smaller, ratio, shares: vec![] })
+    });
+    sums.collect()
+}
+
+/// Whether the size of what is read is for the user to choose. Sines and cosines are of size one.
+fn is_free(source: &Source) -> bool {
+    !matches!(source, Source::Sin(_) | Source::Cos(_))
+}
