@@ -237,26 +237,4 @@ mod tests {
         assert!(!all.contains("mean"), "{all}");
         assert_eq!(other, "there is no function `bais`. Did you mean `bias`? Available: bias.");
     }
-
-    /// A frame `Arm` takes the name of link `arm`, whose function must not get that of link `arm_link`.
-    #[test]
-    fn a_name_that_was_made_is_not_that_of_another_link() {
-        let link = |name: &str| {
-            format!(
-                "[[link]]\nname = \"{name}\"\nmass = 1\njoint = {{ type = \"revolute\", \
-                 axis = \"z\" }}\ncenter_of_mass = [1, 0, 0]\n\
-                 inertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
-            )
-        };
-        let frame = "[[frame]]\nname = \"Arm\"\nparent = \"arm_link\"\n";
-        let text = ["format = 1\n[robot]\nname = \"r\"\n", &link("arm"), &link("arm_link"), frame];
-        let robot = crate::description::read_toml("r.toml", &text.concat()).unwrap().robot;
-        let asked = |name: &str| named(&robot, name).unwrap().frame();
-        assert_eq!(asked("jacobian_arm_link"), Some(FrameRef::Link(1)));
-        assert_eq!(asked("jacobian_arm_link_link"), Some(FrameRef::Link(0)));
-        assert_eq!(asked("jacobian_Arm"), Some(FrameRef::Named(0)));
-        for (name, kind) in names(&robot) {
-            assert_eq!(named(&robot, &name), Ok(kind), "{name}");
-        }
-    }
 }

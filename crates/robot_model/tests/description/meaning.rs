@@ -2,7 +2,7 @@
 
 use robot_model::description::{Budget, Code, Limit, MAX_BUNDLES, check_bundle_name};
 use robot_model::diagnostic::code;
-use robot_model::functions::{FunctionKind, Functions};
+use robot_model::functions::{self, FrameRef, FunctionKind, Functions};
 use robot_model::robot::{BaseFrames, JointKind, Move, Robot};
 use robot_numeric::Mechanism;
 use robot_numeric::random::Random;
@@ -377,5 +377,20 @@ fn parameters_of_the_payload_are_at_its_table() {
         assert!(parameter.name.starts_with("payload_"), "{}", parameter.name);
         assert_eq!(&text[place.name.clone()], "payload", "{}", parameter.name);
         assert!(parameter.unit.is_some() && parameter.doc.is_some());
+    }
+}
+
+/// A frame `Arm` takes the name of link `arm`, whose function must not get that of link `arm_link`.
+#[test]
+fn a_name_that_was_made_is_not_that_of_another_link() {
+    let frame = "[[frame]]\nname = \"Arm\"\nparent = \"arm_link\"\n";
+    let links = revolute("arm", "") + &revolute("arm_link", "");
+    let robot = read(&format!("format = 1\n[robot]\nname = \"r\"\n{links}{frame}")).robot;
+    let asked = |name: &str| functions::named(&robot, name).unwrap().frame();
+    assert_eq!(asked("jacobian_arm_link"), Some(FrameRef::Link(1)));
+    assert_eq!(asked("jacobian_arm_link_link"), Some(FrameRef::Link(0)));
+    assert_eq!(asked("jacobian_Arm"), Some(FrameRef::Named(0)));
+    for (name, kind) in functions::names(&robot) {
+        assert_eq!(functions::named(&robot, &name), Ok(kind), "{name}");
     }
 }
