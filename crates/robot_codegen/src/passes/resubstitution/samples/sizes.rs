@@ -4,7 +4,7 @@
 //! round to the same number, and the term of gravity would count as rounding. So at one set of points the loads are
 //! of the size of the terms beside them.
 
-use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 use super::{POINTS_PER_SET, Sample};
 use crate::program::{Operation, Program, Source, Value};
@@ -24,7 +24,7 @@ const SHARE: f64 = 1e-3;
 /// The sizes of loads at one set of points; 1 for those that are not listed.
 #[derive(Clone, Default)]
 pub(super) struct Sizes {
-    factors: FxHashMap<Source, f64>,
+    factors: BTreeMap<Source, f64>,
     /// Whether the values of functions have the size of their arguments at these points.
     is_used: bool,
 }
@@ -70,7 +70,7 @@ impl Sizes {
 
     /// Makes the loads smaller that only the larger term of a sum depends on; returns whether there are any.
     fn reduce(&mut self, sums: &[Unbalanced]) -> bool {
-        let mut factors: FxHashMap<Source, f64> = FxHashMap::default();
+        let mut factors: BTreeMap<Source, f64> = BTreeMap::new();
         for (source, wanted) in sums.iter().flat_map(Unbalanced::factors) {
             let factor = factors.entry(source).or_insert(1.0);
             *factor = factor.min(wanted);
