@@ -238,6 +238,8 @@ class Robot:
         measured = np.asarray(tau, np.float64)
         if regressor.ndim != 3 or measured.shape != regressor.shape[:2]:
             raise RobotError(f"tau has the shape {measured.shape}; it must be (N, {self.degrees_of_freedom}) as the states are")
+        if measured.size == 0:
+            raise RobotError("there are no states, and nothing can be identified from none")
         weights = 1.0 / np.broadcast_to(_noise(noise, self.degrees_of_freedom), measured.shape).ravel()
         matrix, torques = regressor.reshape(-1, regressor.shape[2]), measured.ravel()
         if not (np.isfinite(matrix).all() and np.isfinite(torques).all()):

@@ -105,6 +105,7 @@ def test_layouts_and_types():
         (lambda r, q: r.function("inverse"), "inverse"),
         (lambda r, q: r.equations(form="none"), "none"),
         (lambda r, q: r.identify(q, q, q, q[:2]), "shape"),
+        (lambda r, q: r.identify(q[:0], q[:0], q[:0], q[:0]), "no states"),
         (lambda r, q: robots.load("absent.toml"), "absent.toml"),
     ],
 )
