@@ -12,7 +12,7 @@ use robot_build::{
 use crate::Terminal;
 use crate::failure::Failure;
 
-/// The most files of an earlier run that a message names.
+/// The largest number of files of an earlier run that a message names.
 const SHOWN: usize = 5;
 
 /// Whether files of others are replaced.

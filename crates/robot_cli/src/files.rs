@@ -9,7 +9,7 @@ use robot_build::{missing, shown};
 use crate::Terminal;
 use crate::failure::Failure;
 
-/// The most bytes of a file. Tables of states and torques are smaller, but a device can be endless.
+/// The largest number of bytes of a file. Tables of states and torques are smaller, but a device can be endless.
 const MAX_BYTES: u64 = 1 << 28;
 
 /// The failure to read a file; if the file does not exist, the message names a similar one.

@@ -164,7 +164,7 @@ pub(crate) fn snapping(snapping: &Snapping) -> String {
     text
 }
 
-/// The most links that the note about angles snapped for print names.
+/// The largest number of links that the note about angles snapped for print names.
 const NAMED: usize = 3;
 
 /// Prints which constant angles are printed as multiples of π/2 although code uses their exact values; empty if there

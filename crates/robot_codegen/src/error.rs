@@ -100,7 +100,7 @@ pub enum Error {
         known: String,
     },
     /// A parameter that has no nominal value and was not given.
-    #[error("the parameter `{parameter}` does not have a nominal value: set one")]
+    #[error("the parameter `{parameter}` does not have a nominal value; give it a value")]
     MissingParameter {
         /// The parameter.
         parameter: String,

@@ -6,7 +6,7 @@ use crate::{thumb, x86};
 /// An instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Instruction {
-    /// The offset in the function.
+    /// The offset from the start of the function, in bytes.
     pub(crate) place: usize,
     /// The length, in bytes.
     pub(crate) length: usize,

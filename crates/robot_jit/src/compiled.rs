@@ -12,7 +12,7 @@ use crate::processor::Registers;
 /// The number of states that are copied into columns at once.
 const BLOCK: usize = 64;
 
-/// The most values of a function, so that all addresses fit into 31 bits.
+/// The largest number of values of a function, so that all addresses fit into 31 bits.
 const MOST_VALUES: usize = 1 << 18;
 
 /// The functions to compile, the processor, and the arithmetic.

@@ -16,7 +16,8 @@ pub enum Error {
     },
     /// The options choose sines and cosines of the standard library.
     #[error(
-        "machine code has only the polynomial sines and cosines; the interpreter has the standard library's"
+        "machine code has only the polynomial sines and cosines; choose these, or use the interpreter, which has the \
+         standard library's"
     )]
     Trigonometry,
     /// A function that was not compiled.

@@ -84,7 +84,7 @@ impl Friction {
     }
 }
 
-/// The friction Q_f of each coordinate, for the given loads of the joints.
+/// The friction Q_f of each coordinate, N m or N, for the given contact forces of the joints.
 pub(super) fn torques(mechanism: &Mechanism, qd: &[f64], loads: &[LinkDynamics]) -> DVector<f64> {
     let mut torques = DVector::zeros(mechanism.coordinates());
     for (link, load) in mechanism.links().iter().zip(loads) {

@@ -11,7 +11,7 @@ use crate::driver::options::Options;
 use crate::driver::programs::{plan_of, programs_under, read_with};
 use crate::error::Errors;
 
-/// The most expressions of functions that are derived repeatedly. All functions of an arm with
+/// The largest number of expressions of functions that are derived repeatedly. All functions of an arm with
 /// seven joints have a few tens of thousands.
 const MAX_NODES: usize = 40_000;
 

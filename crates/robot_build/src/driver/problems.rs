@@ -4,7 +4,7 @@ use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Style, render};
 
 use crate::error::{Error, Errors};
 
-/// The most problems that are shown; further ones are only counted.
+/// The largest number of problems that are shown; further ones are only counted.
 const MAX_SHOWN: usize = 40;
 
 /// An error.

@@ -15,7 +15,7 @@ use crate::driver::options::Options;
 use crate::driver::{limbs, singular, specification};
 use crate::error::{Error, Errors};
 
-/// The most expressions of functions that become code. The usual functions of a robot with 64 joints about
+/// The largest number of expressions of functions that become code. The usual functions of a robot with 64 joints about
 /// skew axes have a few tens of thousands.
 pub(crate) const MAX_NODES: usize = 500_000;
 

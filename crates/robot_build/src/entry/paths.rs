@@ -143,7 +143,7 @@ fn nearest(path: &Path) -> Option<String> {
     whole.or_else(|| names.iter().find(|known| stem(known) == stem(name)).cloned())
 }
 
-/// The most files of a folder that are examined for a similar name.
+/// The largest number of files of a folder that are examined for a similar name.
 const MOST_NAMES: usize = 10_000;
 
 fn cannot_read(path: &Path, reason: &str) -> Error {

@@ -13,7 +13,7 @@ use crate::entry::files::MARKER;
 use crate::entry::paths::RobotFile;
 use crate::error::{Error, Errors};
 
-/// The most bytes of a pin; real ones have a few kilobytes.
+/// The largest number of bytes of a pin; real ones have a few kilobytes.
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The path of a robot file's pin, which is next to it. The ending `plan` replaces `toml` and is appended to any

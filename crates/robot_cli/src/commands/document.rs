@@ -147,7 +147,7 @@ impl Arguments {
     }
 }
 
-/// The most equations of a document that can be read from the first page to the last.
+/// The largest number of equations of a document that can be read from the first page to the last.
 const LONG: usize = 300;
 
 /// Prints a note that other forms are shorter, if the document is long.

@@ -12,7 +12,7 @@ use crate::files;
 
 /// The number of bytes that are read at a time.
 const CHUNK: usize = 1 << 16;
-/// The most bytes of a file that are examined to find its format, and the most bytes of a state.
+/// The largest number of bytes of a file that are examined to find its format, and that of the bytes of a state.
 const MAX_BYTES: u64 = 1 << 20;
 /// The number of bytes up to which a stream that is read twice is kept in memory; longer ones are kept on the disk.
 const KEPT: usize = 1 << 20;

@@ -104,7 +104,8 @@ pub(super) fn factored<'h>(terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     sorted(terms, order)
 }
 
-/// The places of the two terms that differ in only one factor and have the most factors in common.
+/// The indices of the two terms that differ in only one factor and have the most factors in common; `None` if no two
+/// terms do.
 fn alike(terms: &[ArrangedTerm<'_>]) -> Option<(usize, usize)> {
     let mut best: Option<(usize, usize, usize)> = None;
     for (first, one) in terms.iter().enumerate() {

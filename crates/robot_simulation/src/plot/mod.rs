@@ -58,8 +58,8 @@ pub struct Curve {
 /// The factor by which figures are drawn larger than they are shown, because coordinates are integers.
 const SCALE: u32 = 4;
 
-/// The style with dark colors for an SVG, which replaces each of the drawn colors if the reader prefers dark ones.
-/// Programs that do not know this media query, such as those that convert to PDF, show the light colors.
+/// The style that replaces each drawn color by a dark one if the viewer prefers a dark scheme. Programs that ignore
+/// `prefers-color-scheme`, such as converters to PDF, show the light colors.
 const DARK: &str = "<style>@media (prefers-color-scheme: dark) { \
     [fill='#FFFFFF'] { fill: #14171c } [fill='#282828'] { fill: #d8dce3 } [stroke='#282828'] { stroke: #d8dce3 } \
     [stroke='#E1E1E1'] { stroke: #353b45 } [stroke='#000000'] { stroke: #ffffff } [stroke='#0072B2'] { stroke: #3fa2e0 } \

@@ -29,7 +29,7 @@ pub const DEFAULT_FUNCTIONS: [FunctionKind; 5] = [
 /// The default number of states in a block of a batch: two or four vector registers of `f64` on most processors.
 pub const DEFAULT_BATCH: usize = 8;
 
-/// The most states in a block of a batch, whose arrays are on the stack.
+/// The largest number of states in a block of a batch, whose arrays are on the stack.
 const MAX_BATCH: usize = 64;
 
 /// The way in which identical limbs of a robot, such as the legs of a walking machine or the fingers of a hand, are

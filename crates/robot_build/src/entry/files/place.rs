@@ -4,7 +4,7 @@ use std::fs::{self, Metadata};
 use std::io::{Error, ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
-/// The most symbolic links that are followed; more are regarded as a cycle.
+/// The largest number of symbolic links that are followed; more are regarded as a cycle.
 const MAX_LINKS: usize = 40;
 
 /// The kind of file at a path.

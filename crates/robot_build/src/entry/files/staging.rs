@@ -14,9 +14,10 @@ use super::place::folder_of;
 
 /// The part of a temporary file's name that follows the name of its target.
 const INFIX: &str = ".robot-symbolic-tmp-";
-/// The most bytes of a target's name in the name of its temporary file; systems allow 255 bytes for the whole name.
+/// The largest number of bytes of a target's name in the name of its temporary file; systems allow 255 bytes for the
+/// whole name.
 const MAX_NAME: usize = 180;
-/// The most temporary names that are tried.
+/// The largest number of temporary names that are tried.
 const MAX_TRIES: u32 = 1000;
 
 /// The number in the next temporary name, which is different for all files of a process.

@@ -8,7 +8,7 @@ use super::lines::Lines;
 use crate::NAME;
 use crate::options::in_flags;
 
-/// The most diagnostics of a document; further ones are only counted, because editors become slow.
+/// The largest number of diagnostics of a document; further ones are only counted, because editors become slow.
 const MAX_SHOWN: usize = 1000;
 
 /// The tag of text that is not needed, which editors fade.

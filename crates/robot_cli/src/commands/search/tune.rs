@@ -19,7 +19,7 @@ type Rows = Vec<Vec<String>>;
 /// The function whose operations the search minimizes.
 const FUNCTION: FunctionKind =
     FunctionKind::InverseDynamics(Effects { wrench: false, friction: false });
-/// The most plans that are timed.
+/// The largest number of plans that are timed.
 const MOST: usize = 32;
 /// The factor by which another plan must be faster than the plan with the fewest operations. Two measurements of
 /// the same code differ by about half of this margin.

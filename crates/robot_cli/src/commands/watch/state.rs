@@ -28,7 +28,7 @@ pub(super) struct Settings<'a> {
     pub(super) snap: Option<f64>,
     /// The options for reading that turn errors into warnings.
     pub(super) reading: ReadingArguments,
-    /// The most terms of each equation that are shown.
+    /// The largest number of terms of each equation that are shown.
     pub(super) terms: usize,
     /// The style of errors and warnings.
     pub(super) style: Style,

@@ -303,15 +303,15 @@ fn limits(
 
 fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<UrdfMimic<'a>> {
     let joint = element.require(reader, "joint", "name of the leading joint");
-    let mut figure = |name: &str, what: &str, missing: Rational| match element.attribute(name) {
+    let mut number_of = |name: &str, what: &str, missing: Rational| match element.attribute(name) {
         Some(attribute) => {
             let [number] = numbers::<1>(reader, &attribute, what, "1")?;
             Some((number, Some(attribute.span)))
         }
         None => Some((missing, None)),
     };
-    let multiplier = figure("multiplier", "the multiplier", Rational::ONE);
-    let offset = figure("offset", "the offset", Rational::ZERO);
+    let multiplier = number_of("multiplier", "the multiplier", Rational::ONE);
+    let offset = number_of("offset", "the offset", Rational::ZERO);
     let ((multiplier, span), (offset, _)) = (multiplier?, offset?);
     if multiplier.is_zero() {
         reader.report(
@@ -331,12 +331,12 @@ fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<Urd
 }
 
 fn friction(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Dynamics> {
-    let mut figure = |name: &str| {
+    let mut formula_of = |name: &str| {
         let Some(attribute) = element.attribute(name) else {
             return Some(zero());
         };
-        let [figure] = formulas::<1>(reader, &attribute, &format!("the {name}"), "0.1")?;
-        let value = figure.evaluate(|_| f64::NAN);
+        let [formula] = formulas::<1>(reader, &attribute, &format!("the {name}"), "0.1")?;
+        let value = formula.evaluate(|_| f64::NAN);
         if value < 0.0 {
             let message = format!("the {name} is {value}");
             reader.report(
@@ -345,9 +345,9 @@ fn friction(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Dynami
                     .help("correct the value, or leave it out"),
             );
         }
-        Some(figure)
+        Some(formula)
     };
-    let (damping, friction) = (figure("damping"), figure("friction"));
+    let (damping, friction) = (formula_of("damping"), formula_of("friction"));
     let (damping, friction) = (damping?, friction?);
     if Reader::is_zero(&damping) && Reader::is_zero(&friction) {
         return None;
