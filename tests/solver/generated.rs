@@ -17,7 +17,7 @@ use robot_testing::solver::{expected, inputs, state};
 use robot_testing::{largest_difference, magnitude, robot_files};
 
 const TOLERANCE: f64 = 1e-12;
-const FUNCTIONS: [FunctionKind; 5] = [
+pub(crate) const FUNCTIONS: [FunctionKind; 5] = [
     FunctionKind::InverseDynamics(Effects::NONE),
     FunctionKind::InverseDynamics(Effects::WRENCH),
     FunctionKind::InverseDynamics(Effects::FRICTION),
