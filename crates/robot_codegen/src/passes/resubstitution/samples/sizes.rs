@@ -104,8 +104,9 @@ impl Unbalanced {
             let shares = RESIZED.map(share);
             shares.fold(0.0, |most: f64, share| if share.abs() > most.abs() { share } else { most })
         };
-        if share(self.larger).abs() > SHARE && share(self.smaller).abs() < SHARE {
-            self.shares.push((source, share(self.larger)));
+        let [larger, smaller] = [self.larger, self.smaller].map(share);
+        if larger.abs() > SHARE && smaller.abs() < SHARE {
+            self.shares.push((source, larger));
         }
     }
 
