@@ -1,8 +1,8 @@
-//! Robots whose torques are far below the rounding error of a number near 1: what is given as numbers counts, however
-//! small it is.
+//! Robots whose torques are far below the rounding error of a number near 1, or whose speeds are far above: what is given
+//! as numbers counts, however small it is.
 
 use robot_model::functions::{Effects, FunctionKind};
-use robot_model::robot::{Inertia, Robot};
+use robot_model::robot::{Inertia, JointKind, Move, Placement, Robot};
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
 use robot_symbolic::{Formula, Rational};
@@ -13,12 +13,15 @@ use crate::generated::{Case, FUNCTIONS};
 const FURTHER: [FunctionKind; 3] =
     [FunctionKind::ForwardDynamics(Effects::NONE), FunctionKind::MassMatrix, FunctionKind::Gravity];
 
+/// Multiplies a number of a robot by a factor.
+fn scale(formula: &mut Formula, factor: &Rational) {
+    let value = formula.as_number().unwrap().as_rational().unwrap().clone();
+    *formula = Formula::number(&(&value * factor));
+}
+
 /// The robot with every mass, inertia and coefficient of friction times a factor.
 fn scaled(mut robot: Robot, factor: &Rational) -> Robot {
-    let scale = |formula: &mut Formula| {
-        let value = formula.as_number().unwrap().as_rational().unwrap().clone();
-        *formula = Formula::number(&(&value * factor));
-    };
+    let scale = |formula: &mut Formula| scale(formula, factor);
     for link in &mut robot.links {
         for body in &mut link.bodies {
             scale(&mut body.mass);
@@ -56,5 +59,67 @@ fn the_programs_of_light_robots() {
             worst = worst.max(case.interpret());
         }
         println!("1e-{exponent} kg: worst error {worst:.1e}");
+    }
+}
+
+/// The robot with every length times a factor, with joints that rotate.
+fn shortened(mut robot: Robot, factor: &Rational) -> Robot {
+    let shorten = |placement: &mut Placement| {
+        for step in &mut placement.0 {
+            if let Move::Translate(vector) = step {
+                vector.iter_mut().for_each(|length| scale(length, factor));
+            }
+        }
+    };
+    let square = factor * factor;
+    for link in &mut robot.links {
+        link.joint.kind = JointKind::Revolute;
+        shorten(&mut link.placement);
+        for body in &mut link.bodies {
+            shorten(&mut body.placement);
+            let Inertia { xx, yy, zz, xy, xz, yz } = &mut body.inertia;
+            [xx, yy, zz, xy, xz, yz].into_iter().for_each(|entry| scale(entry, &square));
+        }
+    }
+    robot.frames.iter_mut().for_each(|frame| shorten(&mut frame.placement));
+    robot
+}
+
+/// A robot whose links are f meters long instead of one moves as the longer one in a time that is √f as long, at torques
+/// of f times the size: the speeds of a link of a nanometer are 3·10⁴ rad/s.
+#[test]
+fn the_programs_of_short_robots() {
+    let functions = [
+        &[
+            FunctionKind::InverseDynamics(Effects::NONE),
+            FunctionKind::InverseDynamics(Effects::WRENCH),
+        ],
+        &FURTHER[..],
+    ]
+    .concat();
+    let pairs = [3, 6, 7, 8, 9, 10, 12, 15].map(|length| [(length, 0), (length, 9), (length, 20)]);
+    for (length, mass) in pairs.into_iter().flatten() {
+        let [length_factor, mass_factor] = [length, mass]
+            .map(|exponent| Rational::from_decimal(&format!("1e-{exponent}")).unwrap());
+        let name = format!("1e-{length} m, 1e-{mass} kg");
+        let mut worst = 0.0_f64;
+        for seed in 0..6 {
+            let recipe = Recipe::serial(1 + seed as usize % 4);
+            let robot = robots::robot(&mut Random::new(seed), &recipe);
+            let robot = scaled(shortened(robot, &length_factor), &mass_factor);
+            let mut case = Case::of(&functions, &name, robot, seed, 10);
+            for state in &mut case.states {
+                let [length, mass] = [&length_factor, &mass_factor].map(Rational::to_f64);
+                state.qd.iter_mut().for_each(|speed| *speed /= length.sqrt());
+                state.qdd.iter_mut().for_each(|acceleration| *acceleration /= length);
+                state.tau.iter_mut().for_each(|tau| *tau *= mass * length);
+                for wrench in &mut state.wrenches {
+                    wrench.force *= mass;
+                    wrench.moment *= mass * length;
+                }
+            }
+            worst = worst.max(case.interpret());
+        }
+        println!("{name}: worst error {worst:.1e}");
     }
 }

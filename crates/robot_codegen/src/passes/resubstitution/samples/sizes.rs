@@ -15,11 +15,14 @@ const RESIZED: std::ops::Range<usize> = POINTS_PER_SET..2 * POINTS_PER_SET;
 /// of it are compared.
 const NOTICED: f64 = 1e6;
 /// The most adjustments: each reveals the sums that the one before made unbalanced.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 10;
 /// The relative change of a load from which the share of that load in a value is computed.
 const STEP: f64 = 1e-9;
 /// The least share of a load in a value that depends on it.
 const SHARE: f64 = 1e-3;
+
+/// The least degree of a term for which a size is computed from it.
+const HOMOGENEOUS: f64 = 0.5;
 
 /// The sizes of loads at one set of points; 1 for those that are not listed.
 #[derive(Clone, Default)]
@@ -31,7 +34,8 @@ pub(super) struct Sizes {
 
 impl Sizes {
     /// Chooses sizes at which the terms of each sum are noticed, as far as this is possible by making smaller what only
-    /// the larger term depends on. `evaluate` returns the samples of the program at given sizes.
+    /// the larger term depends on or, if that is nothing (gravity is a number), larger what only the smaller term
+    /// depends on. `evaluate` returns the samples of the program at given sizes.
     pub(super) fn balancing(program: &Program, evaluate: impl Fn(&Sizes) -> Vec<Sample>) -> Sizes {
         let mut sizes = Sizes { is_used: true, ..Sizes::default() };
         for _ in 0..ROUNDS {
@@ -44,7 +48,7 @@ impl Sizes {
                 let changed = evaluate(&sizes.times(source, 1.0 + STEP));
                 sums.iter_mut().for_each(|sum| sum.note(source, &samples, &changed));
             }
-            if !sizes.reduce(&sums) {
+            if !sizes.adjust(&sums) {
                 break;
             }
         }
@@ -68,12 +72,14 @@ impl Sizes {
         sizes
     }
 
-    /// Makes the loads smaller that only the larger term of a sum depends on; returns whether there are any.
-    fn reduce(&mut self, sums: &[Unbalanced]) -> bool {
+    /// Changes the loads that only one term of a sum depends on; returns whether there are any. Where sums differ in
+    /// what they want, the smallest size counts: a load is made larger only if no sum needs it smaller.
+    fn adjust(&mut self, sums: &[Unbalanced]) -> bool {
         let mut factors: BTreeMap<Source, f64> = BTreeMap::new();
         for (source, wanted) in sums.iter().flat_map(Unbalanced::factors) {
-            let factor = factors.entry(source).or_insert(1.0);
-            *factor = factor.min(wanted);
+            let factor = factors.entry(source).or_insert(wanted);
+            *factor =
+                if *factor < 1.0 || wanted < 1.0 { factor.min(wanted) } else { factor.max(wanted) };
         }
         for (source, factor) in &factors {
             *self.factors.entry(*source).or_insert(1.0) *= factor;
@@ -89,7 +95,9 @@ struct Unbalanced {
     /// The size of the smaller term relative to the larger one.
     ratio: f64,
     /// The loads that only the larger term depends on, with their shares in it: (x/v) ∂v/∂x.
-    shares: Vec<(Source, f64)>,
+    of_larger: Vec<(Source, f64)>,
+    /// The same of the smaller term.
+    of_smaller: Vec<(Source, f64)>,
 }
 
 impl Unbalanced {
@@ -105,19 +113,28 @@ impl Unbalanced {
             shares.fold(0.0, |most: f64, share| if share.abs() > most.abs() { share } else { most })
         };
         let [larger, smaller] = [self.larger, self.smaller].map(share);
-        if larger.abs() > SHARE && smaller.abs() < SHARE {
-            self.shares.push((source, larger));
+        match (larger.abs() > SHARE, smaller.abs() > SHARE) {
+            (true, false) => self.of_larger.push((source, larger)),
+            (false, true) => self.of_smaller.push((source, smaller)),
+            _ => {}
         }
     }
 
     /// The factors of loads at which both terms are of one size. The shares in a homogeneous function add up to its
     /// degree (Euler).
     fn factors(&self) -> impl Iterator<Item = (Source, f64)> {
-        let degree: f64 = self.shares.iter().map(|(_, share)| share).sum();
-        let factor = self.ratio.powf(1.0 / degree.max(1.0));
-        let factor = if degree > 0.5 && factor > 0.0 { factor } else { 1.0 };
-        let smaller = self.shares.iter().filter(move |_| factor < 1.0);
-        smaller.map(move |(source, _)| (*source, factor))
+        let degree = |shares: &[(Source, f64)]| shares.iter().map(|(_, share)| share).sum::<f64>();
+        let [larger, smaller] = [&self.of_larger, &self.of_smaller].map(|shares| degree(shares));
+        let (loads, factor) = if larger > HOMOGENEOUS {
+            (&self.of_larger, self.ratio.powf(1.0 / larger.max(1.0)))
+        } else if smaller > HOMOGENEOUS {
+            (&self.of_smaller, self.ratio.powf(-1.0 / smaller.max(1.0)))
+        } else {
+            (&self.of_larger, 1.0)
+        };
+        let changes = factor.is_finite() && factor > 0.0 && factor != 1.0;
+        let changed = loads.iter().filter(move |_| changes);
+        changed.map(move |(source, _)| (*source, factor))
     }
 }
 
@@ -137,7 +154,13 @@ fn unbalanced_sums(program: &Program, samples: &[Sample]) -> Vec<Unbalanced> {
                 let rounding = sum.errors[point];
                 !term.vanishes_at(point) && term.value(point).abs() <= NOTICED * rounding
             });
-        is_lost.then_some(Unbalanced { larger, smaller, ratio, shares: vec![] })
+        is_lost.then_some(Unbalanced {
+            larger,
+            smaller,
+            ratio,
+            of_larger: vec![],
+            of_smaller: vec![],
+        })
     });
     sums.collect()
 }
