@@ -24,7 +24,7 @@ pub(super) struct Arguments {
     log: Vec<PathBuf>,
     #[command(flatten)]
     variables: Variables,
-    /// The column of times, s
+    /// The column of times, s; without it, times are not checked
     #[arg(long, value_name = "COLUMN")]
     time: Option<String>,
     /// The column of episodes; times start again in each episode
@@ -39,6 +39,9 @@ impl Arguments {
         let (time, episode) = (self.time.as_deref(), self.episode.as_deref());
         let found = check(&log, &model, &self.variables.names(), time, episode)?;
         show(&found.iter().map(|finding| format!("{finding}\n")).collect::<String>())?;
+        if time.is_none() {
+            eprintln!("times are not checked; --time names their column");
+        }
         match found.len() {
             0 => Ok(()),
             1 => Err(Error::Columns("1 finding".to_owned())),

@@ -21,16 +21,16 @@ pub(super) struct Arguments {
     /// The robot: a path, or a name in a folder of --robots
     robot: String,
     /// The period, s
-    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = 10.0, value_parser = positive, allow_negative_numbers = true)]
     period: f64,
     /// Rows per second
-    #[arg(long, value_name = "HZ", default_value_t = 100.0, value_parser = positive)]
+    #[arg(long, value_name = "HZ", default_value_t = 100.0, value_parser = positive, allow_negative_numbers = true)]
     rate: f64,
     /// The largest speed of the joints, rad/s or m/s
-    #[arg(long, value_name = "SPEED", default_value_t = 2.0, value_parser = positive)]
+    #[arg(long, value_name = "SPEED", default_value_t = 2.0, value_parser = positive, allow_negative_numbers = true)]
     speed: f64,
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
-    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "1", value_parser = positive)]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "1", value_parser = positive, allow_negative_numbers = true)]
     noise: Vec<f64>,
     /// The number of trajectories to try
     #[arg(long, value_name = "N", default_value_t = 1000)]

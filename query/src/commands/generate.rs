@@ -19,22 +19,22 @@ pub(super) struct Arguments {
     /// The robot: a path, or a name in a folder of --robots
     robot: String,
     /// The number of rows, such as 100000 or 1e5
-    #[arg(long, value_name = "N", value_parser = count)]
+    #[arg(long, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     rows: u64,
     /// The number of files
     #[arg(long, value_name = "N", default_value_t = 2)]
     files: u64,
     /// Rows per second
-    #[arg(long, value_name = "HZ", default_value_t = 1000.0, value_parser = positive)]
+    #[arg(long, value_name = "HZ", default_value_t = 1000.0, value_parser = positive, allow_negative_numbers = true)]
     rate: f64,
     /// Rows per episode
     #[arg(long, value_name = "N", default_value = "10000", value_parser = count)]
     episode: u64,
     /// The largest speed of the joints, rad/s or m/s
-    #[arg(long, value_name = "SPEED", default_value_t = 2.0, value_parser = positive)]
+    #[arg(long, value_name = "SPEED", default_value_t = 2.0, value_parser = positive, allow_negative_numbers = true)]
     speed: f64,
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint
-    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "0", value_parser = not_negative)]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", default_value = "0", value_parser = not_negative, allow_negative_numbers = true)]
     noise: Vec<f64>,
     /// The layout: a list for each variable, or a column for each variable and joint, which is faster to read
     #[arg(long, value_enum, default_value_t = Columns::Lists)]

@@ -33,11 +33,11 @@ pub(super) struct Arguments {
     #[command(flatten)]
     inputs: Inputs,
     /// The standard deviations of the torques' noise, N m or N: one, or one for each joint [default: estimated]
-    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", value_parser = positive)]
+    #[arg(long, value_delimiter = ',', value_name = "NUMBERS", value_parser = positive, allow_negative_numbers = true)]
     noise: Option<Vec<f64>>,
     /// Keep parameters near those of the robot file: the weight of its values relative to that of all rows of the
     /// log, such as 0.001
-    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0, value_parser = not_negative)]
+    #[arg(long, value_name = "WEIGHT", default_value_t = 0.0, value_parser = not_negative, allow_negative_numbers = true)]
     ridge: f64,
     /// A known parameter: its value, by default that of the robot file, and its standard deviation, 0 to fix the
     /// parameter

@@ -62,8 +62,8 @@ struct Engine {
     #[arg(long, global = true, help_heading = SHARED, value_name = "N")]
     threads: Option<NonZeroUsize>,
     /// The maximum memory of a query, MiB
-    #[arg(long, global = true, help_heading = SHARED, value_name = "MIB", default_value_t = 1024)]
-    memory: usize,
+    #[arg(long, global = true, help_heading = SHARED, value_name = "MIB", default_value = "1024")]
+    memory: NonZeroUsize,
     /// Workers, started by `robot-query worker`; logs must have the same paths on their machines
     #[arg(long, global = true, help_heading = SHARED, value_delimiter = ',', value_name = "HOST:PORT")]
     workers: Vec<String>,
@@ -84,9 +84,14 @@ impl Engine {
         self.threads.map_or_else(cores, usize::from)
     }
 
+    /// The maximum memory of a query, in bytes.
+    fn memory(&self) -> usize {
+        self.memory.get().saturating_mul(1 << 20)
+    }
+
     /// A session with this number of threads.
     fn session(&self, threads: usize) -> Result<Session, Error> {
-        let settings = Settings { threads, memory: self.memory << 20 };
+        let settings = Settings { threads, memory: self.memory() };
         Session::on(self.robots()?, settings, Workers::at(&self.workers)?)
     }
 }

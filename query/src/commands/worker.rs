@@ -25,6 +25,6 @@ impl Arguments {
     pub(super) async fn run(&self, engine: &Engine) -> Result<(), Error> {
         let listener = Listener::bind(&self.listen).await?;
         show(&format!("{}\n", listener.address))?;
-        serve(listener, engine.robots()?, engine.memory << 20).await
+        serve(listener, engine.robots()?, engine.memory()).await
     }
 }

@@ -210,7 +210,10 @@ fn collect(path: &Path, files: &mut Vec<PathBuf>) -> Result<(), Error> {
         files.push(folder);
         return Ok(());
     }
-    let failed = |error: std::io::Error| Error::file(path, error);
+    let failed = |error: std::io::Error| match error.kind() {
+        std::io::ErrorKind::NotFound => Error::file(path, "there is no such file or folder"),
+        _ => Error::file(path, error),
+    };
     let found = std::fs::metadata(path).map_err(failed)?;
     if !found.is_dir() {
         files.push(path.to_owned());

@@ -17,9 +17,12 @@ pub(crate) struct Place {
 ///
 /// # Errors
 ///
-/// A folder with files in it; a folder that cannot be made.
+/// A folder with files in it; a file of that name; a folder that cannot be made.
 pub(crate) fn empty_folder(folder: &Path) -> Result<(), Error> {
     let failed = |error: std::io::Error| Error::file(folder, error);
+    if folder.exists() && !folder.is_dir() {
+        return Err(Error::file(folder, "it is not a folder; choose another name"));
+    }
     std::fs::create_dir_all(folder).map_err(failed)?;
     match std::fs::read_dir(folder).map_err(failed)?.next() {
         None => Ok(()),
@@ -58,13 +61,17 @@ impl Place {
     ///
     /// # Errors
     ///
-    /// A path that is taken; a file that cannot be created.
+    /// A path that is taken; a folder that does not exist; a file that cannot be created.
     pub(crate) fn create(path: &Path) -> Result<(Place, File), Error> {
         check_vacant(path)?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.exists()) {
+            return Err(Error::file(folder, "there is no such folder; make it first"));
+        }
         let mut name = path.file_name().unwrap_or_default().to_owned();
         name.push(".incomplete");
         let beside = path.with_file_name(name);
-        let file = File::create(&beside).map_err(|error| Error::file(&beside, error))?;
+        let file = File::create(&beside).map_err(|error| Error::file(path, error))?;
         Ok((Place { path: path.to_owned(), beside }, file))
     }
 

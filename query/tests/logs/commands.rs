@@ -71,18 +71,57 @@ fn numbers_out_of_range_are_refused() {
     let robot = robot("planar_2r");
     let folder = tempfile::tempdir().unwrap();
     for arguments in [
-        &["generate", &robot, "--rows", "10", "--noise=-1", "-o", "log"][..],
+        &["generate", &robot, "--rows", "10", "--noise", "-1", "-o", "log"][..],
+        &["generate", &robot, "--rows", "-5", "-o", "log"],
         &["generate", &robot, "--rows", "10", "--noise", "nan", "-o", "log"],
         &["identify", &robot, ".", "--noise", "nan"],
         &["identify", &robot, ".", "--noise", "0"],
-        &["identify", &robot, ".", "--ridge=-1"],
+        &["identify", &robot, ".", "--ridge", "-1"],
         &["excite", &robot, "--noise", "1,inf", "-o", "e.csv"],
         &["sql", "SELECT 1", "--threads", "0"],
+        &["sql", "SELECT 1", "--memory", "0"],
     ] {
         let message = refused(folder.path(), arguments);
         assert!(message.contains("error: invalid value"), "{message}");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
+}
+
+#[test]
+fn paths_that_cannot_be_used_are_named_as_they_were_given() {
+    let robot = robot("planar_2r");
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "mine").unwrap();
+    for (arguments, wanted) in [
+        (
+            &["sql", "SELECT 1", "-o", "nowhere/a.csv"][..],
+            "error: nowhere: there is no such folder; make it first\n",
+        ),
+        (
+            &["generate", &robot, "--rows", "10", "-o", "file"],
+            "error: file: it is not a folder; choose another name\n",
+        ),
+        (
+            &["torques", &robot, "nowhere", "-o", "a.csv"],
+            "error: nowhere: there is no such file or folder\n",
+        ),
+    ] {
+        assert_eq!(refused(folder.path(), arguments), wanted);
+        assert_eq!(fs::read_to_string(folder.path().join("file")).unwrap(), "mine");
+    }
+}
+
+#[test]
+fn a_check_without_times_says_so() {
+    let robot = robot("planar_2r");
+    let folder = log(&robot, &generation(&robot, 100));
+    let message = |arguments: &[&str]| {
+        let output = command(folder.path(), &[&["check", &robot, "."], arguments].concat());
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    assert_eq!(message(&[]), "times are not checked; --time names their column\n");
+    assert_eq!(message(&["--time", "t", "--episode", "episode"]), "");
 }
 
 #[test]
