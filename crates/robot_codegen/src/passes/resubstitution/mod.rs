@@ -16,8 +16,8 @@
 //! again at other points, and tests compare the results of generated code with independent solvers.
 //!
 //! A term far below the rounding error of the sum that it is in would not be noticed, but counts if the other terms can
-//! be as small: τ − 2·10⁻¹⁷ cos q for a robot of micrograms. At one pair of points, inputs and parameters therefore have
-//! the size of the terms next to them (`samples::sizes`).
+//! be as small: τ − 2·10⁻¹⁷ cos q for a robot of micrograms. At two pairs of points, inputs and parameters therefore
+//! have sizes at which the terms next to each other are of one size (`samples::sizes`).
 //!
 //! Absolute values, signs and roots are treated as unrelated numbers, so that nothing is concluded from the
 //! sign that an argument happens to have at the points.

@@ -4,7 +4,7 @@ mod sizes;
 
 use robot_symbolic::Function;
 
-use self::sizes::Sizes;
+use self::sizes::{Resizing, Sizes};
 use crate::program::{DoubleDouble, Operation, Program, Source, Value};
 
 /// The number of points that have the same values of parameters.
@@ -42,7 +42,7 @@ impl Samples {
         let [compared, checked] = [Use::Compare, Use::Check].map(|used| Points {
             used,
             angles: None,
-            sizes: Sizes::default(),
+            sizes: Resizing::ALL.map(Sizes::one),
         });
         Samples { compared, checked }
     }
@@ -99,23 +99,27 @@ enum Use {
 }
 
 /// The values that loads read at the points: parameters and inputs of either sign and of a size near 1, or of their
-/// own at one set of points, and the sines and cosines of a function's angles, which can depend on each other.
+/// own at the points of `Resizing`, and the sines and cosines of a function's angles, which can depend on each other.
 struct Points {
     used: Use,
     angles: Option<Vec<[DoubleDouble; POINTS]>>,
-    sizes: Sizes,
+    sizes: [Sizes; 2],
 }
 
 impl Points {
     fn new(used: Use, angles: &Program) -> Points {
-        let samples = Points { used, angles: None, sizes: Sizes::default() }.of(angles);
+        let sizes = Resizing::ALL.map(Sizes::one);
+        let samples = Points { used, angles: None, sizes: sizes.clone() }.of(angles);
         let results = angles.results().iter();
         let angles = results.map(|value| samples[value.index()].values).collect();
-        Points { used, angles: Some(angles), sizes: Sizes::default() }
+        Points { used, angles: Some(angles), sizes }
     }
 
     fn balanced(&self, program: &Program) -> Points {
-        let sizes = Sizes::balancing(program, |sizes| self.at_sizes(program, sizes));
+        let sizes = Resizing::ALL.map(|how| {
+            let evaluate = |sizes: &Sizes| self.at_sizes(program, std::slice::from_ref(sizes));
+            Sizes::balancing(how, program, evaluate)
+        });
         Points { used: self.used, angles: self.angles.clone(), sizes }
     }
 
@@ -124,7 +128,7 @@ impl Points {
         self.at_sizes(program, &self.sizes)
     }
 
-    fn at_sizes(&self, program: &Program, sizes: &Sizes) -> Vec<Sample> {
+    fn at_sizes(&self, program: &Program, sizes: &[Sizes]) -> Vec<Sample> {
         let mut samples: Vec<Sample> = Vec::with_capacity(program.operations().len());
         for (value, operation) in program.values() {
             let at = |operand: Value| &samples[operand.index()];
@@ -132,7 +136,10 @@ impl Points {
                 Operation::Constant(constant) => Sample::exact([constant.get().into(); POINTS]),
                 Operation::Load(source) => {
                     let numbers = self.load(source);
-                    let number = |point: usize| numbers[point] * sizes.at(source, point).into();
+                    let number = |point: usize| {
+                        let size = sizes.iter().find_map(|sizes| sizes.at(source, point));
+                        numbers[point] * size.unwrap_or(1.0).into()
+                    };
                     Sample::exact(std::array::from_fn(number))
                 }
                 Operation::Add(a, b) => at(a).plus(at(b)),
@@ -151,7 +158,7 @@ impl Points {
                     let numbers = self.numbers(3, value.0, false);
                     let number = |point: usize| {
                         let argument = at(a).value(point);
-                        let resized = sizes.are_used_at(point);
+                        let resized = sizes.iter().any(|sizes| sizes.are_used_at(point));
                         let size = if resized { size(function, argument) } else { 1.0 };
                         numbers[point] * size.into()
                     };

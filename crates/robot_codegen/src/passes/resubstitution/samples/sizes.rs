@@ -9,8 +9,27 @@ use std::collections::BTreeMap;
 use super::{POINTS_PER_SET, Sample};
 use crate::program::{Operation, Program, Source, Value};
 
-/// The points at which loads have sizes of their own.
-const RESIZED: std::ops::Range<usize> = POINTS_PER_SET..2 * POINTS_PER_SET;
+/// How loads are resized.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Resizing {
+    /// What only the larger term of a sum depends on is made smaller.
+    Smaller,
+    /// Likewise; if nothing is, what only the smaller term depends on is made larger, since gravity can be a number.
+    Either,
+}
+
+impl Resizing {
+    /// All of them. Each has points of its own, since sizes that let the terms of one sum be noticed can hide those of
+    /// another.
+    pub(super) const ALL: [Resizing; 2] = [Resizing::Smaller, Resizing::Either];
+
+    /// The points at which loads have these sizes.
+    fn points(self) -> [usize; POINTS_PER_SET] {
+        let set = 1 + self as usize;
+        std::array::from_fn(|point| set * POINTS_PER_SET + point)
+    }
+}
+
 /// A term of a sum is noticed if it is larger than the rounding error of the sum by this factor, so that as many digits
 /// of it are compared.
 const NOTICED: f64 = 1e6;
@@ -25,22 +44,31 @@ const SHARE: f64 = 1e-3;
 const HOMOGENEOUS: f64 = 0.5;
 
 /// The sizes of loads at one set of points; 1 for those that are not listed.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 pub(super) struct Sizes {
+    how: Resizing,
     factors: BTreeMap<Source, f64>,
     /// Whether the values of functions have the size of their arguments at these points.
     is_used: bool,
 }
 
 impl Sizes {
-    /// Chooses sizes at which the terms of each sum are noticed, as far as this is possible by making smaller what only
-    /// the larger term depends on or, if that is nothing (gravity is a number), larger what only the smaller term
-    /// depends on. `evaluate` returns the samples of the program at given sizes.
-    pub(super) fn balancing(program: &Program, evaluate: impl Fn(&Sizes) -> Vec<Sample>) -> Sizes {
-        let mut sizes = Sizes { is_used: true, ..Sizes::default() };
+    /// All loads of size one.
+    pub(super) fn one(how: Resizing) -> Sizes {
+        Sizes { how, factors: BTreeMap::new(), is_used: false }
+    }
+
+    /// Chooses sizes at which the terms of each sum are noticed, as far as this is possible. `evaluate` returns the
+    /// samples of the program at given sizes.
+    pub(super) fn balancing(
+        how: Resizing,
+        program: &Program,
+        evaluate: impl Fn(&Sizes) -> Vec<Sample>,
+    ) -> Sizes {
+        let mut sizes = Sizes { is_used: true, ..Sizes::one(how) };
         for _ in 0..ROUNDS {
             let samples = evaluate(&sizes);
-            let mut sums = unbalanced_sums(program, &samples);
+            let mut sums = unbalanced_sums(how, program, &samples);
             if sums.is_empty() {
                 break;
             }
@@ -52,18 +80,17 @@ impl Sizes {
                 break;
             }
         }
-        if sizes.factors.is_empty() { Sizes::default() } else { sizes }
+        if sizes.factors.is_empty() { Sizes::one(how) } else { sizes }
     }
 
-    /// The size of a load at a point.
-    pub(super) fn at(&self, source: Source, point: usize) -> f64 {
-        let known = self.factors.get(&source).filter(|_| RESIZED.contains(&point));
-        known.copied().unwrap_or(1.0)
+    /// The size of a load at a point, if the point is one of these.
+    pub(super) fn at(&self, source: Source, point: usize) -> Option<f64> {
+        self.factors.get(&source).copied().filter(|_| self.how.points().contains(&point))
     }
 
     /// Whether loads have sizes of their own at a point.
     pub(super) fn are_used_at(&self, point: usize) -> bool {
-        self.is_used && RESIZED.contains(&point)
+        self.is_used && self.how.points().contains(&point)
     }
 
     fn times(&self, source: Source, factor: f64) -> Sizes {
@@ -90,6 +117,7 @@ impl Sizes {
 
 /// A sum in which one term can be lost.
 struct Unbalanced {
+    how: Resizing,
     larger: Value,
     smaller: Value,
     /// The size of the smaller term relative to the larger one.
@@ -109,8 +137,10 @@ impl Unbalanced {
                 let change = after.values[point] - before.values[point];
                 (change / before.values[point]).to_f64() / STEP
             };
-            let shares = RESIZED.map(share);
-            shares.fold(0.0, |most: f64, share| if share.abs() > most.abs() { share } else { most })
+            let shares = self.how.points().map(share);
+            shares
+                .into_iter()
+                .fold(0.0, |most: f64, share| if share.abs() > most.abs() { share } else { most })
         };
         let [larger, smaller] = [self.larger, self.smaller].map(share);
         match (larger.abs() > SHARE, smaller.abs() > SHARE) {
@@ -127,7 +157,7 @@ impl Unbalanced {
         let [larger, smaller] = [&self.of_larger, &self.of_smaller].map(|shares| degree(shares));
         let (loads, factor) = if larger > HOMOGENEOUS {
             (&self.of_larger, self.ratio.powf(1.0 / larger.max(1.0)))
-        } else if smaller > HOMOGENEOUS {
+        } else if self.how == Resizing::Either && smaller > HOMOGENEOUS {
             (&self.of_smaller, self.ratio.powf(-1.0 / smaller.max(1.0)))
         } else {
             (&self.of_larger, 1.0)
@@ -139,10 +169,10 @@ impl Unbalanced {
 }
 
 /// The sums with a term that is not noticed although it is different from 0.
-fn unbalanced_sums(program: &Program, samples: &[Sample]) -> Vec<Unbalanced> {
+fn unbalanced_sums(how: Resizing, program: &Program, samples: &[Sample]) -> Vec<Unbalanced> {
     let largest = |value: Value| {
         let sample = &samples[value.index()];
-        RESIZED.map(|point| sample.value(point).abs()).fold(0.0, f64::max)
+        how.points().map(|point| sample.value(point).abs()).into_iter().fold(0.0, f64::max)
     };
     let sums = program.values().filter_map(|(sum, operation)| {
         let (Operation::Add(a, b) | Operation::Sub(a, b)) = operation else { return None };
@@ -150,11 +180,12 @@ fn unbalanced_sums(program: &Program, samples: &[Sample]) -> Vec<Unbalanced> {
         let ratio = largest(smaller) / largest(larger);
         let [sum, term] = [sum, smaller].map(|value| &samples[value.index()]);
         let is_lost = sum.is_trusted
-            && RESIZED.into_iter().all(|point| {
+            && how.points().into_iter().all(|point| {
                 let rounding = sum.errors[point];
                 !term.vanishes_at(point) && term.value(point).abs() <= NOTICED * rounding
             });
         is_lost.then_some(Unbalanced {
+            how,
             larger,
             smaller,
             ratio,
