@@ -14,7 +14,7 @@ arm = robots.load("robots/scara.toml")
 arm
 
 # %% [markdown]
-# ## What can be known
+# ## What is identifiable
 #
 # On a fixed base most parameters have no effect: no motion of this arm turns its first link about a horizontal axis.
 # The joint torques determine only the *base parameters*; each of them is a sum of parameters that act together.
@@ -48,17 +48,17 @@ noise = np.array([0.3, 0.2, 0.5, 0.02])
 tau = arm.inverse_dynamics(q, qd, qdd) + noise * random.standard_normal((len(t), n))
 
 # %% [markdown]
-# The joints differ in their noise; the third joint slides, and its noise is a force in newtons. With `noise`, each
+# The joints differ in their noise; the third joint is prismatic, and its noise is a force in newtons. With `noise`, each
 # row is weighted by the inverse of its noise. `identify` uses only the regressor Y, with τ = Y β, and solves a linear
 # system; it also returns the standard errors.
 
 # %%
 found = arm.identify(q, qd, qdd, tau, noise=noise)
-alike = arm.identify(q, qd, qdd, tau)
+unweighted = arm.identify(q, qd, qdd, tau)
 true = np.array([float(entry["value"]) for entry in arm.base_parameters()["base"]])
 print(f"rank {found.rank} of {len(found.names)}, condition {found.condition:.0f}")
-print("parameter      true   all rows alike   weighted ± its standard error")
-for name, *row in zip(found.names, true, alike.values, found.values, found.errors):
+print("parameter      true       unweighted   weighted ± its standard error")
+for name, *row in zip(found.names, true, unweighted.values, found.values, found.errors):
     print(f"{name:9} {row[0]:9.4f} {row[1]:16.4f} {row[2]:10.4f} ± {row[3]:.4f}")
 
 # %% [markdown]
@@ -69,10 +69,10 @@ for name, *row in zip(found.names, true, alike.values, found.values, found.error
 print("differences in standard errors:", ((found.values - true) / found.errors).round(1))
 
 # %% [markdown]
-# ## A bad motion looks as good
+# ## A motion that is too small looks as good
 #
 # We repeat this with a tenth of the amplitude. The residuals are as small as before, because they are the noise. Only
-# the standard errors show that the motion is bad.
+# the standard errors show that the motion is too small.
 
 # %%
 slow = excitation(np.array([0.2, 0.2, 0.01, 0.2]))
@@ -87,12 +87,12 @@ print("standard errors grow by", (poor.errors / found.errors).round(0))
 # Both results predict the torques of a motion that was not used to identify them.
 
 # %%
-fresh = excitation(np.array([2.0, 2.0, 0.1, 2.0]))
-expected = arm.inverse_dynamics(*fresh)
-regressor = arm.regressor_base(*fresh)
+other = excitation(np.array([2.0, 2.0, 0.1, 2.0]))
+expected = arm.inverse_dynamics(*other)
+regressor = arm.regressor_base(*other)
 figure, axes = plt.subplots(figsize=(7, 4))
 axes.plot(t, expected[:, 0], "k", label="true")
-for name, beta in (("identified", found.values), ("from the bad motion", poor.values)):
+for name, beta in (("identified", found.values), ("from the small motion", poor.values)):
     predicted = regressor @ beta
     axes.plot(t, predicted[:, 0], "--", label=name)
     print(f"{name:20} root mean square error", np.sqrt(np.mean((predicted - expected) ** 2, axis=0)).round(3))

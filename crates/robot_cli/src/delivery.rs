@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use robot_build::{
-    File, Output, Ownership, Staleness, Writer, remaining, sealed, shown, staleness,
+    Error, File, Output, Ownership, Staleness, Writer, remaining, sealed, shown, staleness,
 };
 
 use crate::Terminal;
@@ -145,7 +145,8 @@ impl<'a> Delivery<'a> {
         };
         let text = sealed(text);
         if self.check {
-            return up_to_date([(path.to_owned(), text.as_bytes())]);
+            let file = (path.to_owned(), text.as_bytes());
+            return up_to_date([file], self.ownership, &self.writer);
         }
         let ownership = self.ownership;
         let output = Output { path: path.to_owned(), bytes: text.as_bytes(), ownership };
@@ -204,7 +205,8 @@ pub(crate) fn deliver_folder(
         return Err(Failure::Usage(vec![message.to_owned()]));
     }
     if check {
-        return up_to_date(files.iter().map(|file| (file.path_in(folder), file.contents.bytes())));
+        let files = files.iter().map(|file| (file.path_in(folder), file.contents.bytes()));
+        return up_to_date(files, Ownership::Marked, writer);
     }
     let (changed, all) = (writer.write_folder(folder, files)?, files.len());
     let count = if changed == all { String::new() } else { format!("{changed} of ") };
@@ -245,10 +247,16 @@ fn warn_of_remaining(
     Ok(())
 }
 
-/// Checks that files have the expected contents; reports all that do not.
-fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a [u8])>) -> Result<(), Failure> {
-    let mut stale = vec![];
+/// Checks that files have the expected contents; reports all that do not, with the remedy, which `writer` knows for files
+/// that it would not replace.
+fn up_to_date<'a>(
+    files: impl IntoIterator<Item = (PathBuf, &'a [u8])>,
+    ownership: Ownership,
+    writer: &Writer,
+) -> Result<(), Failure> {
+    let (mut stale, mut refused) = (vec![], vec![]);
     for (path, bytes) in files {
+        let before = stale.len();
         match staleness(&path, bytes)? {
             None => {}
             Some(Staleness::Bytes) => stale.push(format!("{} is out of date", shown(&path))),
@@ -257,11 +265,19 @@ fn up_to_date<'a>(files: impl IntoIterator<Item = (PathBuf, &'a [u8])>) -> Resul
                 stale.push(format!("{}:{line} is out of date", shown(&path)));
             }
         }
+        if stale.len() > before
+            && let Err(errors) = writer.check(&[(&path, ownership)])
+        {
+            refused.extend(errors.as_slice().iter().map(Error::to_string));
+        }
     }
     if stale.is_empty() {
         return Ok(());
     }
-    stale.push("run the same command without --check to update it".to_owned());
+    if refused.is_empty() {
+        refused.push("run the same command without --check to update it".to_owned());
+    }
+    stale.extend(refused);
     Err(Failure::Input(stale))
 }
 

@@ -16,7 +16,8 @@ pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
     let mut wrong = vec![];
     for (name, value) in [("duration", duration), ("output step", step)] {
         if !(value.is_finite() && value > 0.0) {
-            wrong.push(format!("the {name} is {} s; it must be positive", number(value)));
+            wrong
+                .push(format!("the {name} is {} s; it must be positive and finite", number(value)));
         }
     }
     Error::check(wrong, ())?;

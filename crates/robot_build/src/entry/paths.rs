@@ -9,6 +9,9 @@ use robot_symbolic::nearest_word;
 
 use crate::error::{Error, Errors, shown};
 
+/// The reason why a robot is not read from a pipe or a device: beside its file are its plan and what is made of it.
+const NOT_REGULAR: &str = "it is not a regular file; save the robot in a file";
+
 /// A robot file that has been read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RobotFile {
@@ -57,7 +60,7 @@ impl RobotFile {
             return Err(Errors::from(cannot_read(given, "it is a folder; name a robot file")));
         }
         if !found.is_file() {
-            return Err(Errors::from(cannot_read(given, "it is not a regular file")));
+            return Err(Errors::from(cannot_read(given, NOT_REGULAR)));
         }
         let name = given.to_string_lossy().into_owned();
         if name.chars().any(char::is_control) {
@@ -99,6 +102,8 @@ fn check_not_empty(path: &Path) -> Result<(), Error> {
 fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
     path.canonicalize().map_err(|error| {
         let reason = match error.kind() {
+            // A pipe has a path, such as /dev/stdin, that leads to no file.
+            std::io::ErrorKind::NotFound if path.exists() => NOT_REGULAR.to_owned(),
             std::io::ErrorKind::NotFound => missing_at(path, given),
             _ => error.to_string(),
         };
@@ -190,7 +195,15 @@ mod tests {
         assert!(reason(Path::new("")).contains("the path of a robot file is empty"));
         assert!(reason(&std::env::temp_dir()).contains("it is a folder; name a robot file"));
         if cfg!(unix) {
-            assert!(reason(Path::new("/dev/null")).contains("it is not a regular file"));
+            assert!(reason(Path::new("/dev/null")).contains(NOT_REGULAR));
+        }
+        #[cfg(target_os = "linux")]
+        {
+            use std::os::fd::AsRawFd;
+            // The path of a pipe leads to `pipe:[…]`, which is not a path.
+            let (pipe, _writer) = std::io::pipe().unwrap();
+            let path = format!("/dev/fd/{}", pipe.as_raw_fd());
+            assert!(reason(Path::new(&path)).contains(NOT_REGULAR));
         }
     }
 }

@@ -69,7 +69,7 @@ impl RobotFile {
         let pin = read_pin(&path).map_err(failed)?;
         if pin.digest != digest(&pin.content()) {
             return Err(failed(
-                "the pinned plan was edited and is no longer what the search wrote".to_owned(),
+                "the pinned plan was edited after the search had written it".to_owned(),
             ));
         }
         let robot = crate::read_with(&self.source, options)?.robot;
@@ -158,7 +158,7 @@ mod tests {
             file.with_pin(&Options::default())
         };
         let error = pinned(&text.replace("operations = 7", "operations = 6")).unwrap_err();
-        let reason = "was edited and is no longer what the search wrote";
+        let reason = "was edited after the search had written it";
         assert!(error.to_string().contains(reason), "{error}");
         // A file can be too long for a plan.
         let filled = |bytes: u64| {

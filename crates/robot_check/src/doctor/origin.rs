@@ -68,13 +68,13 @@ fn suspicion(body: &BodyFacts<'_>, [spread, most]: [f64; 2]) -> Diagnostic {
         .at(body.of_tensor(), "about the center of mass?")
         .and_at(body.of_center(), format!("{} m away", significant(body.center.norm())))
         .because(format!(
-            "along the link, the standard deviation of the mass would be {} m, but between the \
-             ends it can be at most {} m; about the origin it would fit",
+            "along the link, the mass would have a standard deviation of {} m, but between the \
+             ends of the link it can have at most {} m; a tensor about the origin would fit",
             significant(spread),
             significant(most)
         ))
         .help(
-            "give the tensor about the center of mass; in a robot file, `about = \"origin\"` \
-            is possible",
+            "give the tensor about the center of mass, or, in a robot file, write \
+             `about = \"origin\"`",
         )
 }

@@ -105,7 +105,7 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
 }
 
 /// Prints the base parameters as `{"robot": …, "frames": …, "rounded": …, "standard": […], "base": [{"name": …,
-/// "column": …, "formula": …, "figures": {…}, "value": …}, …]}`.
+/// "column": …, "formula": …, "coefficients": {…}, "value": …}, …]}`.
 fn json(robot: &Robot, set: &BaseSet) -> String {
     let entry = |entry: &BaseEntry| {
         let coefficients: Map<String, Value> = entry
@@ -119,7 +119,7 @@ fn json(robot: &Robot, set: &BaseSet) -> String {
             "name": entry.name,
             "column": entry.column,
             "formula": entry.formula.text,
-            "figures": coefficients,
+            "coefficients": coefficients,
             "value": entry.value.text,
         })
     };

@@ -18,7 +18,7 @@ fn assert_formula_agrees(entry: &Value) {
     // Each name has a different value, so that the coefficients must be those of the formula.
     let value = |name: &str| name.bytes().fold(0.5, |sum, byte| sum * 0.7 + f64::from(byte));
     let formula = parse(&entry["formula"]).evaluate(value);
-    let coefficients = entry["figures"].as_object().unwrap().iter();
+    let coefficients = entry["coefficients"].as_object().unwrap().iter();
     let sum: f64 = coefficients
         .map(|(name, coefficient)| parse(coefficient).evaluate(value) * value(name))
         .sum();
@@ -36,7 +36,7 @@ fn formulas_and_values_read_back() {
             let kept =
                 set["standard"][entry["column"].as_u64().unwrap() as usize].as_str().unwrap();
             assert_eq!(entry["name"].as_str().unwrap().replacen("R_", "_", 1), kept);
-            assert_eq!(entry["figures"][kept], "1");
+            assert_eq!(entry["coefficients"][kept], "1");
         }
     }
 }

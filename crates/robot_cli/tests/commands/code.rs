@@ -78,6 +78,11 @@ fn a_module_out_of_date_is_found() {
     let line = text.lines().position(|line| line.contains("pub mod")).unwrap() + 1;
     let shown = complaint(1, &check, "");
     assert!(shown.contains(&format!("trttr1.rs:{line} is out of date")), "{shown}");
+    assert!(shown.contains("run the same command without --check"), "{shown}");
+    // Without --check, the command would not replace a file of others.
+    fs::write(&path, "// mine\n").unwrap();
+    let shown = complaint(1, &check, "");
+    assert!(shown.contains("is not replaced") && !shown.contains("without --check"), "{shown}");
     assert!(complaint(2, &["generate", &file, "--check"], "").contains("--output"));
 }
 

@@ -376,6 +376,19 @@ fn a_state_is_given_on_the_command_line() {
 }
 
 #[test]
+fn a_function_without_inputs_needs_no_state() {
+    let file = robot("planar_2r");
+    let shown = output(&["eval", &file, "--function", "base_parameters"], "");
+    let states: Value = serde_json::from_str(&shown).unwrap();
+    let base = numbers(&states[0]["base_parameters"]);
+    // The values of MXR_1, MY_1, ZZR_1, MX_2, MY_2 and ZZR_2 by hand.
+    assert_close(&base, &[5.0 * 0.5 + 3.0, 0.0, 0.42 + 1.25 + 3.0, 1.2, 0.0, 0.16 + 0.48]);
+    // An option of a state still has no effect.
+    let wrong = complaint(2, &["eval", &file, "--function", "base_parameters", "--q", "0,0"], "");
+    assert!(wrong.contains("--q has no effect on base_parameters, which takes nothing"), "{wrong}");
+}
+
+#[test]
 fn wrong_states_on_the_command_line_are_told_with_their_place() {
     let file = robot("planar_2r");
     let wrong = |code, more: &[&str]| {

@@ -95,8 +95,14 @@ fn letters_are_those_of_the_field() {
     let typst = of(&["--letters", "field", "--format", "typst", "--layout", "scalars"]);
     assert!(typst.contains("τ_1 ") && typst.contains("C_112"), "{typst}");
     assert!(of(&["--letters", "field", "--format", "mathml"]).contains("<mi>τ</mi>"));
-    for wrong in ["tau,M,C", "tau,M,M,g", "feild"] {
+    for (wrong, why) in [
+        ("tau,M,C", "3 letters are not four"),
+        ("tau,M,M,g", "`M` is given twice"),
+        ("tau,M,C,g1", "`g1` is not a letter"),
+        ("feild", "`feild` is not a letter"),
+    ] {
         let found = complaint(2, &["equations", &robot("planar_2r"), "--letters", wrong], "");
+        assert!(found.contains(why), "{found}");
         assert!(found.contains("letters are `field`, `paper`, or four different ones"), "{found}");
     }
     let arguments = ["equations", &robot("planar_2r"), "--quantity", "F", "--letters", "field"];

@@ -1,6 +1,7 @@
 //! The letters of joint torques and of everything that the forms define.
 
 use robot_dynamics::quantity::Kind;
+use robot_model::diagnostic::quote;
 use robot_model::signs;
 use robot_model::variable::JointVariable;
 
@@ -66,15 +67,22 @@ impl Letters {
             let single = characters.next().is_some_and(|first| first.is_ascii_alphabetic());
             (single && characters.next().is_none()) || signs::Letter::greek(letter).is_some()
         };
-        let differ = letters.iter().enumerate().all(|(place, one)| !letters[..place].contains(one));
-        let valid = differ && letters.iter().all(is_letter);
+        if let Some(wrong) = letters.iter().find(|letter| !is_letter(letter)) {
+            let rule = "one of a to z or A to Z, or the name of a Greek one";
+            return Err(InvalidLetters(format!("`{}` is not a letter: {rule}", quote(wrong))));
+        }
+        let twice = |(place, one): &(usize, &&str)| letters[..*place].contains(*one);
+        if let Some((_, wrong)) = letters.iter().enumerate().find(twice) {
+            return Err(InvalidLetters(format!("`{}` is given twice", quote(wrong))));
+        }
+        let count = letters.len();
         let letters: Vec<Option<String>> =
             letters.into_iter().map(|letter| Some(letter.to_owned())).collect();
         match <[Option<String>; 4]>::try_from(letters) {
-            Ok([torque, mass, velocity, gravity]) if valid => {
+            Ok([torque, mass, velocity, gravity]) => {
                 Ok(Letters { torque, mass, velocity, gravity })
             }
-            _ => Err(InvalidLetters),
+            Err(_) => Err(InvalidLetters(format!("{count} letters are not four"))),
         }
     }
 
@@ -89,13 +97,13 @@ impl Letters {
     }
 }
 
-/// Texts that are not letters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+/// Texts that are not letters, with the reason.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, velocity terms and gravity \
-     terms, such as tau,M,C,g"
+    "{0}; letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, velocity terms and \
+     gravity terms, such as tau,M,C,g"
 )]
-pub struct InvalidLetters;
+pub struct InvalidLetters(String);
 
 /// The character of a letter by its name.
 pub(super) fn character(name: &str) -> char {
@@ -153,7 +161,7 @@ mod tests {
         assert_eq!(Letters::parse("paper"), Ok(Letters::default()));
         assert_eq!(Letters::default().torque_sign(), Math::Letter('Q'));
         for wrong in ["tau,M,C", "tau,M,M,g", "tau,M,C,gg", "feild", ",,,", "1,2,3,4"] {
-            assert_eq!(Letters::parse(wrong), Err(InvalidLetters), "{wrong}");
+            assert!(Letters::parse(wrong).is_err(), "{wrong}");
         }
     }
 }

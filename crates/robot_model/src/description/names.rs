@@ -92,10 +92,10 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
     };
     let rule = match kind {
         Kind::Identifier => {
-            "use letters, digits and `_`, not starting with a digit, as in `l_5`; `latex` sets \
-             how a symbol is printed"
+            "use letters, digits and `_`, and do not start with a digit, as in `l_5`; `latex` \
+             sets how a symbol is printed"
         }
-        Kind::Label => "use letters, digits, `_`, `-` and `.`, not starting with `-` or `.`",
+        Kind::Label => "use letters, digits, `_`, `-` and `.`, and do not start with `-` or `.`",
     };
     Diagnostic::error(code::NAME, format!("`{}` cannot be the name of {what}", quote(text)))
         .at(span, label)

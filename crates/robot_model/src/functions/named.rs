@@ -205,10 +205,10 @@ impl fmt::Display for WrongName {
             return write!(formatter, "`{name}` may be several functions: choose one of `{names}`");
         }
         if self.name == ALL_FUNCTIONS {
-            let why = "selects all functions in a list of functions and cannot be part of a bundle";
             return write!(
                 formatter,
-                "`{name}` {why}: name the functions. Available: {}.",
+                "`{name}` selects all functions, but only where functions are generated one by one; \
+                 here, name the functions. Available: {}.",
                 self.known.join(", ")
             );
         }
@@ -231,7 +231,7 @@ mod tests {
         let known = [("bias".to_owned(), FunctionKind::Bias)];
         let [all, other] = [ALL_FUNCTIONS, "bais"].map(|name| unknown(name, &known).to_string());
         assert!(
-            all.contains("cannot be part of a bundle") && all.ends_with("Available: bias."),
+            all.contains("here, name the functions") && all.ends_with("Available: bias."),
             "{all}"
         );
         assert!(!all.contains("mean"), "{all}");

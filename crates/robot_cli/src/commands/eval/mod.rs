@@ -43,7 +43,8 @@ use crate::suggested::FUNCTION;
 
 States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz; wrench_NAME
 for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz. A function needs all
-its inputs except the wrench, whose default is 0; further keys and columns are ignored. The wrench is the one that the tip exerts on its surroundings.
+its inputs except the wrench, whose default is 0. States may have more of these keys and columns than it needs,
+but no others. The wrench is the one that the tip exerts on its surroundings.
 If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
 inverse_dynamics_wrench_friction, and likewise for forward_dynamics. The values come from the same straight-line
 program from which the code is printed. States are read, and their outputs printed, one by one, however many
@@ -82,10 +83,6 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        if self.states.is_none() && !self.state.is_given() {
-            let message = "a state is needed: --q, --qd, …, or --states with a file of states";
-            return Err(Failure::Usage(vec![message.to_owned()]));
-        }
         let (path, writer) = (file_of(self.output.as_deref()), self.writer()?);
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
@@ -93,6 +90,7 @@ impl Arguments {
         let bundles = code.bundles.iter().filter(|bundle| bundle.name == self.function);
         let bundles: Vec<Bundle> = bundles.cloned().collect();
         let kind = if bundles.is_empty() { Some(self.kind(robot)?) } else { None };
+        self.check_state(kind)?;
         let takes_wrench = kind.is_some_and(|kind| kind.effects().wrench);
         let before = self.settings.wrong(robot);
         if before.is_empty() {
@@ -142,6 +140,16 @@ impl Arguments {
         let mut evaluation = Evaluation::new(task, &layout, before, outgoing);
         states.read(&layout, &mut evaluation)?;
         evaluation.end()
+    }
+
+    /// Checks that a state is given, unless the function has no inputs.
+    fn check_state(&self, kind: Option<FunctionKind>) -> Result<(), Failure> {
+        let needs_state = kind.is_none_or(|kind| !kind.inputs().is_empty());
+        if self.states.is_none() && !self.state.is_given() && needs_state {
+            let message = "a state is needed: --q, --qd, …, or --states with a file of states";
+            return Err(Failure::Usage(vec![message.to_owned()]));
+        }
+        Ok(())
     }
 
     /// The writer of the output.

@@ -54,7 +54,7 @@ const ORIGINS: [(&str, Origin); 7] = [
     ("previous_normal", Origin::PreviousNormal),
     ("zero_xz", Origin::ZeroXz),
     ("zero_yz", Origin::ZeroYz),
-    ("mass_centre", Origin::CenterOfMass),
+    ("center_of_mass", Origin::CenterOfMass),
     ("parent", Origin::Parent),
 ];
 

@@ -4,13 +4,13 @@ mod sizes;
 
 use robot_symbolic::Function;
 
-use self::sizes::{Resizing, Sizes};
+use self::sizes::{RESIZINGS, Resizing, Sizes};
 use crate::program::{DoubleDouble, Operation, Program, Source, Value};
 
 /// The number of points that have the same values of parameters.
 const POINTS_PER_SET: usize = 2;
 /// The number of sets of values of the parameters.
-const SETS: usize = 3;
+const SETS: usize = 1 + RESIZINGS;
 /// The number of all points.
 const POINTS: usize = SETS * POINTS_PER_SET;
 
@@ -103,7 +103,7 @@ enum Use {
 struct Points {
     used: Use,
     angles: Option<Vec<[DoubleDouble; POINTS]>>,
-    sizes: [Sizes; 2],
+    sizes: [Sizes; RESIZINGS],
 }
 
 impl Points {

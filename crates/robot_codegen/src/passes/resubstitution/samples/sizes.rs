@@ -1,13 +1,16 @@
 //! Sizes of loads at which no term of a sum is lost beside another.
 //!
 //! The torques of a robot of micrograms are far below 10⁻¹⁶ N·m. At torques of size one, τ − 2·10⁻¹⁷ cos q and τ
-//! round to the same number, and the term of gravity would count as rounding. So at one set of points the loads are
-//! of the size of the terms beside them.
+//! round to the same number, and the term of gravity would count as rounding. So at one set of points for each
+//! [`Resizing`] the loads are of the size of the terms beside them.
 
 use std::collections::BTreeMap;
 
 use super::{POINTS_PER_SET, Sample};
 use crate::program::{Operation, Program, Source, Value};
+
+/// The number of ways in which loads are resized.
+pub(super) const RESIZINGS: usize = 2;
 
 /// How loads are resized.
 #[derive(Clone, Copy, PartialEq)]
@@ -21,7 +24,7 @@ pub(super) enum Resizing {
 impl Resizing {
     /// All of them. Each has points of its own, since sizes that let the terms of one sum be noticed can hide those of
     /// another.
-    pub(super) const ALL: [Resizing; 2] = [Resizing::Smaller, Resizing::Either];
+    pub(super) const ALL: [Resizing; RESIZINGS] = [Resizing::Smaller, Resizing::Either];
 
     /// The points at which loads have these sizes.
     fn points(self) -> [usize; POINTS_PER_SET] {
