@@ -137,28 +137,32 @@ name = "micrometers"
 gravity = [0, 0, -9.81]
 [[link]]
 name = "l0"
-joint = { type = "revolute", axis = [-0.4789, 0.9929, 0.1799], origin = { xyz = [-1.51366e-05, -1.01307e-05, 9.15022e-06] } }
+joint = { type = "revolute", axis = [-0.4789, 0.9929, 0.1799] }
+origin = { xyz = [-1.51366e-05, -1.01307e-05, 9.15022e-06] }
 mass = 2.814697e-12
 center_of_mass = [-1.25076e-05, -8.91683e-06, 1.13817e-05]
 inertia = { xx = 2.43529e-22, yy = 2.43529e-22, zz = 2.43529e-22 }
 [[link]]
 name = "l1"
 parent = "l0"
-joint = { type = "revolute", axis = [-0.1852, 0.6517, 0.5913], origin = { xyz = [-1.18596e-05, -4.37618e-06, -1.42175e-06] } }
+joint = { type = "revolute", axis = [-0.1852, 0.6517, 0.5913] }
+origin = { xyz = [-1.18596e-05, -4.37618e-06, -1.42175e-06] }
 mass = 4.170746e-12
 center_of_mass = [1.69506e-06, 1.57727e-05, -1.55104e-05]
 inertia = { xx = 4.56596e-22, yy = 2.71743e-22, zz = 5.48017e-22 }
 [[link]]
 name = "l2"
 parent = "l1"
-joint = { type = "revolute", axis = [-0.1705, -0.7105, 0.8394], origin = { xyz = [1.01546e-05, 1.54762e-05, 9.56467e-06] } }
+joint = { type = "revolute", axis = [-0.1705, -0.7105, 0.8394] }
+origin = { xyz = [1.01546e-05, 1.54762e-05, 9.56467e-06] }
 mass = 2.380004e-12
 center_of_mass = [8.01236e-06, -1.27687e-05, 5.32614e-06]
 inertia = { xx = 3.81372e-22, yy = 2.31294e-22, zz = 2.43130e-22 }
 [[link]]
 name = "l3"
 parent = "l2"
-joint = { type = "revolute", axis = [0.2613, -0.5126, 0.1063], origin = { xyz = [-1.28664e-05, -9.72746e-06, -4.22507e-06] } }
+joint = { type = "revolute", axis = [0.2613, -0.5126, 0.1063] }
+origin = { xyz = [-1.28664e-05, -9.72746e-06, -4.22507e-06] }
 mass = 5.743569e-12
 center_of_mass = [-1.12493e-05, 3.11000e-06, -1.20600e-06]
 inertia = { xx = 3.21761e-22, yy = 4.87653e-22, zz = 3.10053e-22 }
