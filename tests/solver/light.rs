@@ -97,35 +97,71 @@ fn the_programs_of_short_robots() {
         &FURTHER[..],
     ]
     .concat();
-    let mut pairs: Vec<(i32, i32)> = [3, 6, 7, 8, 9, 10, 12, 15]
+    let mut pairs: Vec<(i32, i32)> = [3, 6, 7, 8, 9, 10, 12, 15, 20, 30]
         .iter()
         .flat_map(|length| [(*length, 0), (*length, 9), (*length, 20)])
         .collect();
     pairs.extend((1..8).flat_map(|length| (1..20).map(move |mass| (length, mass))));
     for (length, mass) in pairs {
-        let [length_factor, mass_factor] = [length, mass]
-            .map(|exponent| Rational::from_decimal(&format!("1e-{exponent}")).unwrap());
-        let name = format!("1e-{length} m, 1e-{mass} kg");
-        let mut worst = 0.0_f64;
-        for seed in 0..6 {
-            let recipe = Recipe::serial(1 + seed as usize % 4);
-            let robot = robots::robot(&mut Random::new(seed), &recipe);
-            let robot = scaled(shortened(robot, &length_factor), &mass_factor);
-            let mut case = Case::of(&functions, &name, robot, seed, 10);
-            for state in &mut case.states {
-                let [length, mass] = [&length_factor, &mass_factor].map(Rational::to_f64);
-                state.qd.iter_mut().for_each(|speed| *speed /= length.sqrt());
-                state.qdd.iter_mut().for_each(|acceleration| *acceleration /= length);
-                state.tau.iter_mut().for_each(|tau| *tau *= mass * length);
-                for wrench in &mut state.wrenches {
-                    wrench.force *= mass;
-                    wrench.moment *= mass * length;
-                }
-            }
-            worst = worst.max(case.interpret());
-        }
-        println!("{name}: worst error {worst:.1e}");
+        let factors = [length, mass].map(|exponent| format!("1e-{exponent}"));
+        let worst = (0..6).map(|seed| of_size(&functions, &factors, seed)).fold(0.0, f64::max);
+        println!("{} m, {} kg: worst error {worst:.1e}", factors[0], factors[1]);
     }
+}
+
+/// Robots of random sizes. `ROBOT_SIZES` is the number of robots, `ROBOT_SIZES_SEED` that of the first.
+#[test]
+fn the_programs_of_robots_of_random_sizes() {
+    let functions = [
+        &[
+            FunctionKind::InverseDynamics(Effects::NONE),
+            FunctionKind::InverseDynamics(Effects::WRENCH),
+        ],
+        &FURTHER[..],
+    ]
+    .concat();
+    let number = |name: &str, usual: u64| {
+        std::env::var(name).map_or(usual, |number| number.parse().unwrap())
+    };
+    let (first, count) = (number("ROBOT_SIZES_SEED", 1000), number("ROBOT_SIZES", 60));
+    let mut worst = 0.0_f64;
+    for seed in first..first + count {
+        let mut random = Random::new(seed);
+        let mut factor = |least: f64, most: f64| {
+            let exponent = random.uniform(least, most);
+            format!("{}e{}", 1 + random.bits() % 9, exponent.round())
+        };
+        let factors = [factor(-20.0, 0.0), factor(-20.0, 3.0)];
+        println!("seed {seed}: {} m, {} kg", factors[0], factors[1]);
+        worst = worst.max(of_size(&functions, &factors, seed));
+    }
+    println!("{count} robots from seed {first}: worst error {worst:.1e}");
+}
+
+/// Compares the functions of a random robot whose lengths and masses are multiplied by these factors with the solver, in
+/// motion at its natural speeds, and at rest without torques, so that gravity alone moves it.
+fn of_size(functions: &[FunctionKind], factors: &[String; 2], seed: u64) -> f64 {
+    let [length_factor, mass_factor] =
+        [0, 1].map(|index| Rational::from_decimal(&factors[index]).unwrap());
+    let name = format!("{} m, {} kg", factors[0], factors[1]);
+    let robot = robots::robot(&mut Random::new(seed), &Recipe::serial(1 + seed as usize % 4));
+    let robot = scaled(shortened(robot, &length_factor), &mass_factor);
+    let [length, mass] = [&length_factor, &mass_factor].map(Rational::to_f64);
+    let mut case = Case::of(functions, &name, robot, seed, 10);
+    for state in &mut case.states {
+        state.qd.iter_mut().for_each(|speed| *speed /= length.sqrt());
+        state.qdd.iter_mut().for_each(|acceleration| *acceleration /= length);
+        state.tau.iter_mut().for_each(|tau| *tau *= mass * length);
+        for wrench in &mut state.wrenches {
+            wrench.force *= mass;
+            wrench.moment *= mass * length;
+        }
+    }
+    let moving = case.interpret();
+    for state in &mut case.states {
+        [&mut state.qd, &mut state.tau].into_iter().for_each(|values| values.fill(0.0));
+    }
+    moving.max(case.interpret())
 }
 
 /// A robot of 16 µm and 15 ng at rest, for which sizes that show the terms of one sum hide those of another.

@@ -23,6 +23,7 @@
 //! sign that an argument happens to have at the points.
 
 mod cones;
+mod parts;
 mod samples;
 #[cfg(test)]
 mod tests;
@@ -30,6 +31,7 @@ mod tests;
 use rustc_hash::FxHashMap;
 
 use self::cones::{Cones, Operands};
+use self::parts::Parts;
 use self::samples::Sample;
 pub(crate) use self::samples::Samples;
 use super::Resubstitution;
@@ -126,6 +128,7 @@ struct Search<'p> {
     cones: Cones,
     forms: Vec<Option<Form>>,
     samples: Vec<Sample>,
+    parts: Parts,
     /// The values that forms may use.
     operands: Vec<Value>,
     /// The operands by their absolute value at the first point.
@@ -137,6 +140,7 @@ struct Search<'p> {
 
 impl<'p> Search<'p> {
     fn new(program: &'p Program, samples: &Samples) -> Search<'p> {
+        let parts = samples.parts(program);
         let samples = samples.of(program);
         let cones = Cones::new(program);
         let mut operands = vec![];
@@ -157,7 +161,7 @@ impl<'p> Search<'p> {
             }
         }
         let forms = vec![None; samples.len()];
-        Search { program, cones, forms, samples, operands, by_size, by_direction }
+        Search { program, cones, forms, samples, parts, operands, by_size, by_direction }
     }
 
     /// Visits the values, first those whose removal would remove the most operations; returns whether any was replaced.
@@ -286,7 +290,10 @@ impl<'p> Search<'p> {
     fn offer(&self, value: Value, form: Form, best: &mut Best) {
         let operands = form.operands();
         let gain = self.cones.gain(value, &operands, form.cost());
-        if gain > best.gain && !self.cones.depend_on(&operands, value) {
+        if gain > best.gain
+            && !self.cones.depend_on(&operands, value)
+            && self.parts.agree(value, form)
+        {
             *best = Best { gain, form: Some(form) };
         }
     }

@@ -5,6 +5,7 @@ mod sizes;
 use robot_symbolic::Function;
 
 use self::sizes::{RESIZINGS, Resizing, Sizes};
+use super::parts::{self, Parts};
 use crate::program::{DoubleDouble, Operation, Program, Source, Value};
 
 /// The number of points that have the same values of parameters.
@@ -66,6 +67,17 @@ impl Samples {
     /// The samples of all values of a program, for comparison.
     pub(super) fn of(&self, program: &Program) -> Vec<Sample> {
         self.compared.of(program)
+    }
+
+    /// The parts of all values of a program.
+    pub(super) fn parts(&self, program: &Program) -> Parts {
+        Parts::of(program, |value, operation| {
+            let numbers = match operation {
+                Operation::Load(source) => self.compared.load(source),
+                _ => self.compared.numbers(3, value.0, false),
+            };
+            std::array::from_fn::<f64, { parts::POINTS }, _>(|point| numbers[point].to_f64())
+        })
     }
 
     /// Whether two programs have the same results at points that were not used for the comparison, as far as the
