@@ -16,8 +16,8 @@
 //! again at other points, and tests compare the results of generated code with independent solvers.
 //!
 //! A term far below the rounding error of the sum that it is in would not be noticed, but counts if the other terms can
-//! be as small: τ − 2·10⁻¹⁷ cos q for a robot of micrograms. At two pairs of points, inputs and parameters therefore
-//! have sizes at which the terms next to each other are of one size (`samples::sizes`).
+//! be as small: τ − 2·10⁻¹⁷ cos q for a robot of micrograms. So values are also compared as polynomials in the inputs
+//! and parameters, coefficient by coefficient (`parts`).
 //!
 //! Absolute values, signs and roots are treated as unrelated numbers, so that nothing is concluded from the
 //! sign that an argument happens to have at the points.
@@ -46,7 +46,6 @@ const GROWTH: f64 = 4.0;
 /// of two others, if that saves operations. This pass reassociates.
 #[must_use]
 pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) -> Program {
-    let samples = &samples.balanced(program);
     let mut found = super::dead_code::run(program);
     for _ in 0..ROUNDS {
         let mut search = Search::new(&found, samples);

@@ -1,11 +1,13 @@
-//! The parts of values that grow alike with the inputs.
+//! The parts of values that grow alike with what a program loads.
 //!
 //! At a sample point, a term far below the rounding error of the sum that it is in is not noticed, but it counts at other
 //! inputs: in 9.81 sin q + 10⁻¹² q̇², the second term is the larger one at 10⁷ rad/s. Each value is therefore also
-//! regarded as a polynomial in the inputs, and the coefficients of its monomials are compared one by one. Sines and
-//! cosines, parameters and the quotients of those are numbers here.
+//! regarded as a polynomial in the inputs, and in the inputs and parameters, and the coefficients of its monomials are
+//! compared one by one. Sines and cosines are numbers here.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+
+use robot_symbolic::Function;
 
 use super::Form;
 use crate::program::{Operation, Program, Source, Value};
@@ -17,17 +19,26 @@ pub(super) const POINTS: usize = 2;
 const UNIT: f64 = f64::EPSILON / 2.0;
 /// A coefficient counts if it is larger than its rounding error by this factor.
 const COUNTS: f64 = 1e3;
-/// The most inputs that are told apart; if there are more, neighbors count as one.
-const INPUTS: u32 = 48;
+/// The most variables that are told apart; if there are more, neighbors count as one.
+const VARIABLES: usize = 32;
+/// The most monomials of a polynomial.
+const MONOMIALS: usize = 600;
+/// The most products of monomials that are computed for a product of polynomials.
+const PRODUCTS: usize = 8 * MONOMIALS;
 /// The highest degree of a monomial.
 const DEGREE: usize = 8;
 
-/// A product of inputs, by their numbers in ascending order, and of the values of functions, which count as one further
-/// input.
-type Monomial = Vec<u8>;
+/// A product of variables and their reciprocals, by their numbers in descending order; 0 for none.
+type Monomial = [u8; DEGREE];
 
-/// The number of the values of functions in monomials.
-const CALLS: u8 = u8::MAX;
+/// The product of no variables.
+const ONE: Monomial = [0; DEGREE];
+/// The number of the variable that stands for all values of functions.
+const CALL: u8 = 1 + VARIABLES as u8;
+/// What is added to the number of a variable for its reciprocal.
+const INVERSE: u8 = CALL;
+/// The number of the first variable that stands for the reciprocal of a sum.
+const OF_SUM: u8 = 2 * CALL + 1;
 
 /// A coefficient at the points, with bounds on the rounding error of its evaluation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -36,11 +47,15 @@ struct Coefficient {
     errors: [f64; POINTS],
 }
 
-/// The coefficients of a polynomial in the inputs.
+/// The coefficients of the monomials.
 type Polynomial = BTreeMap<Monomial, Coefficient>;
 
-/// The polynomials of the values of a program; `None` for what is not a polynomial, or one of too high a degree.
-pub(super) struct Parts(Vec<Option<Polynomial>>);
+/// The values of a program as polynomials.
+pub(super) struct Parts(Vec<Polynomials>);
+
+/// The values of a program as polynomials in the same variables; `None` for what is not a polynomial, or one of too many
+/// terms.
+struct Polynomials(Vec<Option<Polynomial>>);
 
 impl Parts {
     /// Computes the polynomials of all values of a program; `number` returns the values of a load or of a call at the
@@ -49,51 +64,82 @@ impl Parts {
         program: &Program,
         number: impl Fn(Value, Operation) -> [f64; POINTS],
     ) -> Parts {
-        let index = |source: &Source| match source {
-            Source::Input(index) => Some(*index),
-            _ => None,
+        let is_input = |source: &Source| matches!(source, Source::Input(_));
+        let is_parameter =
+            |source: &Source| matches!(source, Source::Parameter(_) | Source::Field(_));
+        let sources = program.sources();
+        let inputs: Vec<Source> = sources.iter().copied().filter(is_input).collect();
+        let parameters: Vec<Source> = sources.iter().copied().filter(is_parameter).collect();
+        // With parameters in a denominator, a value is a polynomial in the inputs alone.
+        let mut all = vec![Polynomials::of(program, &inputs, &number)];
+        if !parameters.is_empty() {
+            let variables = [inputs, parameters].concat();
+            all.push(Polynomials::of(program, &variables, &number));
+        }
+        Parts(all)
+    }
+
+    /// Whether a form has every coefficient of the value that it replaces, as far as both are polynomials.
+    pub(super) fn agree(&self, value: Value, form: Form) -> bool {
+        self.0.iter().all(|polynomials| polynomials.agree(value, form))
+    }
+}
+
+impl Polynomials {
+    fn of(
+        program: &Program,
+        variables: &[Source],
+        number: impl Fn(Value, Operation) -> [f64; POINTS],
+    ) -> Polynomials {
+        let width = variables.len().div_ceil(VARIABLES).max(1);
+        let variable = |source: Source| {
+            let index = variables.iter().position(|variable| *variable == source)?;
+            u8::try_from(1 + index / width).ok()
         };
-        let inputs = program.sources().iter().filter_map(index).max().map_or(0, |last| last + 1);
-        let width = inputs.div_ceil(INPUTS).max(1);
-        let mut parts = Parts(Vec::with_capacity(program.operations().len()));
+        let mut divisors = vec![];
+        let mut reciprocal = |divisor: Value| -> u8 {
+            if !divisors.contains(&divisor) {
+                divisors.push(divisor);
+            }
+            let index = divisors.iter().position(|known| *known == divisor).unwrap_or_default();
+            OF_SUM + (index % usize::from(u8::MAX - OF_SUM)) as u8
+        };
+        let mut found = Polynomials(Vec::with_capacity(program.operations().len()));
         for (value, operation) in program.values() {
-            let exact = |monomial: Monomial| {
-                let coefficient =
-                    Coefficient { values: number(value, operation), errors: [0.0; POINTS] };
-                Some(Polynomial::from([(monomial, coefficient)]))
+            let exact = |variable: Option<u8>| {
+                let monomial =
+                    std::array::from_fn(|place| variable.filter(|_| place == 0).unwrap_or(0));
+                let values = number(value, operation);
+                Some(Polynomial::from([(monomial, Coefficient { values, errors: [0.0; POINTS] })]))
             };
             let polynomial = match operation {
                 Operation::Constant(constant) => constant_of(constant.get()),
-                Operation::Load(Source::Input(index)) => {
-                    exact(vec![u8::try_from(index / width).unwrap_or(CALLS)])
+                Operation::Load(source) => exact(variable(source)),
+                Operation::Call(Function::RecipPositive, a) => {
+                    quotient(constant_of(1.0), found.at(a), reciprocal(a))
                 }
-                Operation::Load(_) => exact(vec![]),
-                Operation::Call(robot_symbolic::Function::RecipPositive, a) => {
-                    quotient(constant_of(1.0), parts.at(a))
-                }
-                Operation::Call(..) => exact(vec![CALLS]),
-                Operation::Add(a, b) => sum(parts.at(a).cloned(), parts.at(b), 1.0),
-                Operation::Sub(a, b) => sum(parts.at(a).cloned(), parts.at(b), -1.0),
-                Operation::Mul(a, b) => product(parts.at(a), parts.at(b)),
-                Operation::Div(a, b) => quotient(parts.at(a).cloned(), parts.at(b)),
-                Operation::Neg(a) => sum(Some(Polynomial::new()), parts.at(a), -1.0),
+                Operation::Call(..) => exact(Some(CALL)),
+                Operation::Add(a, b) => sum(found.at(a).cloned(), found.at(b), 1.0),
+                Operation::Sub(a, b) => sum(found.at(a).cloned(), found.at(b), -1.0),
+                Operation::Mul(a, b) => product(found.at(a), found.at(b)),
+                Operation::Div(a, b) => quotient(found.at(a).cloned(), found.at(b), reciprocal(b)),
+                Operation::Neg(a) => sum(Some(Polynomial::new()), found.at(a), -1.0),
                 Operation::MulAdd(a, b, c) => {
-                    sum(product(parts.at(a), parts.at(b)), parts.at(c), 1.0)
+                    sum(product(found.at(a), found.at(b)), found.at(c), 1.0)
                 }
             };
-            parts.0.push(polynomial);
+            found.0.push(polynomial);
         }
-        parts
+        found
     }
 
     fn at(&self, value: Value) -> Option<&Polynomial> {
         self.0.get(value.index()).and_then(Option::as_ref)
     }
 
-    /// Whether a form has every coefficient of the value that it replaces, as far as both are polynomials.
-    pub(super) fn agree(&self, value: Value, form: Form) -> bool {
+    fn agree(&self, value: Value, form: Form) -> bool {
         match (self.at(value), self.of_form(form).as_ref()) {
-            (Some(value), Some(form)) => {
+            (Some(value), Some(form)) if reciprocals(value) == reciprocals(form) => {
                 let of_value = value.keys().all(|monomial| agree(value, form, monomial));
                 of_value && form.keys().all(|monomial| agree(value, form, monomial))
             }
@@ -119,6 +165,12 @@ impl Parts {
     }
 }
 
+/// The reciprocals of sums in a polynomial. Two polynomials with different ones cannot be compared.
+fn reciprocals(polynomial: &Polynomial) -> BTreeSet<u8> {
+    let variables = polynomial.keys().flatten().copied();
+    variables.filter(|variable| *variable >= OF_SUM).collect()
+}
+
 /// Whether two polynomials have the same coefficient of a monomial, up to rounding.
 fn agree(a: &Polynomial, b: &Polynomial, monomial: &Monomial) -> bool {
     let [a, b] = [a, b].map(|one| one.get(monomial).copied().unwrap_or_default());
@@ -131,32 +183,31 @@ fn agree(a: &Polynomial, b: &Polynomial, monomial: &Monomial) -> bool {
 
 fn constant_of(constant: f64) -> Option<Polynomial> {
     let (values, errors) = ([constant; POINTS], [UNIT * constant.abs(); POINTS]);
-    Some(Polynomial::from([(vec![], Coefficient { values, errors })]))
+    Some(Polynomial::from([(ONE, Coefficient { values, errors })]))
 }
 
 /// A polynomial plus a multiple of another.
 fn sum(a: Option<Polynomial>, b: Option<&Polynomial>, factor: f64) -> Option<Polynomial> {
     let mut sum = a?;
     for (monomial, b) in b? {
-        let a = sum.entry(monomial.clone()).or_default();
+        let a = sum.entry(*monomial).or_default();
         for point in 0..POINTS {
             a.values[point] += factor * b.values[point];
             a.errors[point] += factor.abs() * b.errors[point] + UNIT * a.values[point].abs();
         }
     }
-    Some(sum)
+    (sum.len() <= MONOMIALS).then_some(sum)
 }
 
 fn product(a: Option<&Polynomial>, b: Option<&Polynomial>) -> Option<Polynomial> {
+    let (a, b) = (a?, b?);
+    if a.len() * b.len() > PRODUCTS {
+        return None;
+    }
     let mut product = Polynomial::new();
-    for (first, a) in a? {
-        for (second, b) in b? {
-            let mut monomial = [first.as_slice(), second].concat();
-            if monomial.len() > DEGREE {
-                return None;
-            }
-            monomial.sort_unstable();
-            let sum = product.entry(monomial).or_default();
+    for (first, a) in a {
+        for (second, b) in b {
+            let sum = product.entry(times(first, second)?).or_default();
             for point in 0..POINTS {
                 let value = a.values[point] * b.values[point];
                 sum.values[point] += value;
@@ -166,21 +217,44 @@ fn product(a: Option<&Polynomial>, b: Option<&Polynomial>) -> Option<Polynomial>
             }
         }
     }
+    (product.len() <= MONOMIALS).then_some(product)
+}
+
+/// The product of two monomials, if its degree is not too high.
+fn times(a: &Monomial, b: &Monomial) -> Option<Monomial> {
+    let mut product = *a;
+    for variable in b.iter().copied().filter(|variable| *variable != 0) {
+        let opposite = inverse(variable);
+        let place = product.iter().position(|one| *one == opposite && opposite != variable);
+        let place = place.or_else(|| product.iter().position(|one| *one == 0))?;
+        product[place] = if product[place] == 0 { variable } else { 0 };
+    }
+    product.sort_unstable_by(|a, b| b.cmp(a));
     Some(product)
 }
 
-/// The quotient by a polynomial without inputs.
-fn quotient(a: Option<Polynomial>, b: Option<&Polynomial>) -> Option<Polynomial> {
-    let (mut quotient, b) = (a?, b?);
-    let divisor = b.get([].as_slice()).filter(|_| b.len() == 1)?;
-    for a in quotient.values_mut() {
-        for point in 0..POINTS {
-            let value = a.values[point] / divisor.values[point];
-            a.errors[point] = (a.errors[point] + value.abs() * divisor.errors[point])
-                / divisor.values[point].abs()
-                + UNIT * value.abs();
-            a.values[point] = value;
-        }
+/// The reciprocal of a variable that is not that of a sum.
+fn inverse(variable: u8) -> u8 {
+    match variable {
+        0 | OF_SUM.. => variable,
+        1..=INVERSE => variable + INVERSE,
+        _ => variable - INVERSE,
     }
-    Some(quotient)
+}
+
+/// The quotient by a polynomial. The reciprocal of a sum is the variable `of_sum`.
+fn quotient(a: Option<Polynomial>, b: Option<&Polynomial>, of_sum: u8) -> Option<Polynomial> {
+    let (a, b) = (a?, b?);
+    let mut reciprocal = Coefficient::default();
+    for point in 0..POINTS {
+        let divisor: f64 = b.values().map(|b| b.values[point]).sum();
+        let error: f64 = b.values().map(|b| b.errors[point]).sum();
+        reciprocal.values[point] = divisor.recip();
+        reciprocal.errors[point] = (error / divisor.abs() + UNIT) / divisor.abs();
+    }
+    let sum = [of_sum, 0, 0, 0, 0, 0, 0, 0];
+    let invertible = |monomial: &&Monomial| monomial.iter().all(|variable| *variable < OF_SUM);
+    let monomial = b.keys().next().filter(|_| b.len() == 1).filter(invertible);
+    let monomial = monomial.map_or(sum, |monomial| monomial.map(inverse));
+    product(Some(&a), Some(&Polynomial::from([(monomial, reciprocal)])))
 }

@@ -138,6 +138,57 @@ fn a_term_stays_however_small_its_constant_is() {
     }
 }
 
+/// Whether the pass keeps all operations of a program of the sine of an angle, a speed, a torque and a parameter.
+fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
+    let mut b = Builder::new();
+    let loads = [Source::Sin(0), Source::Input(0), Source::Input(1), Source::Parameter(0)];
+    let loads = loads.map(|source| b.load(source));
+    let results = build(&mut b, loads);
+    let program = b.finish(results);
+    let found = with(Resubstitution::Pairs)(&program);
+    Counts::of(&found).operations() == Counts::of(&program).operations()
+}
+
+/// Of 9.81 sin q + c q̇², the second term counts at high speeds, also in what is computed from the sum: its product with
+/// another value, its quotient by a sum, and the difference of the torque.
+#[test]
+fn a_term_of_other_inputs_stays_however_small_it_is() {
+    for constant in [1.5, 1e-9, 1e-17, 1e-30, 1e-100] {
+        let sum = |b: &mut Builder, sine: Value, speed: Value| {
+            let (g, c) = (b.constant(9.81), b.constant(constant));
+            let (weight, square) = (b.mul(g, sine), b.mul(speed, speed));
+            let centrifugal = b.mul(c, square);
+            b.add(weight, centrifugal)
+        };
+        assert!(keeps(|b, [sine, speed, ..]| {
+            let sum = sum(b, sine, speed);
+            vec![sum, b.mul(sum, sine)]
+        }));
+        assert!(keeps(|b, [sine, speed, torque, mass]| {
+            let sum = sum(b, sine, speed);
+            let (one, rest) = (b.constant(1.5), b.sub(torque, sum));
+            let inertia = b.add(one, mass);
+            vec![b.div(sum, inertia), b.div(rest, inertia)]
+        }));
+    }
+}
+
+/// The parts of x/(x y) are those of 1/y, and x/(x + y) is compared with what has the same denominator.
+#[test]
+fn quotients_are_found_by_their_parts() {
+    let quotient = left(|b, [x, y, z, ..]| {
+        let (one, product) = (b.constant(1.0), b.mul(x, y));
+        vec![b.div(one, y), b.div(x, product), z]
+    });
+    let of_sum = left(|b, [x, y, z, ..]| {
+        let sum = b.add(x, y);
+        let (xz, yz) = (b.mul(x, z), b.mul(y, z));
+        let both = b.add(xz, yz);
+        vec![b.div(x, sum), b.div(xz, both), z]
+    });
+    assert_eq!((quotient, of_sum), (1, 2));
+}
+
 /// A term that follows from rounding alone is still dropped: x − (x + y − y) is 0 at any size.
 #[test]
 fn a_term_that_is_rounding_is_dropped() {

@@ -1,17 +1,14 @@
 //! Values at sample points.
 
-mod sizes;
-
 use robot_symbolic::Function;
 
-use self::sizes::{RESIZINGS, Resizing, Sizes};
 use super::parts::{self, Parts};
 use crate::program::{DoubleDouble, Operation, Program, Source, Value};
 
 /// The number of points that have the same values of parameters.
 const POINTS_PER_SET: usize = 2;
 /// The number of sets of values of the parameters.
-const SETS: usize = 1 + RESIZINGS;
+const SETS: usize = 3;
 /// The number of all points.
 const POINTS: usize = SETS * POINTS_PER_SET;
 
@@ -40,11 +37,8 @@ impl Samples {
     /// Samples for unrelated angles.
     #[cfg(test)]
     pub(super) fn unrelated() -> Samples {
-        let [compared, checked] = [Use::Compare, Use::Check].map(|used| Points {
-            used,
-            angles: None,
-            sizes: Resizing::ALL.map(Sizes::one),
-        });
+        let [compared, checked] =
+            [Use::Compare, Use::Check].map(|used| Points { used, angles: None });
         Samples { compared, checked }
     }
 
@@ -54,14 +48,6 @@ impl Samples {
         let Samples { compared, checked } = Samples::unrelated();
         let angles = Some(vec![compared.angle(0); count]);
         Samples { compared: Points { angles, ..compared }, checked }
-    }
-
-    /// The samples at which no term of a program's sums is lost beside another.
-    pub(super) fn balanced(&self, program: &Program) -> Samples {
-        Samples {
-            compared: self.compared.balanced(program),
-            checked: self.checked.balanced(program),
-        }
     }
 
     /// The samples of all values of a program, for comparison.
@@ -110,50 +96,29 @@ enum Use {
     Check,
 }
 
-/// The values that loads read at the points: parameters and inputs of either sign and of a size near 1, or of their
-/// own at the points of `Resizing`, and the sines and cosines of a function's angles, which can depend on each other.
+/// The values that loads read at the points: parameters and inputs of either sign and of a size near 1, and the sines and
+/// cosines of a function's angles, which can depend on each other.
 struct Points {
     used: Use,
     angles: Option<Vec<[DoubleDouble; POINTS]>>,
-    sizes: [Sizes; RESIZINGS],
 }
 
 impl Points {
     fn new(used: Use, angles: &Program) -> Points {
-        let sizes = Resizing::ALL.map(Sizes::one);
-        let samples = Points { used, angles: None, sizes: sizes.clone() }.of(angles);
+        let samples = Points { used, angles: None }.of(angles);
         let results = angles.results().iter();
         let angles = results.map(|value| samples[value.index()].values).collect();
-        Points { used, angles: Some(angles), sizes }
-    }
-
-    fn balanced(&self, program: &Program) -> Points {
-        let sizes = Resizing::ALL.map(|how| {
-            let evaluate = |sizes: &Sizes| self.at_sizes(program, std::slice::from_ref(sizes));
-            Sizes::balancing(how, program, evaluate)
-        });
-        Points { used: self.used, angles: self.angles.clone(), sizes }
+        Points { used, angles: Some(angles) }
     }
 
     /// Computes the samples of all values of a program.
     fn of(&self, program: &Program) -> Vec<Sample> {
-        self.at_sizes(program, &self.sizes)
-    }
-
-    fn at_sizes(&self, program: &Program, sizes: &[Sizes]) -> Vec<Sample> {
         let mut samples: Vec<Sample> = Vec::with_capacity(program.operations().len());
         for (value, operation) in program.values() {
             let at = |operand: Value| &samples[operand.index()];
             let sample = match operation {
                 Operation::Constant(constant) => Sample::exact([constant.get().into(); POINTS]),
-                Operation::Load(source) => {
-                    let numbers = self.load(source);
-                    let number = |point: usize| {
-                        let size = sizes.iter().find_map(|sizes| sizes.at(source, point));
-                        numbers[point] * size.unwrap_or(1.0).into()
-                    };
-                    Sample::exact(std::array::from_fn(number))
-                }
+                Operation::Load(source) => Sample::exact(self.load(source)),
                 Operation::Add(a, b) => at(a).plus(at(b)),
                 Operation::Sub(a, b) => at(a).minus(at(b), false),
                 Operation::Mul(a, b) => at(a).times(at(b)),
@@ -166,16 +131,7 @@ impl Points {
                 Operation::Call(function, a) if self.used == Use::Check => {
                     Sample::exact(at(a).values.map(|x| x.apply(function)))
                 }
-                Operation::Call(function, a) => {
-                    let numbers = self.numbers(3, value.0, false);
-                    let number = |point: usize| {
-                        let argument = at(a).value(point);
-                        let resized = sizes.iter().any(|sizes| sizes.are_used_at(point));
-                        let size = if resized { size(function, argument) } else { 1.0 };
-                        numbers[point] * size.into()
-                    };
-                    Sample::exact(std::array::from_fn(number))
-                }
+                Operation::Call(..) => Sample::exact(self.numbers(3, value.0, false)),
             };
             samples.push(sample);
         }
@@ -200,14 +156,6 @@ impl Points {
     fn numbers(&self, kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble; POINTS] {
         let kind = if self.used == Use::Check { kind + 8 } else { kind };
         unrelated_numbers(kind, index, same_in_set)
-    }
-}
-
-/// The size of a function's value. That of a sign is taken for that of its smooth form, which is 0 at rest.
-fn size(function: Function, argument: f64) -> f64 {
-    match function {
-        Function::Sign | Function::Tanh => argument.abs().min(1.0),
-        _ => function.apply(argument.abs()).abs(),
     }
 }
 
