@@ -93,8 +93,8 @@ impl Polynomials {
     ) -> Polynomials {
         let width = variables.len().div_ceil(VARIABLES).max(1);
         let variable = |source: Source| {
-            let index = variables.iter().position(|variable| *variable == source)?;
-            u8::try_from(1 + index / width).ok()
+            let index = variables.iter().position(|variable| *variable == source);
+            index.map_or(0, |index| 1 + (index / width) as u8)
         };
         let mut divisors = vec![];
         let mut reciprocal = |divisor: Value| -> u8 {
@@ -106,11 +106,9 @@ impl Polynomials {
         };
         let mut found = Polynomials(Vec::with_capacity(program.operations().len()));
         for (value, operation) in program.values() {
-            let exact = |variable: Option<u8>| {
-                let monomial =
-                    std::array::from_fn(|place| variable.filter(|_| place == 0).unwrap_or(0));
-                let values = number(value, operation);
-                Some(Polynomial::from([(monomial, Coefficient { values, errors: [0.0; POINTS] })]))
+            let exact = |variable: u8| {
+                let (values, errors) = (number(value, operation), [0.0; POINTS]);
+                Some(Polynomial::from([(of(variable), Coefficient { values, errors })]))
             };
             let polynomial = match operation {
                 Operation::Constant(constant) => constant_of(constant.get()),
@@ -118,7 +116,7 @@ impl Polynomials {
                 Operation::Call(Function::RecipPositive, a) => {
                     quotient(constant_of(1.0), found.at(a), reciprocal(a))
                 }
-                Operation::Call(..) => exact(Some(CALL)),
+                Operation::Call(..) => exact(CALL),
                 Operation::Add(a, b) => sum(found.at(a).cloned(), found.at(b), 1.0),
                 Operation::Sub(a, b) => sum(found.at(a).cloned(), found.at(b), -1.0),
                 Operation::Mul(a, b) => product(found.at(a), found.at(b)),
@@ -220,6 +218,13 @@ fn product(a: Option<&Polynomial>, b: Option<&Polynomial>) -> Option<Polynomial>
     (product.len() <= MONOMIALS).then_some(product)
 }
 
+/// The monomial of one variable, or of none.
+fn of(variable: u8) -> Monomial {
+    let mut monomial = ONE;
+    monomial[0] = variable;
+    monomial
+}
+
 /// The product of two monomials, if its degree is not too high.
 fn times(a: &Monomial, b: &Monomial) -> Option<Monomial> {
     let mut product = *a;
@@ -252,9 +257,8 @@ fn quotient(a: Option<Polynomial>, b: Option<&Polynomial>, of_sum: u8) -> Option
         reciprocal.values[point] = divisor.recip();
         reciprocal.errors[point] = (error / divisor.abs() + UNIT) / divisor.abs();
     }
-    let sum = [of_sum, 0, 0, 0, 0, 0, 0, 0];
     let invertible = |monomial: &&Monomial| monomial.iter().all(|variable| *variable < OF_SUM);
     let monomial = b.keys().next().filter(|_| b.len() == 1).filter(invertible);
-    let monomial = monomial.map_or(sum, |monomial| monomial.map(inverse));
+    let monomial = monomial.map_or(of(of_sum), |monomial| monomial.map(inverse));
     product(Some(&a), Some(&Polynomial::from([(monomial, reciprocal)])))
 }
