@@ -2,7 +2,7 @@
 # # Notebook: two links, from the picture to energy
 #
 # A planar arm with two links is the smallest robot that shows all effects of robot dynamics: inertia that depends on
-# the configuration, velocities that act on other joints, and gravity. This notebook prints its equations, takes them
+# the configuration, torques from the velocities of other joints, and gravity. This notebook prints its equations, takes them
 # apart, and checks them on a motion.
 
 # %%
@@ -46,8 +46,8 @@ for q in ([0, 0], [0, np.pi / 2], [0, np.pi]):
 
 # %% [markdown]
 # The same mass matrix determines the velocity terms. With the matrix C of the Coriolis and centrifugal terms, Ṁ − 2 C
-# is skew-symmetric, which means that the velocity terms do no work. That is a claim about all states, so SymPy should
-# prove it, with C from the Christoffel symbols.
+# is skew-symmetric, so q̇ᵀ C q̇ = ½ q̇ᵀ Ṁ q̇: without gravity, the kinetic energy changes only by the work of the joint
+# torques. That is a claim about all states, so SymPy should prove it, with C from the Christoffel symbols.
 
 # %%
 q, qd = sympy.Matrix([q1, q2]), sympy.Matrix([qd1, qd2])

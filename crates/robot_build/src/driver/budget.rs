@@ -50,7 +50,7 @@ impl Over {
             }
             Resource::Stack => {
                 "this is an upper bound for builds without optimization: measure the compiled code; \
-                 generate `f32` or fewer outputs, or raise `max_stack`"
+                 use `f32`, generate fewer outputs, or raise `max_stack`"
             }
         }
     }

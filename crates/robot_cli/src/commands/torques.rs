@@ -83,8 +83,7 @@ impl Arguments {
         let inputs = self.robot.inputs().into_iter().chain(self.trajectory.clone());
         let writes = file_of(self.output.as_deref()).is_some() || self.plot.is_some();
         if self.trajectory.is_none() && self.expressions.is_empty() {
-            let message =
-                "a motion is needed: --trajectory with a CSV file, or --expressions with --time";
+            let message = "a trajectory is needed: --trajectory with a CSV file, or --expressions with --time";
             return Err(Failure::Usage(vec![message.to_owned()]));
         }
         let writer = self.force.writer(inputs, writes)?;

@@ -260,11 +260,11 @@ fn the_commands_of_the_document_make_its_pictures() {
         assert!(texts(&made).len() > 10);
         assert_eq!(texts(&kept), texts(&made), "{name} is out of date: run the command above it");
     }
-    let contributions = std::fs::read_to_string(folder.join("shares.csv")).unwrap();
+    let contributions = std::fs::read_to_string(folder.join("contributions.csv")).unwrap();
     for (index, t) in column(&contributions, "t").iter().enumerate() {
         assert!((column(&contributions, "tau3")[index] - 2.0 * (3.0 * t).sin()).abs() < 1e-9);
     }
-    assert!(std::fs::read(folder.join("shares.png")).unwrap().starts_with(b"\x89PNG"));
+    assert!(std::fs::read(folder.join("contributions.png")).unwrap().starts_with(b"\x89PNG"));
 }
 
 #[test]
