@@ -119,7 +119,10 @@ fn options_and_states_are_checked_at_once() {
     ];
     assert_eq!(run(&start, options).lines().collect::<Vec<_>>(), expected);
     let options = SimulationOptions { duration: 0.0, ..SimulationOptions::default() };
-    assert_eq!(run(&rest(&[0.0; 2]), options), "the duration is 0 s; it must be positive");
+    assert_eq!(
+        run(&rest(&[0.0; 2]), options),
+        "the duration is 0 s; it must be positive and finite"
+    );
 }
 
 #[test]
