@@ -13,6 +13,15 @@ use crate::generated::{Case, FUNCTIONS};
 const FURTHER: [FunctionKind; 3] =
     [FunctionKind::ForwardDynamics(Effects::NONE), FunctionKind::MassMatrix, FunctionKind::Gravity];
 
+/// What is compared for robots of other lengths.
+const OF_SIZES: [FunctionKind; 5] = [
+    FunctionKind::InverseDynamics(Effects::NONE),
+    FunctionKind::InverseDynamics(Effects::WRENCH),
+    FURTHER[0],
+    FURTHER[1],
+    FURTHER[2],
+];
+
 /// Multiplies a number of a robot by a factor.
 fn scale(formula: &mut Formula, factor: &Rational) {
     let value = formula.as_number().unwrap().as_rational().unwrap().clone();
@@ -89,14 +98,6 @@ fn shortened(mut robot: Robot, factor: &Rational) -> Robot {
 /// of f times the size: the speeds of a link of a nanometer are 3·10⁴ rad/s.
 #[test]
 fn the_programs_of_short_robots() {
-    let functions = [
-        &[
-            FunctionKind::InverseDynamics(Effects::NONE),
-            FunctionKind::InverseDynamics(Effects::WRENCH),
-        ],
-        &FURTHER[..],
-    ]
-    .concat();
     let mut pairs: Vec<(i32, i32)> = [3, 6, 7, 8, 9, 10, 12, 15, 20, 30]
         .iter()
         .flat_map(|length| [(*length, 0), (*length, 9), (*length, 20)])
@@ -104,7 +105,7 @@ fn the_programs_of_short_robots() {
     pairs.extend((1..8).flat_map(|length| (1..20).map(move |mass| (length, mass))));
     for (length, mass) in pairs {
         let factors = [length, mass].map(|exponent| format!("1e-{exponent}"));
-        let worst = (0..6).map(|seed| of_size(&functions, &factors, seed)).fold(0.0, f64::max);
+        let worst = (0..6).map(|seed| of_size(&factors, seed)).fold(0.0, f64::max);
         println!("{} m, {} kg: worst error {worst:.1e}", factors[0], factors[1]);
     }
 }
@@ -112,14 +113,6 @@ fn the_programs_of_short_robots() {
 /// Robots of random sizes. `ROBOT_SIZES` is the number of robots, `ROBOT_SIZES_SEED` that of the first.
 #[test]
 fn the_programs_of_robots_of_random_sizes() {
-    let functions = [
-        &[
-            FunctionKind::InverseDynamics(Effects::NONE),
-            FunctionKind::InverseDynamics(Effects::WRENCH),
-        ],
-        &FURTHER[..],
-    ]
-    .concat();
     let number = |name: &str, usual: u64| {
         std::env::var(name).map_or(usual, |number| number.parse().unwrap())
     };
@@ -133,21 +126,21 @@ fn the_programs_of_robots_of_random_sizes() {
         };
         let factors = [factor(-20.0, 0.0), factor(-20.0, 3.0)];
         println!("seed {seed}: {} m, {} kg", factors[0], factors[1]);
-        worst = worst.max(of_size(&functions, &factors, seed));
+        worst = worst.max(of_size(&factors, seed));
     }
     println!("{count} robots from seed {first}: worst error {worst:.1e}");
 }
 
 /// Compares the functions of a random robot whose lengths and masses are multiplied by these factors with the solver, in
 /// motion at its natural speeds, and at rest without torques, so that gravity alone moves it.
-fn of_size(functions: &[FunctionKind], factors: &[String; 2], seed: u64) -> f64 {
+fn of_size(factors: &[String; 2], seed: u64) -> f64 {
     let [length_factor, mass_factor] =
         [0, 1].map(|index| Rational::from_decimal(&factors[index]).unwrap());
     let name = format!("{} m, {} kg", factors[0], factors[1]);
     let robot = robots::robot(&mut Random::new(seed), &Recipe::serial(1 + seed as usize % 4));
     let robot = scaled(shortened(robot, &length_factor), &mass_factor);
     let [length, mass] = [&length_factor, &mass_factor].map(Rational::to_f64);
-    let mut case = Case::of(functions, &name, robot, seed, 10);
+    let mut case = Case::of(&OF_SIZES, &name, robot, seed, 10);
     for state in &mut case.states {
         state.qd.iter_mut().for_each(|speed| *speed /= length.sqrt());
         state.qdd.iter_mut().for_each(|acceleration| *acceleration /= length);

@@ -10,13 +10,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use robot_symbolic::Function;
 
 use super::Form;
+use super::samples::UNIT;
 use crate::program::{Operation, Program, Source, Value};
 
 /// The number of points at which coefficients are compared.
 pub(super) const POINTS: usize = 2;
 
-/// The unit of rounding of `f64`.
-const UNIT: f64 = f64::EPSILON / 2.0;
 /// A coefficient counts if it is larger than its rounding error by this factor.
 const COUNTS: f64 = 1e3;
 /// The most variables that are told apart; if there are more, neighbors count as one.

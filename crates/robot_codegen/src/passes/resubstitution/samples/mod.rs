@@ -13,7 +13,7 @@ const SETS: usize = 3;
 const POINTS: usize = SETS * POINTS_PER_SET;
 
 /// The unit of rounding of `f64`.
-const UNIT: f64 = f64::EPSILON / 2.0;
+pub(super) const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// The largest rounding error of an evaluation, relative to the terms that it adds, for which agreement to within that
 /// error is evidence. Beyond it, for example after dozens of joints, all values would agree.
