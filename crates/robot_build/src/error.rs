@@ -150,7 +150,7 @@ pub enum Error {
         remedy: &'static str,
     },
     /// A pinned plan that is stale or invalid.
-    #[error("{}: {reason}; search for a plan again, or remove the file", shown(path))]
+    #[error("{}: {reason}; {remedy}", shown(path))]
     Pin {
         /// The file of the pin.
         path: PathBuf,
@@ -158,6 +158,8 @@ pub enum Error {
         robot: String,
         /// The reason.
         reason: String,
+        /// The remedy.
+        remedy: &'static str,
     },
     /// A plan for another robot.
     #[error("{name}: the plan does not match the links of this robot; search for a plan again")]

@@ -50,6 +50,7 @@ pub use entry::files::{
 };
 pub use entry::paths::{RobotFile, missing};
 pub use entry::pin::{pin_path, pin_text, robot_inputs};
+pub use entry::system::system_reason;
 pub use error::{Error, Errors, shown};
 pub use robot_codegen::backend::rust::{Names, check_runtime_path, identifier};
 pub use robot_codegen::{Scalar, Trigonometry};

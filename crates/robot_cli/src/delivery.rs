@@ -18,7 +18,8 @@ const SHOWN: usize = 5;
 /// Whether files of others are replaced.
 #[derive(Args)]
 pub(crate) struct ForceArgument {
-    /// Replace an existing file that this program did not write, or that was edited since; never an input
+    /// Replace an existing file that this program did not write, or a document, page or picture that was edited since;
+    /// never an input
     #[arg(long)]
     force: bool,
 }

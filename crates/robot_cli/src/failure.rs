@@ -2,7 +2,7 @@
 
 use std::io;
 
-use robot_build::{Error, Errors};
+use robot_build::{Error, Errors, system_reason};
 use robot_model::diagnostic::Style;
 
 use crate::Terminal;
@@ -85,7 +85,7 @@ impl Failure {
             // The reader of the output has closed the stream.
             Failure::Stream(error) if error.kind() == io::ErrorKind::BrokenPipe => return 0,
             Failure::Stream(error) => {
-                (vec![format!("error: cannot write the results: {error}")], 2)
+                (vec![format!("error: cannot write the results: {}", system_reason(error))], 2)
             }
         };
         for message in messages {

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
-use robot_build::{missing, shown};
+use robot_build::{missing, shown, system_reason};
+use robot_simulation::csv::not_utf8;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -38,7 +39,7 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
         return Err(Failure::input(format!("{name} has more than {} MiB", MAX_BYTES >> 20)));
     }
     let text = String::from_utf8(bytes)
-        .map_err(|error| Failure::input(format!("{name} is not UTF-8 text: {error}")))?;
+        .map_err(|error| Failure::input(not_utf8(&name, 0, error.utf8_error())))?;
     Ok((name, text))
 }
 
@@ -78,5 +79,5 @@ pub(crate) fn open<'t>(
 }
 
 pub(crate) fn cannot_read(name: &str, error: &std::io::Error) -> Failure {
-    Failure::input(format!("cannot read {name}: {error}"))
+    Failure::input(format!("cannot read {name}: {}", system_reason(error)))
 }

@@ -15,9 +15,11 @@ use robot_symbolic::AngleSums;
 use crate::Terminal;
 use crate::failure::Failure;
 use crate::friction::has_friction;
+use crate::function::check_once;
 use crate::robot::RobotArgument;
 use crate::suggested::QUANTITY;
 use crate::text;
+use crate::values::whole;
 
 /// How equations are written.
 #[derive(Args)]
@@ -62,7 +64,7 @@ pub(crate) struct EquationArguments {
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
     /// Significant digits of decimals in equations [default: 10]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=i64::from(ALL_DIGITS)))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=ALL_DIGITS))]
     digits: Option<u8>,
     /// Include friction in the joint torques
     #[arg(long)]
@@ -153,13 +155,10 @@ impl EquationArguments {
 
     /// The forms that a style prints, or those that are chosen.
     pub(crate) fn forms(&self, asked: &[FormName]) -> Vec<Form> {
-        let mut forms: Vec<Form> = vec![];
-        for form in asked.iter().map(|form| Form::from(*form)) {
-            if !forms.contains(&form) {
-                forms.push(form);
-            }
+        if self.has_style() {
+            return vec![Form::Expanded];
         }
-        if self.has_style() { vec![Form::Expanded] } else { forms }
+        asked.iter().map(|form| Form::from(*form)).collect()
     }
 
     /// Whether vectors are columns and coefficients matrices. By default they are if formulas are typeset in a form
@@ -370,26 +369,21 @@ const fn options_that_help(error: &Error) -> Option<&'static str> {
     }
 }
 
-/// Finds the quantities with these names, each once.
+/// Finds the quantities with these names.
 fn kinds(names: &[String]) -> Result<Vec<Kind>, Failure> {
+    check_once("--quantity", names)?;
     let (mut kinds, mut wrong): (Vec<Kind>, _) = (vec![], vec![]);
     let mut known: Vec<&str> = Kind::ALL.iter().map(|kind| kind.name()).collect();
     known.push("all");
     for name in names {
         match (name.as_str(), Kind::from_name(name)) {
-            ("all", _) => kinds.extend(Kind::ALL),
+            ("all", _) if names.len() == 1 => return Ok(Kind::ALL.to_vec()),
+            ("all", _) => {
+                wrong.push("--quantity: `all` has all quantities; leave the others out".to_owned());
+            }
             (_, Some(kind)) => kinds.push(kind),
             _ => wrong.push(text::unknown("quantity", name, &known)),
         }
     }
-    if !wrong.is_empty() {
-        return Err(Failure::Usage(wrong));
-    }
-    let mut seen: Vec<Kind> = vec![];
-    for kind in kinds {
-        if !seen.contains(&kind) {
-            seen.push(kind);
-        }
-    }
-    Ok(seen)
+    if wrong.is_empty() { Ok(kinds) } else { Err(Failure::Usage(wrong)) }
 }

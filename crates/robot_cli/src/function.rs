@@ -1,16 +1,44 @@
 //! Names of functions on the command line.
 
+use clap::ValueEnum;
 use robot_build::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions, functions::named};
+use robot_model::diagnostic::quote;
 use robot_model::robot::Robot;
 
 use crate::failure::Failure;
 
+/// Returns an error for each of the names that an option has twice.
+pub(crate) fn check_once(option: &str, names: &[String]) -> Result<(), Failure> {
+    let is_again = |(index, name): &(usize, &String)| names[..*index].contains(name);
+    let again = names.iter().enumerate().filter(is_again);
+    let wrong =
+        again.map(|(_, name)| format!("{option}: `{}` is given twice; leave one out", quote(name)));
+    let wrong: Vec<String> = wrong.collect();
+    if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+}
+
+/// Does the same for words of a fixed list.
+pub(crate) fn check_values_once<T: ValueEnum>(option: &str, values: &[T]) -> Result<(), Failure> {
+    let names = values.iter().filter_map(T::to_possible_value);
+    let names: Vec<String> = names.map(|value| value.get_name().to_owned()).collect();
+    check_once(option, &names)
+}
+
 /// Finds the functions of a robot with these names.
 pub(crate) fn functions(names: &[String], robot: &Robot) -> Result<Functions, Failure> {
+    check_once("--function", names)?;
     let (all, names): (Vec<_>, Vec<_>) =
         names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
     let kinds = kinds(&names, robot)?;
-    Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
+    match (all.is_empty(), kinds.is_empty()) {
+        (true, _) => Ok(Functions::Chosen(kinds)),
+        (false, true) => Ok(Functions::All),
+        (false, false) => {
+            let message =
+                format!("--function: `{ALL_FUNCTIONS}` has all functions; leave the others out");
+            Err(Failure::Usage(vec![message]))
+        }
+    }
 }
 
 /// Makes bundles from names, with the functions of a robot.
@@ -19,6 +47,7 @@ pub(crate) fn bundles(
     robot: &Robot,
 ) -> Result<Vec<Bundle>, Failure> {
     let bundle = |(name, functions): &(String, Vec<String>)| {
+        check_once(&format!("--bundle {}", quote(name)), functions)?;
         Ok(Bundle { name: name.clone(), functions: kinds(functions, robot)? })
     };
     bundles.iter().map(bundle).collect()

@@ -17,6 +17,7 @@ pub(crate) fn robot(
     terminal: &mut Terminal<'_>,
 ) -> Result<Robot, Failure> {
     let described = file.read(terminal)?;
+    file.argument().check_base_frames(&[], terminal)?;
     let wrong = settings.wrong(&described.robot);
     if !wrong.is_empty() {
         return Err(Failure::Input(wrong));

@@ -1,7 +1,9 @@
 //! The options of generated code on the command line, taken from the table that declares them.
 
+use crate::values::whole;
 use clap::builder::{PossibleValue, PossibleValuesParser};
-use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches, value_parser};
+use clap::parser::ValueSource;
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 use robot_build::{Commands, Kind, OPTIONS, OptionSpec, Options, Value};
 
 /// The help text of an option.
@@ -51,7 +53,11 @@ fn words_of(words: &[(&'static str, &'static str)]) -> PossibleValuesParser {
 
 /// The options for printing and optimizing code, for the commands that generate code.
 #[derive(Clone)]
-pub(crate) struct CodeOptions(Vec<(&'static OptionSpec, Given)>);
+pub(crate) struct CodeOptions {
+    values: Vec<(&'static OptionSpec, Given)>,
+    /// The names of the options on the command line; the others have their defaults.
+    given: Vec<&'static str>,
+}
 
 /// A value from the command line.
 #[derive(Clone)]
@@ -64,7 +70,7 @@ enum Given {
 impl CodeOptions {
     /// Sets the given options in `options`.
     pub(crate) fn set(&self, options: &mut Options) {
-        for (option, given) in &self.0 {
+        for (option, given) in &self.values {
             let value = match given {
                 Given::Flag => Value::Flag(true),
                 Given::Count(count) => Value::Count(*count),
@@ -73,6 +79,11 @@ impl CodeOptions {
             // The parsers of the arguments accept only valid values.
             let _ = option.set(options, value);
         }
+    }
+
+    /// Whether the command line has the option with this name.
+    pub(crate) fn is_given(&self, name: &str) -> bool {
+        self.given.contains(&name)
     }
 }
 
@@ -91,7 +102,7 @@ fn argument(option: &'static OptionSpec) -> Arg {
     }
     match option.kind {
         Kind::Count { default } => {
-            let argument = argument.value_name(option.value_name).value_parser(value_parser!(u64));
+            let argument = argument.value_name(option.value_name).value_parser(whole(0..=u64::MAX));
             match default {
                 Some(number) => argument
                     .num_args(0..=1)
@@ -128,7 +139,11 @@ impl FromArgMatches for CodeOptions {
             };
             given.map(|given| (option, given))
         };
-        Ok(CodeOptions(listed().filter_map(given).collect()))
+        let is_given = |name: &&str| matches.value_source(name) == Some(ValueSource::CommandLine);
+        Ok(CodeOptions {
+            values: listed().filter_map(given).collect(),
+            given: listed().map(|option| option.name).filter(is_given).collect(),
+        })
     }
 
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {

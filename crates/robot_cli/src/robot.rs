@@ -6,8 +6,8 @@ use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use robot_build::languages::Language;
 use robot_build::{
-    BaseFrames, Bundle, Functions, OptionSpec, Options, RobotFile, Source, Trigonometry, Value,
-    robot_inputs,
+    BaseFrames, Bundle, Functions, Limbs, OptionSpec, Options, RobotFile, Source, Trigonometry,
+    Value, robot_inputs,
 };
 use robot_document::Form;
 use robot_dynamics::mechanism::{Snap, snapped};
@@ -115,6 +115,26 @@ impl RobotArgument {
         Ok(())
     }
 
+    /// Prints a note if frames of base parameters are given but none of the chosen functions has base parameters.
+    pub(crate) fn check_base_frames_of(
+        &self,
+        functions: &Functions,
+        bundles: &[Bundle],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        let chosen = match functions {
+            Functions::All => return Ok(()),
+            Functions::Usual => &[][..],
+            Functions::Chosen(kinds) => kinds,
+        };
+        let mut all = chosen.iter().chain(bundles.iter().flat_map(|bundle| &bundle.functions));
+        if all.any(|kind| kind.has_base_parameters()) {
+            Ok(())
+        } else {
+            self.check_base_frames(&[], terminal)
+        }
+    }
+
     /// The snapping tolerance in rad, if one is given.
     pub(crate) fn snap(&self) -> Option<f64> {
         self.snap
@@ -160,6 +180,11 @@ impl OpenRobot<'_> {
     /// The text of the file.
     pub(crate) fn source(&self) -> &Source {
         &self.file.source
+    }
+
+    /// The argument that names the file.
+    pub(crate) fn argument(&self) -> &RobotArgument {
+        self.argument
     }
 
     /// Reads the robot; prints warnings.
@@ -242,6 +267,7 @@ impl CodeArguments {
         &self,
         file: &RobotArgument,
         described: &Described,
+        language: Language,
         terminal: &mut Terminal<'_>,
     ) -> Result<Options, Failure> {
         let robot = &described.robot;
@@ -253,11 +279,44 @@ impl CodeArguments {
         let mut options = Options { functions, bundles, ..file.code_options()? };
         self.target.set(&mut options);
         let of_file = options.functions == Functions::Usual && options.bundles.is_empty();
-        let wanted = if of_file { &described.code.functions } else { &options.functions };
+        let (wanted, bundles) = match of_file {
+            true => (&described.code.functions, &described.code.bundles),
+            false => (&options.functions, &options.bundles),
+        };
         if *wanted == Functions::All {
             text::lacking(robot, &options, terminal)?;
         }
+        file.check_base_frames_of(wanted, bundles, terminal)?;
+        self.check_effects(&options, language, terminal)?;
         Ok(options)
+    }
+
+    /// Prints a note for each option without effect on code in this language.
+    fn check_effects(
+        &self,
+        options: &Options,
+        language: Language,
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        let name = language.name();
+        if options.fused && !language.has_multiply_add() {
+            writeln!(
+                terminal.errors,
+                "note: --fused: `{name}` has no instruction that multiplies and adds, so products and sums are apart"
+            )?;
+        }
+        let standard = options.trigonometry == Trigonometry::Standard;
+        let why = match language {
+            Language::Rust if standard && options.limbs == Limbs::SideBySide => {
+                "with --trigonometry standard; limbs are apart"
+            }
+            Language::Rust => return Ok(()),
+            _ => "outside Rust; limbs are apart",
+        };
+        if self.target.is_given("limbs") {
+            writeln!(terminal.errors, "note: --limbs has no effect {why}")?;
+        }
+        Ok(())
     }
 }
 

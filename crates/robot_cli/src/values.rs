@@ -1,5 +1,8 @@
 //! Numbers on the command line: `0.5`, `pi/2`, `90deg`.
 
+use std::fmt::Display;
+use std::ops::RangeInclusive;
+
 use robot_model::diagnostic::quote;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
@@ -31,6 +34,24 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
         (true, _) => Err(wrong()),
         (false, true) => Ok(number),
         (false, false) => Err(format!("`{}` does not have a finite value", quote(text))),
+    }
+}
+
+/// Returns a parser of arguments that are whole numbers in a range, written such as `1000` or `1e3`.
+pub(crate) fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: TryFrom<u64> + PartialOrd + Display + Copy,
+{
+    move |text| {
+        // Whole numbers up to this one are exact as f64.
+        const MOST: f64 = (1_u64 << 53) as f64;
+        let spelled =
+            || text.parse().ok().filter(|x: &f64| x.fract() == 0.0 && (0.0..=MOST).contains(x));
+        let number = text.parse::<u64>().ok().or_else(|| spelled().map(|x| x as u64));
+        let number = number.and_then(|number| T::try_from(number).ok());
+        number.filter(|number| range.contains(number)).ok_or_else(|| {
+            format!("expected a whole number from {} to {}", range.start(), range.end())
+        })
     }
 }
 

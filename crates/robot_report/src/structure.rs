@@ -13,6 +13,7 @@ use robot_dynamics::newton_euler::newton_euler;
 use robot_model::functions::Effects;
 use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
+use robot_symbolic::walk::Evaluator;
 use robot_symbolic::{Expr, Graph, Random, SymbolId, walk};
 
 use crate::text;
@@ -83,8 +84,11 @@ impl Structure {
 fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
     let mut largest = vec![0.0f64; roots.len()];
     let mut changes = vec![vec![0.0f64; positions.len()]; roots.len()];
+    let evaluator = Evaluator::new(roots);
+    let values =
+        |state: &State| evaluator.values(|symbol| state.get(&symbol).copied().unwrap_or(f64::NAN));
     for mut state in states(roots) {
-        let here = values(roots, &state);
+        let here = values(&state);
         for (size, value) in largest.iter_mut().zip(&here) {
             *size = larger(*size, *value);
         }
@@ -92,7 +96,7 @@ fn entries(roots: &[Expr<'_>], positions: &[Option<SymbolId>]) -> Vec<Entry> {
             let Some(position) = position else { continue };
             let Some(before) = state.get(position).copied() else { continue };
             state.insert(*position, 1.9 - before);
-            let there = values(roots, &state);
+            let there = values(&state);
             state.insert(*position, before);
             for (list, (here, there)) in changes.iter_mut().zip(here.iter().zip(there)) {
                 if let Some(change) = list.get_mut(index) {
@@ -115,10 +119,6 @@ fn larger(size: f64, value: f64) -> f64 {
 }
 
 type State = BTreeMap<SymbolId, f64>;
-
-fn values(roots: &[Expr<'_>], state: &State) -> Vec<f64> {
-    walk::evaluate(roots, |symbol| state.get(&symbol).copied().unwrap_or(f64::NAN))
-}
 
 /// Random values of all symbols, for each of the states.
 fn states(roots: &[Expr<'_>]) -> Vec<State> {

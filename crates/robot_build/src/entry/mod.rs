@@ -6,3 +6,4 @@ mod cargo;
 pub(crate) mod files;
 pub(crate) mod paths;
 pub(crate) mod pin;
+pub(crate) mod system;

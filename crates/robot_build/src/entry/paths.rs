@@ -7,6 +7,7 @@ use robot_model::description::{self, MAX_BYTES};
 use robot_model::diagnostic::Source;
 use robot_symbolic::nearest_word;
 
+use crate::entry::system::system_reason;
 use crate::error::{Error, Errors, shown};
 
 /// The reason why a robot is not read from a pipe or a device: beside its file are its plan and what is made of it.
@@ -54,7 +55,7 @@ impl RobotFile {
 
     /// Reads the file at a path; `given` is the path for messages.
     fn read_at(path: PathBuf, given: &Path) -> Result<RobotFile, Errors> {
-        let failed = |error: std::io::Error| cannot_read(given, &error.to_string());
+        let failed = |error: std::io::Error| cannot_read(given, &system_reason(&error));
         let found = std::fs::metadata(&path).map_err(failed)?;
         if found.is_dir() {
             return Err(Errors::from(cannot_read(given, "it is a folder; name a robot file")));
@@ -80,7 +81,7 @@ impl RobotFile {
 /// Finds the robot files of a folder, sorted by name. Their paths, like that of the folder, are relative to the
 /// package.
 pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>, Error> {
-    let failed = |error: std::io::Error| cannot_read(folder, &error.to_string());
+    let failed = |error: std::io::Error| cannot_read(folder, &system_reason(&error));
     let mut files = vec![];
     for entry in std::fs::read_dir(package.join(folder)).map_err(failed)? {
         let path = folder.join(entry.map_err(failed)?.file_name());
@@ -105,7 +106,7 @@ fn canonical(path: &Path, given: &Path) -> Result<PathBuf, Error> {
             // A pipe has a path, such as /dev/stdin, that leads to no file.
             std::io::ErrorKind::NotFound if path.exists() => NOT_REGULAR.to_owned(),
             std::io::ErrorKind::NotFound => missing_at(path, given),
-            _ => error.to_string(),
+            _ => system_reason(&error),
         };
         cannot_read(given, &reason)
     })

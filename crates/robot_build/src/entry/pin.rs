@@ -9,12 +9,16 @@ use robot_dynamics::economical::search::Found;
 use robot_model::robot::Robot;
 
 use crate::driver::options::Options;
-use crate::entry::files::MARKER;
+use crate::entry::files::{MARKER, is_marked};
 use crate::entry::paths::RobotFile;
+use crate::entry::system::system_reason;
 use crate::error::{Error, Errors};
 
 /// The largest number of bytes of a pin; real ones have a few kilobytes.
 const MAX_BYTES: u64 = 1 << 20;
+
+/// The remedy for a plan that a search wrote.
+const AGAIN: &str = "search for a plan again, or remove the file";
 
 /// The path of a robot file's pin, which is next to it. The ending `plan` replaces `toml` and is appended to any
 /// other, so that `ur5.toml`, imported from `ur5.urdf`, has a pin of its own.
@@ -64,7 +68,10 @@ impl RobotFile {
         }
         let failed = |reason: String| {
             let robot = self.source.name.clone();
-            Errors::from(Error::Pin { path: pin_path(Path::new(&robot)), robot, reason })
+            // A search does not replace a file that none wrote.
+            let is_own = path.is_file() && is_marked(&path).unwrap_or_default();
+            let remedy = if is_own { AGAIN } else { "move it away" };
+            Errors::from(Error::Pin { path: pin_path(Path::new(&robot)), robot, reason, remedy })
         };
         let pin = read_pin(&path).map_err(failed)?;
         if pin.digest != digest(&pin.content()) {
@@ -91,7 +98,7 @@ impl RobotFile {
 
 /// Reads the pin in a file; the error is the reason why it cannot be read.
 fn read_pin(path: &Path) -> Result<Pin, String> {
-    let found = std::fs::metadata(path).map_err(|error| error.to_string())?;
+    let found = std::fs::metadata(path).map_err(|error| system_reason(&error))?;
     if !found.is_file() {
         return Err("a pinned plan must be a regular file, and this is not".to_owned());
     }
@@ -99,7 +106,7 @@ fn read_pin(path: &Path) -> Result<Pin, String> {
     if size > MAX_BYTES {
         return Err(format!("the file has {size} bytes, too many for a pinned plan"));
     }
-    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let text = std::fs::read_to_string(path).map_err(|error| system_reason(&error))?;
     Pin::from_text(&text).map_err(|error| error.to_string())
 }
 

@@ -13,6 +13,7 @@ use crate::failure::Failure;
 use crate::forms::{NO_DIGITS, failed, note_rounding};
 use crate::robot::RobotArgument;
 use crate::text;
+use crate::values::whole;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -37,7 +38,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// Significant digits of decimals [default: 10]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=17_u8))]
     digits: Option<u8>,
     #[command(flatten)]
     layout: LayoutArguments,

@@ -14,7 +14,9 @@ use crate::delivery::{Delivery, ForceArgument, file_of};
 use crate::displayed::centimeters;
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName};
+use crate::function::check_values_once;
 use crate::robot::RobotArgument;
+use crate::values::whole;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -43,7 +45,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Number of columns on a page
-    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
+    #[arg(long, default_value_t = 1, value_parser = whole(1..=2_u8))]
     columns: u8,
     /// Width of a column, such as 8.5cm [default: as wide as fits on A4]
     #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
@@ -96,6 +98,7 @@ impl Arguments {
         let output = Delivery::open(self.output.as_deref(), writer)?;
         // The error about an output that is an input has priority over one about its name.
         let format = self.format()?;
+        check_values_once("--form", &self.form)?;
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;
         let mut options = self.equations.options(&self.robot, Form::default())?;

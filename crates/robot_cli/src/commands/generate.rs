@@ -43,7 +43,8 @@ impl Arguments {
         let output = self.output.open(self.robot.inputs())?;
         let source = self.robot.source()?;
         let robot = self.robot.read(terminal)?;
-        let mut options = self.code.options(&self.robot, &robot, terminal)?;
+        let mut options =
+            self.code.options(&self.robot, &robot, self.language.language, terminal)?;
         options.runtime.clone_from(&self.runtime);
         let language = self.language.language;
         let text = watched("generating", terminal, || text(&source, &options, language))?;

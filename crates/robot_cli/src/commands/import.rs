@@ -45,6 +45,13 @@ impl Arguments {
         for choice in import.described.choices.iter() {
             writeln!(terminal.errors, "note: {}", choice.message)?;
         }
+        if self.friction && !import.described.robot.has_friction() {
+            let name = &source.name;
+            writeln!(
+                terminal.errors,
+                "note: {name}: --friction has no effect, because no joint has `<dynamics>` with damping or friction"
+            )?;
+        }
         output.deliver(&import.toml, terminal)
     }
 }

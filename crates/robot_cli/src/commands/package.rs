@@ -41,8 +41,8 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let source = self.robot.source()?;
         let robot = self.robot.read(terminal)?;
-        let options = self.code.options(&self.robot, &robot, terminal)?;
         let language = self.language.language;
+        let options = self.code.options(&self.robot, &robot, language, terminal)?;
         let files =
             watched("generating", terminal, || languages::package(&source, &options, language))?;
         let writer = self.force.writer(self.robot.inputs(), !self.check)?;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use robot_build::languages::Language;
 use robot_evidence::{Compiler, Evidence, Measurements, Module, Profile, prove};
 use serde_json::{Map, Value, json};
 
@@ -10,6 +11,7 @@ use crate::Terminal;
 use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::format::Format;
+use crate::function::check_values_once;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument};
 use crate::text;
@@ -60,8 +62,9 @@ enum ProfileName {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        check_values_once("--profile", &self.profile)?;
         let robot = self.robot.read(terminal)?;
-        let options = self.code.options(&self.robot, &robot, terminal)?;
+        let options = self.code.options(&self.robot, &robot, Language::Rust, terminal)?;
         let compiler = Compiler {
             rustc: self.rustc.clone(),
             target: self.target.clone(),

@@ -26,6 +26,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let described = self.robot.read(terminal)?;
         let robot = &described.robot;
+        self.robot.check_base_frames(&[], terminal)?;
         let output = &mut terminal.output;
         writeln!(output, "{}", robot.name)?;
         if let Some(description) = &robot.description {

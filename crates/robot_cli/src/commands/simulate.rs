@@ -22,7 +22,7 @@ use crate::progress::Progress;
 use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
-use crate::values::of_joints;
+use crate::values::{of_joints, whole};
 
 /// The number of lines of the output that are in memory as text.
 const PART: usize = 1024;
@@ -49,8 +49,8 @@ pub(crate) struct Arguments {
     /// Error tolerance of a step in a component y of q and qd: TOLERANCE (1 + |y|)
     #[arg(long, default_value = "1e-9", allow_hyphen_values = true)]
     tolerance: f64,
-    /// Maximum number of integrator steps [default: 1e6, or ten per line of output if that is more]
-    #[arg(long, value_name = "STEPS")]
+    /// Maximum number of integrator steps [default: 1000000, or ten per line of output if that is more]
+    #[arg(long, value_name = "STEPS", value_parser = whole(0..=usize::MAX), allow_hyphen_values = true)]
     max_steps: Option<usize>,
     /// Initial joint positions, separated by commas; rad or m, or such as pi/2, 90deg [default: 0]
     #[arg(long, value_name = "Q1,Q2,…", allow_hyphen_values = true)]

@@ -66,6 +66,7 @@ impl Arguments {
             ([], bundles) => (Functions::Usual, bundles),
             (names, bundles) => (functions(names, &robot)?, bundles),
         };
+        self.robot.check_base_frames_of(&functions, &bundles, terminal)?;
         let options = Options { functions, bundles, ..self.robot.options(terminal)? };
         if options.functions == Functions::All {
             text::lacking(&robot, &options, terminal)?;

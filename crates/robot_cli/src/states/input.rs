@@ -4,6 +4,7 @@ use std::cell::Cell;
 use std::io::{BufRead, BufReader, Error, Read, Result, Seek, SeekFrom};
 use std::path::Path;
 
+use robot_build::system_reason;
 use robot_simulation::csv::{Lines, is_blank, not_utf8};
 
 use super::{Layout, Sink, State, csv, json};
@@ -240,7 +241,7 @@ impl<R: Read> Read for Text<'_, R> {
         let count = self.reader.read(buffer);
         let count = count.map_err(|error| match error.kind() {
             std::io::ErrorKind::Interrupted => error,
-            _ => Error::other(format!("cannot read {name}: {error}")),
+            _ => Error::other(format!("cannot read {name}: {}", system_reason(&error))),
         })?;
         let read = self.budget.read.get() + count as u64;
         self.budget.read.set(read);

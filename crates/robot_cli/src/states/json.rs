@@ -36,6 +36,12 @@ pub(super) fn read<'l>(
         Err(error) if error.classify() == Category::Io => {
             return Err(Failure::input(std::io::Error::from(error).to_string()));
         }
+        Err(error) if error.to_string().starts_with("recursion limit") => {
+            let (line, column) = (error.line(), error.column());
+            sink.no_states(format!(
+                "brackets are nested too deeply at line {line}, column {column}; expected an array of states"
+            ));
+        }
         Err(error) => sink.no_states(format!("this is not JSON: {error}")),
     }
     Ok(())

@@ -158,7 +158,7 @@ fn what_is_not_text_is_refused_however_it_comes() {
                 Ok(Collected { errors, .. }) => errors.join(" "),
                 Err(error) => error,
             };
-            let place = format!("from index {}", start.len());
+            let place = format!("from byte {} on", start.len() + 1);
             assert!(found.contains("is not UTF-8"), "{wrong:?}, {most}: {found}");
             assert!(found.contains(&place), "{wrong:?}, {most}: {found}");
         }

@@ -188,7 +188,10 @@ fn everything_that_is_wrong_is_said_at_once() {
         lines[2].starts_with("error: standard input: state 2: there is no key `tip`"),
         "{shown}"
     );
-    assert_eq!(lines[3], "error: state 1: `qdd` is missing; inverse_dynamics needs it");
+    assert_eq!(
+        lines[3],
+        "error: standard input: state 1: `qdd` is missing; inverse_dynamics needs it"
+    );
     assert_eq!(lines.len(), 4);
 }
 

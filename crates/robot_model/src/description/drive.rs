@@ -1,6 +1,7 @@
 //! Friction and drive of a joint.
 
 use robot_symbolic::Formula;
+use toml::de::DeValue;
 
 use super::joint::by_kind;
 use super::reader::Reader;
@@ -62,6 +63,18 @@ impl Entries<'_, '_, '_> {
     }
 }
 
+/// The keys that give a joint dry friction.
+const KEYS_OF_DRY_FRICTION: [&str; 5] =
+    ["coulomb", "coulomb_positive", "coulomb_negative", "coulomb_torque", "coulomb_force"];
+
+/// Reports a table without keys, which says nothing.
+fn check_not_empty(entries: &mut Entries<'_, '_, '_>, entry: &Entry<'_>, name: &str) {
+    if matches!(entry.value.get_ref(), DeValue::Table(table) if table.is_empty()) {
+        let message = format!("`{name}` is empty");
+        entries.conflict(&entry.key, &message, "add a key, or remove the table");
+    }
+}
+
 /// Reads `friction`.
 pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind) -> Friction {
     use Sign::{Any, NotNegative, Positive};
@@ -70,6 +83,8 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
         return friction;
     };
     let mut entries = Entries { reader, table };
+    check_not_empty(&mut entries, entry, "friction");
+    let is_dry = KEYS_OF_DRY_FRICTION.iter().any(|key| entries.table.has(key));
     let force = |what| by_kind(what, kind, (1, 2, -2), (1, 1, -2));
     let viscous = by_kind("the viscous friction coefficient", kind, (1, 2, -1), (1, 0, -1));
     entries.read("viscous", &mut friction.viscous, viscous, NotNegative);
@@ -109,7 +124,12 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     let width = by_kind("the smoothing width", kind, (0, 0, -1), (0, 1, -1));
     let mut smoothing = Friction::none().offset;
     let smooth = entries.read("smoothing", &mut smoothing, width, Positive);
-    friction.smoothing = smooth.map(|_| smoothing);
+    friction.smoothing = smooth.clone().map(|_| smoothing);
+    if let Some(span) = smooth.filter(|_| !is_dry) {
+        let message = "`smoothing` has no effect without Coulomb friction";
+        let help = format!("add `{symmetric}`, or remove `smoothing`");
+        entries.conflict(&span, message, &help);
+    }
     entries.table.finish(entries.reader);
     friction
 }
@@ -152,6 +172,7 @@ pub(super) fn drive(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKind)
         return drive;
     };
     let mut entries = Entries { reader, table };
+    check_not_empty(&mut entries, entry, "drive");
     let armature = by_kind("the armature", kind, (1, 2, 0), (1, 0, 0));
     entries.read("armature", &mut drive.armature, armature, Sign::NotNegative);
     let inertia = quantity("the rotor inertia", 1, 2, 0);

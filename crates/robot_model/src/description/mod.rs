@@ -160,7 +160,7 @@ pub fn import(name: &str, text: &str, options: &Options) -> Result<Import, Diagn
 /// An error if the file is too large or not UTF-8.
 pub fn decode(name: &str, bytes: Vec<u8>) -> Result<String, Diagnostics> {
     if bytes.len() > MAX_BYTES {
-        return Err(too_large(name, bytes.len()));
+        return Err(too_large(name));
     }
     String::from_utf8(bytes).map_err(|error| {
         let valid = error.utf8_error().valid_up_to();
@@ -203,7 +203,7 @@ fn described(
     options: &Options,
 ) -> Result<(Described, Lowered), Diagnostics> {
     if text.len() > MAX_BYTES {
-        return Err(too_large(name, text.len()));
+        return Err(too_large(name));
     }
     let mut reader = Reader::new(text, options);
     let lowered = match format {
@@ -267,6 +267,7 @@ fn build(reader: &mut Reader<'_>, lowered: Lowered, format: Format) -> Option<Bu
             no_effect(reader, &locations);
         }
     }
+    wrenches_on_base(reader, &robot, &locations);
     Some(Built { robot, locations, code, budgets })
 }
 
@@ -294,9 +295,25 @@ fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
     }
 }
 
+/// Warns about wrenches of tips that are fixed to the base, which no joint feels.
+fn wrenches_on_base(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) {
+    for (frame, places) in robot.frames.iter().zip(&locations.frames) {
+        if frame.wrench.is_none() || frame.link.is_some() {
+            continue;
+        }
+        let message = format!("the wrench of `{}` has no effect", frame.name);
+        reader.report(
+            Diagnostic::warning(code::NO_EFFECT, message)
+                .at(&places.name, "fixed to the base")
+                .help("choose a link that moves as its `parent`, or write `[[frame]]` if only its pose is wanted"),
+        );
+    }
+}
+
 /// The error for a file that is too large; its text is not shown in the message.
-fn too_large(name: &str, bytes: usize) -> Diagnostics {
-    let message = format!("the file has {bytes} bytes; a robot file may have at most {MAX_BYTES}");
+fn too_large(name: &str) -> Diagnostics {
+    let message =
+        format!("the file has more than the {MAX_BYTES} bytes that a robot file may have");
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
         .because("a robot of 64 joints, fully commented, needs a tenth of that")
         .help(

@@ -11,8 +11,10 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let mut found = Vec::new();
     // The keys below a duplicate header would be reported as duplicates, too; they are skipped.
     let mut header: Option<Span> = None;
+    // An error without a place is one of the end, which is that of the last line with text.
+    let end = text.trim_end().len();
     for error in &errors {
-        let span = error.span().unwrap_or(text.len()..text.len());
+        let span = error.span().unwrap_or(end..end);
         let duplicate = error.message() == "duplicate key";
         if duplicate && header.as_ref().is_some_and(|table| table.contains(&span.start)) {
             continue;
@@ -82,9 +84,10 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
         None
     };
     let message = message.strip_suffix(", expected nothing").unwrap_or(message);
-    let message = match message {
-        "recursion limit" => "the file is nested too deeply".to_owned(),
-        _ => format!("invalid TOML: {message}"),
+    let message = if message.contains("recurs") {
+        "the file is nested too deeply".to_owned()
+    } else {
+        format!("invalid TOML: {message}")
     };
     (message, help)
 }

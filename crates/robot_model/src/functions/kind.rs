@@ -318,6 +318,12 @@ impl FunctionKind {
         if self.declaration().base { out_of_reach(robot) } else { None }
     }
 
+    /// Whether the function is about the base parameters.
+    #[must_use]
+    pub const fn has_base_parameters(self) -> bool {
+        self.declaration().base
+    }
+
     /// Whether the function solves a system of equations with the mass matrix, which must not be singular. Its bias
     /// torques can then be computed at any accelerations.
     #[must_use]

@@ -68,11 +68,7 @@ impl<R: BufRead> Lines<R> {
 #[must_use]
 pub fn not_utf8(source: &str, offset: u64, error: std::str::Utf8Error) -> String {
     let at = offset + error.valid_up_to() as u64;
-    let what = match error.error_len() {
-        Some(length) => format!("invalid utf-8 sequence of {length} bytes from index {at}"),
-        None => format!("incomplete utf-8 byte sequence from index {at}"),
-    };
-    format!("{source} is not UTF-8 text: {what}")
+    format!("{source} is not UTF-8 text from byte {} on; save it as UTF-8", at + 1)
 }
 
 /// Whether a line contains only white space.

@@ -145,7 +145,9 @@ fn what_is_not_text_is_told_with_its_place_in_the_whole() {
         [&b"ab\nc\xff\nd"[..], b"ab\nc\xe2\x82\nd", b"ab\nc\xe2\x82", b"\xef\xbb\xbf1\n\x80"]
     {
         let whole = String::from_utf8(bytes.to_vec()).unwrap_err();
-        assert_eq!(lines(bytes), Err(format!("a is not UTF-8 text: {whole}")));
+        let byte = whole.utf8_error().valid_up_to() + 1;
+        let expected = format!("a is not UTF-8 text from byte {byte} on; save it as UTF-8");
+        assert_eq!(lines(bytes), Err(expected));
     }
 }
 

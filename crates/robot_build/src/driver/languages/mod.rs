@@ -76,6 +76,20 @@ impl Language {
     pub fn named(name: &str) -> Option<Language> {
         Language::ALL.iter().copied().find(|language| language.name() == name)
     }
+
+    /// Whether code in the language multiplies and adds in one instruction where the processor has it.
+    #[must_use]
+    pub fn has_multiply_add(self) -> bool {
+        match self {
+            Language::Rust
+            | Language::C
+            | Language::Arduino
+            | Language::Cpp
+            | Language::Cuda
+            | Language::Wgsl => true,
+            Language::Matlab | Language::Python | Language::JavaScript | Language::Wasm => false,
+        }
+    }
 }
 
 /// Generates the source files of a robot's module in a language, for use in a project of the user.

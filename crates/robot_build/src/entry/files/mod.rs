@@ -14,11 +14,13 @@ mod writer;
 use std::path::Path;
 
 pub use marker::MARKER;
+pub(crate) use marker::is_marked;
 pub use pending::Pending;
 pub use remaining::remaining;
 pub use seal::sealed;
 pub use writer::{Output, Ownership, Writer};
 
+use crate::entry::system::system_reason;
 use crate::error::Error;
 
 /// The difference between a file on disk and the content that would be generated.
@@ -48,9 +50,9 @@ pub fn staleness(path: &Path, wanted: &[u8]) -> Result<Option<Staleness>, Error>
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
             return Ok(Some(Staleness::Missing));
         }
-        Err(error) => return Err(failed(error.to_string())),
+        Err(error) => return Err(failed(system_reason(&error))),
     }
-    let present = std::fs::read(path).map_err(|error| failed(error.to_string()))?;
+    let present = std::fs::read(path).map_err(|error| failed(system_reason(&error)))?;
     let Ok(text) = std::str::from_utf8(wanted) else {
         return Ok((present != wanted).then_some(Staleness::Bytes));
     };

@@ -10,6 +10,7 @@ use super::place::{Place, folder_of, is_of_system, is_same, place};
 use super::seal::is_edited;
 use super::staging::{Staged, remove_leftovers};
 use crate::driver::file::File;
+use crate::entry::system::system_reason;
 use crate::error::{Error, Errors};
 
 /// The evidence that this program wrote an existing file, which may then be replaced.
@@ -314,7 +315,7 @@ enum Target {
 }
 
 pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
-    Error::File { action: "write", path: path.to_owned(), reason: error.to_string() }
+    Error::File { action: "write", path: path.to_owned(), reason: system_reason(error) }
 }
 
 /// Whether a path ends with a separator, as paths of folders do.

@@ -6,6 +6,7 @@ use robot_check::doctor::{self, Examination};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Source, code};
 
 use crate::failure::{Failure, in_command_words};
+use crate::function::check_once;
 use crate::plan::is_of_pin;
 use crate::reading::ReadingArguments;
 use crate::suggested::CODE;
@@ -25,6 +26,7 @@ pub(crate) struct ExaminationArguments {
 impl ExaminationArguments {
     /// Returns an error for codes that do not exist.
     pub(crate) fn check(&self) -> Result<(), Failure> {
+        check_once("--allow", &self.allow)?;
         let unknown_codes = self.allow.iter().filter(|code| code::page(code).is_none());
         let wrong: Vec<String> = unknown_codes.map(|code| unknown(code)).collect();
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }

@@ -69,6 +69,7 @@ impl Arguments {
 
     fn comparison(&self, terminal: &mut Terminal<'_>) -> Result<Comparison, Failure> {
         let robot = self.robot.read(terminal)?.robot;
+        self.robot.check_base_frames(&[], terminal)?;
         let printed = RobotFile::read(&self.printed)?.source;
         let notation = self.notation.map(|notation| match notation {
             NotationName::Text => Notation::Text,

@@ -16,9 +16,10 @@ use crate::plan::pinned_or_searched;
 use crate::progress::watched;
 use crate::reading::ReadingArguments;
 use crate::screen::is_colored;
+use crate::values::whole;
 
 /// The most states at which torques are compared. They take about a minute for a robot with many joints.
-const MOST_STATES: i64 = 100_000;
+const MOST_STATES: u32 = 100_000;
 
 /// The number of terms of an equation that are shown by default.
 const TERMS: usize = 20;
@@ -42,13 +43,13 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     reading: ReadingArguments,
     /// Seed of the random states at which torques are compared
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, value_parser = whole(0..=u64::MAX))]
     seed: u64,
     /// Number of random states, at most 100000
-    #[arg(long, default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..=MOST_STATES))]
+    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STATES))]
     states: u32,
     /// Maximum number of terms shown per equation in text [default: 20]
-    #[arg(long)]
+    #[arg(long, value_parser = whole(0..=usize::MAX))]
     terms: Option<usize>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]

@@ -144,8 +144,9 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
     fn check(&mut self, state: &State<'_>) {
         let Evaluation { task, wrong, .. } = self;
         let place = state.place;
+        let file = task.source.as_ref().map_or(String::new(), |source| format!("{source}: "));
         if let Some(why) = task.unloadable.as_ref().filter(|_| state.is_loaded()) {
-            wrong.loaded.push(format!("{place}: has a wrench, but {why}"));
+            wrong.loaded.push(format!("{file}{place}: has a wrench, but {why}"));
         }
         for Input { name, array, .. } in &self.inputs {
             let is_given = array.is_some_and(|array| state.at(array).is_some());
@@ -154,7 +155,9 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
                 self.lack_wrenches &= !is_given;
             } else if !is_given {
                 let function = &task.function.name;
-                wrong.missing.push(format!("{place}: `{name}` is missing; {function} needs it"));
+                wrong
+                    .missing
+                    .push(format!("{file}{place}: `{name}` is missing; {function} needs it"));
             }
         }
     }

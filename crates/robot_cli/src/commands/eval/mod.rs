@@ -91,6 +91,8 @@ impl Arguments {
         let bundles: Vec<Bundle> = bundles.cloned().collect();
         let kind = if bundles.is_empty() { Some(self.kind(robot)?) } else { None };
         self.check_state(kind)?;
+        let functions = Functions::Chosen(kind.into_iter().collect());
+        self.robot.check_base_frames_of(&functions, &bundles, terminal)?;
         let takes_wrench = kind.is_some_and(|kind| kind.effects().wrench);
         let before = self.settings.wrong(robot);
         if before.is_empty() {

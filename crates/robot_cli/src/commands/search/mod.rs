@@ -5,7 +5,9 @@ mod tune;
 use std::time::SystemTime;
 
 use clap::Args;
-use robot_build::{Options, Output, Ownership, pin_text, robot_inputs, shown, snapping};
+use robot_build::{
+    Options, Output, Ownership, pin_text, robot_inputs, shown, snapping, system_reason,
+};
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{Entry, LinkPlan, Origin, Turn};
 use robot_dynamics::economical::search::{Found, Measure, search};
@@ -73,6 +75,7 @@ impl Arguments {
             writer.check(&[(&path, Ownership::Marked)])?;
         }
         let robot = self.robot.read(terminal)?.robot;
+        self.robot.check_base_frames(&[], terminal)?;
         let options = MechanismOptions::ROUNDED.with_snap(self.robot.snap(), &robot);
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
         let find = || match self.tune {
@@ -115,9 +118,10 @@ impl Arguments {
         if let Err(error) = file.and_then(|file| file.set_modified(SystemTime::now())) {
             writeln!(
                 terminal.errors,
-                "warning: the modification time of {} cannot be set: {error}\n  a build that ran \
-                 before there was a plan will use it after the next change of the file",
-                shown(path)
+                "warning: the modification time of {} cannot be set: {}\n  a build that ran before there was a plan \
+                 will use it after the next change of the file",
+                shown(path),
+                system_reason(&error)
             )?;
         }
         Ok(())

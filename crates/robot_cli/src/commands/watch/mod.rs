@@ -18,6 +18,7 @@ use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::screen::is_colored;
+use crate::values::whole;
 use files::Files;
 use page::Page;
 use state::{Look, Settings, Shown, State};
@@ -45,10 +46,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     force: ForceArgument,
     /// Maximum number of terms shown per equation
-    #[arg(long, default_value_t = 20)]
+    #[arg(long, default_value_t = 20, value_parser = whole(0..=usize::MAX))]
     terms: usize,
     /// End after this many saves [default: run until Ctrl-C]
-    #[arg(long, value_name = "COUNT")]
+    #[arg(long, value_name = "COUNT", value_parser = whole(0..=usize::MAX))]
     saves: Option<usize>,
 }
 
@@ -68,6 +69,7 @@ impl Arguments {
         let page = self.report.clone().map(|path| Page::open(path, writer)).transpose()?;
         ctrlc::set_handler(|| OVER.store(true, Ordering::Relaxed))
             .map_err(|error| Failure::input(format!("cannot wait for Ctrl-C: {error}")))?;
+        self.robot.check_base_frames(&[], terminal)?;
         let saves = self.saves.unwrap_or(usize::MAX);
         let options = self.robot.reading.options();
         let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));

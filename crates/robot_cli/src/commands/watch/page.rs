@@ -4,7 +4,9 @@ use std::ffi::OsString;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use robot_build::{Errors, Options, Output, Ownership, Source, Writer, sealed, shown};
+use robot_build::{
+    Errors, Options, Output, Ownership, Source, Writer, sealed, shown, system_reason,
+};
 use robot_report::{Compiled, Reloading, reloading};
 
 use crate::commands::report::input;
@@ -89,7 +91,7 @@ fn remove(path: &Path, text: &str) -> Result<(), Failure> {
     }
     match std::fs::remove_file(path) {
         Err(error) if error.kind() != ErrorKind::NotFound => {
-            Err(Failure::input(format!("cannot remove {}: {error}", shown(path))))
+            Err(Failure::input(format!("cannot remove {}: {}", shown(path), system_reason(&error))))
         }
         _ => Ok(()),
     }

@@ -129,7 +129,12 @@ impl Pin {
     pub fn from_text(text: &str) -> Result<Pin, PinError> {
         let (table, faults) = DeTable::parse_recoverable(text);
         if let Some(fault) = faults.first() {
-            return Err(PinError(fault.to_string().trim().to_owned()));
+            let start = fault.span().map_or(text.len(), |span| span.start);
+            let line = 1 + text.get(..start).unwrap_or(text).matches('\n').count();
+            return Err(PinError(format!(
+                "line {line} is not that of a plan: {}",
+                fault.message()
+            )));
         }
         let mut keys = Keys::new(table.get_ref());
         // The format is checked first, because other formats may have other keys.

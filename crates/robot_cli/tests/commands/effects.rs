@@ -1,0 +1,100 @@
+//! Options and values that have no effect, and those that are given twice, are noticed.
+
+use crate::{complaint, folder, robot, run};
+
+/// The notes of a command that does its work.
+fn notes(arguments: &[&str]) -> String {
+    let done = run(arguments);
+    assert_eq!(done.code, 0, "{arguments:?}: {}", done.errors);
+    done.errors
+}
+
+#[test]
+fn frames_of_base_parameters_are_noticed_where_there_are_none() {
+    let arm = robot("planar_2r");
+    let frames = ["--base-frames", "denavit_hartenberg"];
+    let note = "note: --base-frames has no effect here, only on base parameters";
+    for arguments in [
+        &["eval", &arm, "--function", "gravity", "--q", "0,0"][..],
+        &["generate", &arm],
+        &["stats", &arm, "--function", "gravity"],
+        &["simulate", &arm, "--time", "0.01"],
+        &["torques", &arm, "--expressions", "q1 = t", "--time", "0.01"],
+        &["show", &arm],
+        &["search", &arm, "--dry-run"],
+        &["scheme", &arm],
+        &["watch", &arm, "--saves", "0"],
+    ] {
+        let found = notes(&[arguments, &frames].concat());
+        assert!(found.contains(note), "{arguments:?}: {found}");
+        assert!(!notes(arguments).contains(note), "{arguments:?}");
+    }
+    for arguments in [
+        &["eval", &arm, "--function", "base_parameters"][..],
+        &["generate", &arm, "--function", "regressor_base"],
+        &["generate", &arm, "--bundle", "both=gravity,regressor_base"],
+        &["stats", &arm],
+        &["base", &arm],
+    ] {
+        let found = notes(&[arguments, &frames].concat());
+        assert!(!found.contains(note), "{arguments:?}: {found}");
+    }
+}
+
+#[test]
+fn options_of_code_are_noticed_in_languages_that_do_not_have_them() {
+    let arm = robot("planar_2r");
+    let of = |options: &[&str]| notes(&[&["generate", &arm][..], options].concat());
+    for words in ["apart", "side_by_side"] {
+        let limbs = ["--limbs", words];
+        let found = of(&[&["--language", "matlab"][..], &limbs].concat());
+        assert!(found.contains("note: --limbs has no effect outside Rust"), "{found}");
+        assert_eq!(of(&limbs), "");
+    }
+    let standard = ["--trigonometry", "standard", "--limbs"];
+    let found = of(&[&standard[..], &["side_by_side"]].concat());
+    assert!(found.contains("note: --limbs has no effect with --trigonometry standard"), "{found}");
+    assert_eq!(of(&[&standard[..], &["apart"]].concat()), "");
+    let found = of(&["--language", "matlab", "--fused"]);
+    assert!(found.contains("note: --fused: `matlab` has no instruction"), "{found}");
+    assert_eq!(of(&["--fused"]), "");
+}
+
+#[test]
+fn what_is_given_twice_is_an_error() {
+    let arm = robot("planar_2r");
+    for (arguments, expected) in [
+        (&["generate", &arm, "--function", "bias,bias"][..], "--function: `bias` is given twice"),
+        (&["stats", &arm, "--function", "all,bias"], "`all` has all functions"),
+        (&["generate", &arm, "--bundle", "d=bias,bias"], "--bundle d: `bias` is given twice"),
+        (&["equations", &arm, "--quantity", "Q,Q"], "--quantity: `Q` is given twice"),
+        (&["equations", &arm, "--quantity", "all,Q"], "`all` has all quantities"),
+        (&["document", &arm, "--form", "grouped,grouped"], "--form: `grouped` is given twice"),
+        (&["check", &arm, "--allow", "R0602,R0602"], "--allow: `R0602` is given twice"),
+        (&["prove", &arm, "--profile", "dev,dev"], "--profile: `dev` is given twice"),
+    ] {
+        let found = complaint(2, arguments, "");
+        assert!(found.contains(expected), "{arguments:?}: {found}");
+    }
+}
+
+#[test]
+fn imported_friction_that_no_joint_has_is_noticed() {
+    let joint = |dynamics: &str| {
+        format!(
+            "<robot name='a'><link name='base'/><link name='b'><inertial><mass value='1'/>\
+            <inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>\
+            <joint name='j' type='continuous'><parent link='base'/><child link='b'/>{dynamics}</joint></robot>"
+        )
+    };
+    let path = folder("effects_import").join("arm.urdf");
+    let file = path.to_str().unwrap();
+    let note = "--friction has no effect, because no joint has `<dynamics>`";
+    for (dynamics, expected) in
+        [("", true), ("<dynamics damping='0'/>", true), ("<dynamics damping='1'/>", false)]
+    {
+        std::fs::write(&path, joint(dynamics)).unwrap();
+        assert_eq!(notes(&["import", file, "--friction"]).contains(note), expected, "{dynamics}");
+        assert!(!notes(&["import", file]).contains(note), "{dynamics}");
+    }
+}

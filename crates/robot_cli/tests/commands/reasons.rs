@@ -1,0 +1,124 @@
+//! Reasons of the system and of parsers are given in plain words, with a remedy that works.
+
+use crate::{complaint, folder, output, robot, run};
+
+/// A folder with a copy of the planar arm; its path, and that of the arm.
+fn arm(test: &str) -> (std::path::PathBuf, String) {
+    let folder = folder(test);
+    let path = folder.join("arm.toml");
+    std::fs::copy(robot("planar_2r"), &path).unwrap();
+    (folder, path.to_str().unwrap().to_owned())
+}
+
+#[test]
+fn paths_that_cannot_be_have_a_reason() {
+    let (_, file) = arm("reasons_paths");
+    let below = format!("{file}/x");
+    let reason = "a part of its path is a file, not a folder";
+    for arguments in [
+        &["check", &below][..],
+        &["generate", &file, "-o", &below],
+        &["eval", &file, "--function", "gravity", "--states", &below],
+        &["torques", &file, "--trajectory", &below],
+        &["convert", &below],
+    ] {
+        let done = run(arguments);
+        assert_ne!(done.code, 0, "{arguments:?}");
+        if arguments[0] != "convert" {
+            assert!(done.errors.contains(reason), "{arguments:?}: {}", done.errors);
+        }
+        assert!(!done.errors.contains("os error"), "{arguments:?}: {}", done.errors);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_that_form_a_cycle_have_a_reason() {
+    let (folder, file) = arm("reasons_links");
+    let link = folder.join("link");
+    let _ = std::fs::remove_file(&link);
+    std::os::unix::fs::symlink(&link, &link).unwrap();
+    let link = link.to_str().unwrap();
+    for arguments in [
+        &["check", link][..],
+        &["generate", &file, "-o", link],
+        &["eval", &file, "--function", "gravity", "--states", link],
+    ] {
+        let done = run(arguments);
+        let reason = "its symbolic links form a cycle";
+        assert!(done.errors.contains(reason), "{arguments:?}: {}", done.errors);
+    }
+}
+
+#[test]
+fn states_that_cannot_be_read_have_a_reason() {
+    let (_, file) = arm("reasons_states");
+    let eval = ["eval", &file, "--function", "gravity", "--states", "-"];
+    let deep = complaint(1, &eval, &"[".repeat(1000));
+    assert!(deep.contains("brackets are nested too deeply at line 1, column 128"), "{deep}");
+    let wide: Vec<u8> = "q1,q2".encode_utf16().flat_map(|unit| [unit as u8, 0]).collect();
+    let done = crate::run_with(&eval, &[&[0xff, 0xfe], &wide[..]].concat());
+    assert!(
+        done.errors.contains("not UTF-8 text from byte 1 on; save it as UTF-8"),
+        "{}",
+        done.errors
+    );
+    for (states, place) in [("[{\"qd\": [0, 0]}]", "state 1"), ("qd1,qd2\n0,0\n", "line 2")] {
+        let found = complaint(1, &eval, states);
+        let expected = format!("error: standard input: {place}: `q` is missing");
+        assert!(found.contains(&expected), "{found}");
+    }
+}
+
+#[test]
+fn whole_numbers_have_their_range() {
+    let file = robot("planar_2r");
+    for (arguments, range) in [
+        (&["generate", &file, "--batch=-1"][..], "from 0 to"),
+        (&["generate", &file, "--batch=1.5"], "from 0 to"),
+        (&["generate", &file, "--batch=x"], "from 0 to"),
+        (&["generate", &file, "--batch=99999999999999999999999"], "from 0 to"),
+        (&["diff", &file, &file, "--seed=-1"], "from 0 to"),
+        (&["diff", &file, &file, "--states=0"], "from 1 to 100000"),
+        (&["diff", &file, &file, "--terms=1.5"], "from 0 to"),
+        (&["equations", &file, "--digits=18"], "from 1 to 17"),
+        (&["base", &file, "--digits=x"], "from 1 to 17"),
+        (&["document", &file, "--columns=3"], "from 1 to 2"),
+        (&["watch", &file, "--saves=x"], "from 0 to"),
+        (&["simulate", &file, "--max-steps=-1"], "from 0 to"),
+        (&["simulate", &file, "--max-steps", "-1"], "from 0 to"),
+    ] {
+        let found = complaint(2, arguments, "");
+        let expected = format!("expected a whole number {range}");
+        assert!(found.contains(&expected), "{arguments:?}: {found}");
+    }
+    output(&["simulate", &file, "--time", "0.01", "--max-steps", "1e6"], "");
+}
+
+/// The remedy for a plan that no search wrote is not a search, which does not replace it either.
+#[test]
+fn plans_that_are_none_are_to_be_moved() {
+    let (folder, file) = arm("reasons_plans");
+    let plan = folder.join("arm.plan");
+    let _ = std::fs::remove_dir(&plan);
+    std::fs::write(&plan, "format = 3\ngarbage\n").unwrap();
+    let found = run(&["stats", &file]).errors;
+    let expected = "line 2 is not that of a plan: key with no value, expected `=`; move it away\n";
+    assert!(found.contains(expected), "{found}");
+    assert!(complaint(1, &["search", &file], "").contains("move it away"));
+    std::fs::remove_file(&plan).unwrap();
+    std::fs::create_dir(&plan).unwrap();
+    for command in ["stats", "search"] {
+        let found = run(&[command, &file]).errors;
+        assert!(found.contains("must be a regular file, and this is not; move it away"), "{found}");
+    }
+    std::fs::remove_dir(&plan).unwrap();
+    // A plan that a search wrote, and somebody edited, is replaced.
+    output(&["search", &file], "");
+    let text = std::fs::read_to_string(&plan).unwrap();
+    std::fs::write(&plan, text + "garbage\n").unwrap();
+    let found = run(&["stats", &file]).errors;
+    assert!(found.contains(&format!("run `robot-symbolic search {file}` again")), "{found}");
+    output(&["search", &file], "");
+    assert!(!run(&["stats", &file]).errors.contains("plan"));
+}
