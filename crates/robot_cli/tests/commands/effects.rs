@@ -19,7 +19,7 @@ fn frames_of_base_parameters_are_noticed_where_there_are_none() {
         &["generate", &arm],
         &["stats", &arm, "--function", "gravity"],
         &["simulate", &arm, "--time", "0.01"],
-        &["torques", &arm, "--expressions", "q1 = t", "--time", "0.01"],
+        &["torques", &arm, "--expressions", "q1 = t; q2 = 0", "--time", "0.01"],
         &["show", &arm],
         &["search", &arm, "--dry-run"],
         &["scheme", &arm],
@@ -47,7 +47,7 @@ fn options_of_code_are_noticed_in_languages_that_do_not_have_them() {
     let of = |options: &[&str]| notes(&[&["generate", &arm][..], options].concat());
     for words in ["apart", "side_by_side"] {
         let limbs = ["--limbs", words];
-        let found = of(&[&["--language", "matlab"][..], &limbs].concat());
+        let found = of(&[&["--language", "python"][..], &limbs].concat());
         assert!(found.contains("note: --limbs has no effect outside Rust"), "{found}");
         assert_eq!(of(&limbs), "");
     }
@@ -55,8 +55,8 @@ fn options_of_code_are_noticed_in_languages_that_do_not_have_them() {
     let found = of(&[&standard[..], &["side_by_side"]].concat());
     assert!(found.contains("note: --limbs has no effect with --trigonometry standard"), "{found}");
     assert_eq!(of(&[&standard[..], &["apart"]].concat()), "");
-    let found = of(&["--language", "matlab", "--fused"]);
-    assert!(found.contains("note: --fused: `matlab` has no instruction"), "{found}");
+    let found = of(&["--language", "python", "--fused"]);
+    assert!(found.contains("note: --fused: `python` has no instruction"), "{found}");
     assert_eq!(of(&["--fused"]), "");
 }
 
