@@ -12,10 +12,12 @@ const NOWHERE: u8 = u8::MAX;
 /// A value whose last use is within this number of steps gets a low register, which has shorter encodings.
 const SOON: u32 = 30;
 
-/// The steps that use each value, in order.
+/// The uses of values that are still to come while the list is emitted.
 struct Uses {
+    /// The positions of the steps that use the first value, in ascending order, then those that use the second, and so on.
     steps: Vec<u32>,
-    /// For each value, the index of its next step in `steps`, and the end of its steps there.
+    /// For each value, the place in `steps` of its next use, and the place after its last use. They are equal if no use
+    /// is to come.
     next: Vec<(u32, u32)>,
 }
 
@@ -44,19 +46,20 @@ impl Uses {
         (Uses { steps, next }, needed)
     }
 
-    /// The next step that uses a value.
+    /// The position of the next step that uses a value, or [`NEVER`].
     fn next(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at < end { self.steps[at as usize] } else { NEVER }
     }
 
-    /// The last step that uses a value.
+    /// The position of the last step that uses a value, or [`NEVER`] if no use is to come.
     fn last(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at < end { self.steps[end as usize - 1] } else { NEVER }
     }
 
-    /// The step that uses a value after the next one.
+    /// The position of the step that uses a value once more after its next use, or [`NEVER`]. While a step is emitted, the
+    /// next use of its operands is this step itself.
     fn after(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at + 1 < end { self.steps[at as usize + 1] } else { NEVER }
