@@ -1,4 +1,4 @@
-//! Motions, the results of simulations.
+//! Simulated motions.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::program::RobotProgram;
 use crate::table::Table;
 
-/// A motion, with one sample for each time.
+/// A simulated motion, with one sample for each time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Motion {
     /// The times t in s, in ascending order.

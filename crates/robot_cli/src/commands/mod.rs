@@ -48,7 +48,7 @@ pub(crate) enum Command {
     Crate(package::Arguments),
     /// Compute a function of a robot at given states
     Eval(eval::Arguments),
-    /// Simulate the motion of a robot: the trajectory q(t), torques and energies
+    /// Simulate the motion q(t) of a robot, with torques and energies
     Simulate(simulate::Arguments),
     /// Compute the torques along a trajectory, split by cause
     Torques(torques::Arguments),

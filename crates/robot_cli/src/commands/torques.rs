@@ -33,10 +33,10 @@ gravity, friction and wrench, in N m or N.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// A CSV file with the motion; `-` for standard input
+    /// A CSV file with the trajectory; `-` for standard input
     #[arg(long, value_name = "FILE", conflicts_with = "expressions")]
     trajectory: Option<PathBuf>,
-    /// The motion as expressions in t, one for each coordinate, separated by `;`
+    /// The trajectory as expressions in t, one for each coordinate, separated by `;`
     #[arg(
         long,
         value_name = "Q1=EXPRESSION;…",
@@ -45,7 +45,7 @@ pub(crate) struct Arguments {
         conflicts_with = "trajectory"
     )]
     expressions: Vec<String>,
-    /// Duration of the motion given by --expressions, s
+    /// Duration of the trajectory given by --expressions, s
     // A requirement alone is dropped if it conflicts with what is given.
     #[arg(
         long,
