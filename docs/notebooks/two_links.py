@@ -45,7 +45,7 @@ for q in ([0, 0], [0, np.pi / 2], [0, np.pi]):
     print(f"q2 = {q[1]:.2f}: eigenvalues", np.linalg.eigvalsh(arm.mass_matrix(np.array(q))).round(3))
 
 # %% [markdown]
-# The same mass matrix determines the velocity terms. With the matrix C of the Coriolis and centrifugal terms, Ṁ − 2 C
+# The same mass matrix determines the Coriolis and centrifugal terms. With their matrix C, Ṁ − 2 C
 # is skew-symmetric, so q̇ᵀ C q̇ = ½ q̇ᵀ Ṁ q̇: without gravity, the kinetic energy changes only by the work of the joint
 # torques. That is a claim about all states, so SymPy should prove it, with C from the Christoffel symbols.
 
@@ -60,7 +60,7 @@ S = (M_dot - 2 * C).applyfunc(sympy.simplify)
 print("the sum with its transpose:", (S + S.T).applyfunc(sympy.simplify))
 
 # %% [markdown]
-# The velocity terms of the printed equations are C q̇. The difference between the two is
+# The Coriolis and centrifugal terms of the printed equations are C q̇. The difference between the two is
 
 # %%
 velocity_terms = torques - torques.subs({qd1: 0, qd2: 0})
@@ -90,7 +90,7 @@ for one in axes:
 # %% [markdown]
 # ## Which term matters
 #
-# No drive acts during the motion, so inertia, velocity terms and gravity add up to 0 at every instant. Their sizes
+# No drive acts during the motion, so inertia, Coriolis and centrifugal terms and gravity add up to 0 at every instant. Their sizes
 # show which terms a simplified model could omit.
 
 # %%

@@ -152,7 +152,7 @@ pub enum Error {
     /// A pinned plan that is stale or invalid.
     #[error("{}: {reason}; {remedy}", shown(path))]
     Pin {
-        /// The file of the pin.
+        /// The file of the plan.
         path: PathBuf,
         /// The robot file.
         robot: String,

@@ -59,8 +59,8 @@ pub(crate) struct EquationArguments {
     #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
           "no_references", "letters"])]
     like: Option<PathBuf>,
-    /// Letters for joint torques, mass matrix, velocity terms and gravity terms, such as tau,M,C,g; `field` for these
-    /// four, `paper` for Q and letters that no symbol of the robot uses [default: paper]
+    /// Letters for joint torques, mass matrix, Coriolis and centrifugal terms, and gravity terms, such as tau,M,C,g;
+    /// `field` for these four, `paper` for Q and letters that no symbol of the robot uses [default: paper]
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
     /// Significant digits of decimals in equations [default: 10]

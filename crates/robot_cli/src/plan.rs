@@ -41,7 +41,7 @@ pub(crate) fn pinned_or_searched(
     Ok(Options { plan: found.map(|found| found.plan), search: false, ..options })
 }
 
-/// Whether all errors are those of the pin.
+/// Whether all errors concern the pinned plan.
 pub(crate) fn is_of_pin(errors: &Errors) -> bool {
     errors.as_slice().iter().all(|error| matches!(error, Error::Pin { .. }))
 }

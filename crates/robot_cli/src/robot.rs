@@ -145,7 +145,7 @@ impl RobotArgument {
         self.open()?.options(terminal)
     }
 
-    /// The options of commands that generate code, for which a stale pin is an error, as in builds.
+    /// The options of commands that generate code, for which a stale plan is an error, as in builds.
     fn code_options(&self) -> Result<Options, Failure> {
         Ok(RobotFile::read(&self.file)?.with_pin(&self.unpinned())?)
     }
@@ -205,8 +205,8 @@ impl OpenRobot<'_> {
         self.argument.reading.check_values(self.source(), described, values, terminal)
     }
 
-    /// The default options of commands that compute, with the snapping tolerance and the pinned plan. If there is no
-    /// pin, or a stale one, of which a warning is printed, the cheapest plan is searched.
+    /// The default options of commands that compute, with the snapping tolerance and the pinned plan. If no plan is
+    /// pinned, or a stale one, of which a warning is printed, the plan with the fewest operations is searched.
     pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
         pinned_or_searched(&self.file, self.argument.unpinned(), terminal)
     }

@@ -120,7 +120,7 @@ pub(super) fn wrench_length(
     ("wrenches", expected, wrenches.len())
 }
 
-/// The loads on the mechanism besides gravity.
+/// What the joint torques include besides inertia and gravity.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Loads {
     /// The wrench that each frame exerts on its surroundings: one for each frame, or none at all.

@@ -30,14 +30,14 @@ pub fn pin_path(robot: &Path) -> PathBuf {
     }
 }
 
-/// The files that are read for a robot: its file, and its pin, which does not have to exist.
+/// The files that are read for a robot: its file, and its pinned plan, which does not have to exist.
 #[must_use]
 pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
     let followed = robot.canonicalize();
     [robot.to_owned(), pin_path(followed.as_deref().unwrap_or(robot))]
 }
 
-/// The text of a pin with the plan that a search found for a robot.
+/// The text of the file with the plan that a search found for a robot.
 #[must_use]
 pub fn pin_text(robot: &Robot, found: &Found) -> String {
     let mut pin = Pin {
@@ -58,8 +58,8 @@ impl RobotFile {
     ///
     /// # Errors
     ///
-    /// [`Error::Pin`] if a pin is stale, that is, made for [mechanics](mechanics()) other than those of the file, was
-    /// edited, or cannot be read. If there is a pin, also all errors in the robot file.
+    /// [`Error::Pin`] if a pinned plan is stale, that is, made for [mechanics](mechanics()) other than those of the file, was
+    /// edited, or cannot be read. If there is a pinned plan, also all errors in the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
         // A symbolic link to a missing file counts as existing.
@@ -96,7 +96,7 @@ impl RobotFile {
     }
 }
 
-/// Reads the pin in a file; the error is the reason why it cannot be read.
+/// Reads the pinned plan in a file; the error is the reason why it cannot be read.
 fn read_pin(path: &Path) -> Result<Pin, String> {
     let found = std::fs::metadata(path).map_err(|error| system_reason(&error))?;
     if !found.is_file() {

@@ -230,7 +230,7 @@ fn unpinned(test: &str, name: &str) -> String {
     path
 }
 
-/// Without a pin, a plan is searched for each call. It is the one that `search` pins.
+/// Without a pinned plan, a plan is searched for each call. It is the one that `search` pins.
 #[test]
 fn without_a_pin_code_has_the_form_that_a_search_finds() {
     let arm = unpinned("plans_without", "stanford");

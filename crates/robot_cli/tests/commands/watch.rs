@@ -96,7 +96,7 @@ fn the_page_follows_the_file_and_stays_when_the_watch_ends() {
     let second = watch.picture(Some(&first));
     assert!(second.contains("\n<svg ") && second.ends_with("/>\n"), "{second}");
     watch.save("mass = \"m2\"", "mass = \"m3\"");
-    watch.wait_for("the file has errors; the last good robot, from save 1, is kept");
+    watch.wait_for("the file has errors; the last valid robot, from save 1, is kept");
     watch.save("mass = \"m3\"", "mass = \"m2\"");
     watch.wait_for("gone: error[R0303]");
     watch.wait_for("no changes in the robot");
@@ -112,7 +112,7 @@ fn a_watch_that_ends_without_a_robot_says_so() {
     let mut watch = Watch::new("watch_broken");
     watch.wait_for("planar_2r: 2 coordinates");
     std::fs::remove_file(&watch.file).unwrap();
-    watch.wait_for("the file has errors; the last good robot, from the start, is kept");
+    watch.wait_for("the file has errors; the last valid robot, from the start, is kept");
     assert_eq!(watch.end(), Some(1));
 }
 

@@ -15,7 +15,7 @@ pub(super) mod candidates {
     /// Coefficients of products of two velocities.
     pub(in crate::forms) const VELOCITY: [&str; 5] = ["b", "h", "v", "n", "B"];
     pub(in crate::forms) const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];
-    /// The column of the velocity terms, and their matrix.
+    /// The column of the Coriolis and centrifugal terms, and their matrix.
     pub(in crate::forms) const VELOCITY_COLUMN: [&str; 5] = ["h", "n", "v", "u", "V"];
     pub(in crate::forms) const VELOCITY_MATRIX: [&str; 5] = ["C", "K", "N", "Z", "V"];
     pub(in crate::forms) const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
@@ -37,7 +37,7 @@ pub struct Letters {
     pub torque: Option<String>,
     /// Of the entries of the mass matrix.
     pub mass: Option<String>,
-    /// Of the velocity terms: their column, their matrix, and the coefficients of products of velocities.
+    /// Of the Coriolis and centrifugal terms: their column, their matrix, and the coefficients of products of velocities.
     pub velocity: Option<String>,
     /// Of the gravity terms.
     pub gravity: Option<String>,
@@ -100,8 +100,8 @@ impl Letters {
 /// Texts that are not letters, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{0}; letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, velocity terms and \
-     gravity terms, such as tau,M,C,g"
+    "{0}; letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, Coriolis \
+     and centrifugal terms, and gravity terms, such as tau,M,C,g"
 )]
 pub struct InvalidLetters(String);
 

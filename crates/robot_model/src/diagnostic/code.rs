@@ -13,7 +13,7 @@
 //! - R08: requests for generated code: functions, budgets, pinned plans.
 //!
 //! R00 to R05 are errors, except R0307 and errors that an option turns into warnings; R06 are warnings; R07 are notes;
-//! R08 are errors, except that a stale pin is a warning.
+//! R08 are errors, except that a stale plan is a warning.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {

@@ -80,7 +80,7 @@ pub(super) fn check_names<'n>(
 }
 
 /// Writes a file for each module and, if there are several, an index that includes them. `inputs` are the
-/// robot files and their pins.
+/// robot files and their pinned plans.
 ///
 /// With `stems`, a module whose name differs from that of its robot file is also written under the latter name, so
 /// that a build that includes `lift.rs` for `lift.toml` finds it.

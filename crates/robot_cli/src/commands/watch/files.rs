@@ -1,4 +1,4 @@
-//! Detects when a robot file and its pin are saved.
+//! Detects when a robot file and its pinned plan are saved.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -22,7 +22,7 @@ const SETTLED_AWAY: usize = 50;
 /// An iterator over looks at a file that show a new content, until `is_over` is set.
 pub(super) struct Files<'a> {
     path: &'a Path,
-    /// The options for reading the file, which are needed to read its pin.
+    /// The options for reading the file, which are needed to read its pinned plan.
     options: Options,
     is_over: &'a AtomicBool,
     settling: Settling,

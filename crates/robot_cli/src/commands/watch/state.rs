@@ -133,7 +133,7 @@ impl State {
             None => "the file has errors; waiting for a save without errors".to_owned(),
             Some(valid) => {
                 format!(
-                    "the file has errors; the last good robot, from {}, is kept",
+                    "the file has errors; the last valid robot, from {}, is kept",
                     name(valid.number)
                 )
             }
@@ -218,7 +218,7 @@ fn texts(problems: Vec<&Problem>) -> String {
 /// Prints a line for each problem that no longer exists.
 fn resolved_lines(before: Vec<&Problem>, now: &[Problem]) -> String {
     let is_resolved = |one: &&Problem| now.iter().all(|other| other.line != one.line);
-    // The message of a parser about a pin has several lines.
+    // The message of a parser about a pinned plan has several lines.
     let first = |one: &Problem| one.line.lines().next().unwrap_or_default().to_owned();
     before.into_iter().filter(is_resolved).map(|one| format!("gone: {}\n", first(one))).collect()
 }
@@ -241,8 +241,8 @@ fn title(number: usize, from: Option<usize>, settings: &Settings<'_>) -> String 
     format!("\n{}{time}{from}:\n", name(number))
 }
 
-/// Chooses the plans under which two robots are compared: their own, if both have one. A pin becomes stale with each
-/// change of its file; a comparison with the default plan would then show a difference of plans, not of robots.
+/// Chooses the plans under which two robots are compared: their own, if both have one. A pinned plan becomes stale with each
+/// change of the mechanics; a comparison with the default plan would then show a difference of plans, not of robots.
 fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings<'_>) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
     let code = [before, now].map(|one| Options {

@@ -94,7 +94,7 @@ fn a_broken_file_keeps_the_last_robot() {
     assert!(!is_good);
     assert_eq!(
         output
-            .matches("the file has errors; the last good robot, from the start, is kept\n")
+            .matches("the file has errors; the last valid robot, from the start, is kept\n")
             .count(),
         2
     );

@@ -11,9 +11,9 @@ use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Tu
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pin {
     /// Identifies the [mechanics](crate::economical::mechanics()) for which the plan was searched. If a robot has
-    /// another fingerprint, the pin is stale.
+    /// another fingerprint, the plan is stale.
     pub fingerprint: String,
-    /// Identifies the rest of the pin, [`Pin::content`]. If the content has another digest, the pin was edited.
+    /// Identifies the rest of the text, [`Pin::content`]. If the content has another digest, the text was edited.
     pub digest: String,
     /// The measure that the search minimized.
     pub measure: Measure,
@@ -26,7 +26,7 @@ pub struct Pin {
     pub plan: Plan,
 }
 
-/// The error for a text that is not a pin; it describes the problem and what was expected.
+/// The error for a text that is not a pinned plan; it describes the problem and what was expected.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct PinError(String);
@@ -86,7 +86,7 @@ const MEASURES: [(&str, Measure); 2] =
     [("operations", Measure::Operations), ("instructions", Measure::Instructions)];
 
 impl Pin {
-    /// The pin as TOML text.
+    /// The pinned plan as TOML text.
     #[must_use]
     pub fn to_text(&self) -> String {
         let mut text = String::from(
@@ -125,7 +125,7 @@ impl Pin {
     ///
     /// # Errors
     ///
-    /// An error if the text is not a pin, or is a pin of another version.
+    /// An error if the text is not a pinned plan, or is one in another version of the format.
     pub fn from_text(text: &str) -> Result<Pin, PinError> {
         let (table, faults) = DeTable::parse_recoverable(text);
         if let Some(fault) = faults.first() {
