@@ -1,4 +1,4 @@
-//! Limbs of the same kind, which are computed in lanes.
+//! Limbs that are alike, which are computed in lanes.
 #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
 
 use robot_build::{
@@ -80,6 +80,6 @@ fn limbs_that_are_not_alike_stay_apart() {
     };
     assert_eq!(calls(QUADRUPED, Limbs::SideBySide), Some(1));
     assert_eq!(calls(QUADRUPED, Limbs::Apart), None);
-    // Three limbs of the same kind, and one of another.
+    // Three limbs that are alike, and one of another.
     assert_eq!(calls(&other_axis, Limbs::SideBySide), Some(2));
 }

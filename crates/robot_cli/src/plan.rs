@@ -10,8 +10,8 @@ use crate::progress::watched;
 
 /// Returns the options with the pinned plan of the robot file.
 ///
-/// If the pin cannot be used, because it is stale or invalid, a warning is printed and a plan is searched for this
-/// call. Results are correct with any plan.
+/// If the pinned plan cannot be used, because it is stale or invalid, a warning is printed and a plan is searched for
+/// this call. Results are correct with any plan.
 pub(crate) fn pinned_or_searched(
     file: &RobotFile,
     options: Options,

@@ -304,7 +304,7 @@ mod tests {
         let lines = wrapped("Q = -a*(b - c) + d", 10);
         assert_eq!(lines, ["Q = -a*(b", "- c) + d"]);
         assert_eq!(wrapped("Q1 = 0", 3), ["Q1 = 0"]);
-        // Behind a bracket a sign is outside of it again; of two brackets, outside of the inner one.
+        // After a closing parenthesis a sign is outside of the pair; after two of them, outside of the inner one.
         let lines = wrapped("x = a + (b - c) + d + eeeeeeee", 22);
         assert_eq!(lines, ["x = a + (b - c) + d", "+ eeeeeeee"]);
         assert_eq!(wrapped("x = a*((b + c) - d) + e", 20), ["x = a*((b + c) - d)", "+ e"]);

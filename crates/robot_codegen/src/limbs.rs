@@ -1,7 +1,7 @@
-//! Functions of robots with limbs of the same kind: one program computes several limbs, one in each lane.
+//! Functions of robots with limbs that are alike: one program computes several limbs, one in each lane.
 //!
 //! The limbs of a robot are attached to a base at rest and are not coupled, so each result of a function is a result of
-//! one limb, or 0. Limbs of the same kind differ only in numbers, which the program of the limb loads as fields.
+//! one limb, or 0. Limbs that are alike differ only in numbers, which the program of the limb loads as fields.
 
 use rustc_hash::FxHashMap;
 

@@ -46,7 +46,7 @@ pub struct Function {
     pub core: Program,
     /// The operations of `core` at a call after each pass, in the order in which the passes ran.
     pub passes: Vec<PassCounts>,
-    /// The same function computed limb by limb, in lanes, if the robot has limbs of the same kind.
+    /// The same function computed limb by limb, in lanes, if the robot has limbs that are alike.
     pub limbs: Option<Limbs>,
 }
 

@@ -60,7 +60,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         Derivation { robot: self.robot, mechanism, recursion, small_pivots }
     }
 
-    /// The symbols of an input that has one element for each coordinate.
+    /// The symbols of an input that has one entry for each coordinate.
     pub(crate) fn coordinate_symbols(&self, variable: JointVariable) -> Vec<Expr<'g>> {
         let names = variable.symbols(self.mechanism.degrees_of_freedom);
         names.iter().map(|name| self.mechanism.graph.symbol(name)).collect()

@@ -1,5 +1,5 @@
-//! The time to compile functions of UR5 and Panda, and of their calls beside the interpreter's: the best of many short
-//! batches, in turns, in one run.
+//! Measures the time to compile functions of the UR5 and the Panda, and the time of their calls as machine code and in
+//! the interpreter. All are timed in turn in one run; the least time of many short batches counts.
 
 use std::hint::black_box;
 use std::path::Path;

@@ -368,7 +368,7 @@ pub struct Frame {
 }
 
 /// The names of the components of the wrench that a tip exerts on its surroundings, in the axes of the tip's frame; the
-/// moment is about the origin of this frame. This is the paper's payload wrench (25).
+/// moment is about the origin of this frame. This is the paper's wrench (25).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wrench {
     /// The components of the force, N.

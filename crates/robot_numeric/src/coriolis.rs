@@ -27,7 +27,7 @@ fn body_coriolis(inertia: &Matrix6<f64>, velocity: &Vector6<f64>) -> Matrix6<f64
 }
 
 impl Mechanism {
-    /// The Coriolis matrix C(q, q̇), n × n. C q̇ is the bias without gravity. The elements are those of the Christoffel
+    /// The Coriolis matrix C(q, q̇), n × n. C q̇ is the bias without gravity. The entries are those of the Christoffel
     /// symbols, so that Ṁ − 2 C is skew-symmetric.
     ///
     /// The recursion is that of S. Echeandia, P. M. Wensing, "Numerical Methods to Compute the Coriolis Matrix and
@@ -96,8 +96,8 @@ impl Mechanism {
         Ok((0..self.coordinates()).map(along).collect())
     }
 
-    /// The Christoffel symbols of the first kind: a symmetric matrix Γ_k for each coordinate k. The k-th element of C
-    /// q̇ is q̇ᵀ Γ_k q̇, and C_kj is the j-th element of Γ_k q̇, with (Γ_k)_ij = ½ (∂M_ki/∂q_j + ∂M_kj/∂q_i −
+    /// The Christoffel symbols of the first kind: a symmetric matrix Γ_k for each coordinate k. The k-th entry of C
+    /// q̇ is q̇ᵀ Γ_k q̇, and C_kj is the j-th entry of Γ_k q̇, with (Γ_k)_ij = ½ (∂M_ki/∂q_j + ∂M_kj/∂q_i −
     /// ∂M_ij/∂q_k). They are exact to within rounding errors.
     ///
     /// # Errors

@@ -12,13 +12,13 @@ pub struct Fault {
     pub reason: String,
 }
 
-/// An argument of a call that has the wrong number of elements.
+/// An argument of a call that has the wrong number of entries.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{argument}` must have {expected} elements, not {found}")]
+#[error("`{argument}` must have {expected} entries, not {found}")]
 pub struct Mismatch {
     /// The name of the argument.
     pub argument: &'static str,
-    /// The number of elements that it must have.
+    /// The number of entries that it must have.
     pub expected: usize,
     /// The number that it has.
     pub found: usize,

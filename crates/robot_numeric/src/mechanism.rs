@@ -90,8 +90,8 @@ pub struct Link {
     pub mass: f64,
     /// The center of mass in the link frame, m.
     pub center_of_mass: Vector3<f64>,
-    /// The inertia tensor about the center of mass in the axes of the link frame, kg m². Off-diagonal elements are
-    /// elements of the tensor (−∫xy dm).
+    /// The inertia tensor about the center of mass in the axes of the link frame, kg m². Off-diagonal entries are
+    /// entries of the tensor (−∫xy dm).
     pub inertia: Matrix3<f64>,
     /// The inertia that the spinning parts of the drive add at the joint (armature, N² J), kg m² or kg. It is only
     /// added to the diagonal of the mass matrix, without gyroscopic effects.

@@ -129,8 +129,8 @@ pub struct Loads {
     pub friction: bool,
 }
 
-/// The motion and load of a link in the notation of the paper on TRTTR1: vectors are in the axes of the link frame, and
-/// the base has the acceleration −g.
+/// The motion of a link and the forces on it, in the notation of the paper on TRTTR1: vectors are in the axes of the
+/// link frame, and the base has the acceleration −g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkDynamics {
     /// Angular velocity ω, rad/s.
@@ -238,8 +238,8 @@ impl Mechanism {
         self.inverse_dynamics(q, qd, &vec![0.0; n])
     }
 
-    /// The motion and load of every link, with one wrench for each frame (or none at all), without friction: ω, ε, a,
-    /// a_c, F, M_c, F_l and M_l of the paper.
+    /// The motion of every link and the forces on it, with one wrench for each frame (or none at all), without
+    /// friction: ω, ε, a, a_c, F, M_c, F_l and M_l of the paper.
     ///
     /// # Errors
     ///

@@ -84,7 +84,7 @@ impl Random {
         self.index(every) == 0
     }
 
-    /// Returns a vector whose elements are between −`size` and `size`.
+    /// Returns a vector whose entries are between −`size` and `size`.
     pub fn vector(&mut self, size: f64) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.uniform(-size, size))
     }

@@ -13,7 +13,7 @@ const SHARE: f64 = 1e-4;
 
 impl Mechanism {
     /// The indices, from 0, of the coordinates whose accelerations the joint torques do not determine at q because the
-    /// mass matrix is singular; empty if it is regular.
+    /// mass matrix is singular; empty if it is nonsingular.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! The cost of the generated code: operation counts by function, by compiler stage and by option.
+//! The operation counts of the generated code: by function, by compiler pass and by option of the recursion.
 
 use robot_build::ablation::Ablation;
 use robot_codegen::{Counts, Module};

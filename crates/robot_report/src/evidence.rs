@@ -1,4 +1,4 @@
-//! Evidence about the code from the compiler and from the numerical solver.
+//! Evidence about the code from the compiler and from the numeric solver.
 
 use robot_document::markup::{Element, Node, element, holding};
 use robot_evidence::{Evidence, Module};
@@ -88,12 +88,12 @@ fn profile(module: &Module) -> Element {
     folded(format!("Machine code, profile {}", module.profile.name()), [table.build()])
 }
 
-/// The comparison of the programs with the numerical solver.
+/// The comparison of the programs with the numeric solver.
 pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
     match accuracy {
         Ok(Accuracy { states, worst }) => {
             let caption = format!(
-                "Straight-line programs compared with the numerical solver at {states}: the \
+                "Straight-line programs compared with the numeric solver at {states}: the \
                  largest difference in a component, relative to the largest component of the \
                  result"
             );
@@ -108,8 +108,7 @@ pub(crate) fn accuracy(accuracy: &Result<Accuracy, String>) -> Vec<Node> {
             vec![table.build().into()]
         }
         Err(reason) => {
-            let words =
-                format!("The programs were not compared with the numerical solver: {reason}");
+            let words = format!("The programs were not compared with the numeric solver: {reason}");
             vec![element("p").class("note").with(words).into()]
         }
     }

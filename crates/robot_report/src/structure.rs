@@ -34,7 +34,7 @@ pub(crate) enum Entry {
     Of(Vec<usize>),
 }
 
-/// The structures of the two matrices, row by row.
+/// The structures of M and C, row by row.
 pub(crate) struct Structure {
     mass: Vec<Vec<Entry>>,
     coriolis: Vec<Vec<Entry>>,

@@ -100,8 +100,8 @@ impl TorqueContributions {
     }
 }
 
-/// Computes the joint torques along a trajectory of the robot, the inverse problem (6) of the paper, divided into their
-/// contributions. `given` are the parameters with other than their nominal values. The programs must contain the
+/// Computes the joint torques along a trajectory of the robot, the inverse dynamics (6) of the paper, divided into
+/// their contributions. `given` are the parameters with other than their nominal values. The programs must contain the
 /// functions of [`TorqueContributions::functions`].
 ///
 /// # Errors

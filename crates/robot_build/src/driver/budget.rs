@@ -1,4 +1,4 @@
-//! Limits on the cost of generated code: `[[budget]]` in a robot file, and options of a build.
+//! Limits on the operations and the stack of generated code: `[[budget]]` in a robot file, and options of a build.
 //!
 //! Operation counts are exact: the multiplications, additions and divisions of one call, as
 //! `robot-symbolic stats` counts them. A build cannot measure the stack with a compiler; it compares the

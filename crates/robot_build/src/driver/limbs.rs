@@ -1,4 +1,4 @@
-//! Functions of robots with limbs of the same kind, which are computed in lanes.
+//! Functions of robots with limbs that are alike, which are computed in lanes.
 
 use robot_codegen::{LimbKind, Module};
 use robot_dynamics::economical::Plan;
@@ -13,7 +13,7 @@ use crate::driver::options::{Limbs, Options};
 use crate::driver::programs::MAX_NODES;
 use crate::driver::specification;
 
-/// Adds programs of single limbs to the module's functions, if the robot has limbs of the same kind and the options
+/// Adds programs of single limbs to the module's functions, if the robot has limbs that are alike and the options
 /// choose to compute them side by side.
 pub(crate) fn set_limbs(
     module: &mut Module,

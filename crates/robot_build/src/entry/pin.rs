@@ -14,14 +14,14 @@ use crate::entry::paths::RobotFile;
 use crate::entry::system::system_reason;
 use crate::error::{Error, Errors};
 
-/// The largest number of bytes of a pin; real ones have a few kilobytes.
+/// The largest number of bytes of a pinned plan; real ones have a few kilobytes.
 const MAX_BYTES: u64 = 1 << 20;
 
 /// The remedy for a plan that a search wrote.
 const AGAIN: &str = "search for a plan again, or remove the file";
 
-/// The path of a robot file's pin, which is next to it. The ending `plan` replaces `toml` and is appended to any
-/// other, so that `ur5.toml`, imported from `ur5.urdf`, has a pin of its own.
+/// The path of a robot file's pinned plan, which is next to it. The ending `plan` replaces `toml` and is appended to
+/// any other, so that `ur5.toml`, imported from `ur5.urdf`, has a plan of its own.
 #[must_use]
 pub fn pin_path(robot: &Path) -> PathBuf {
     match robot.extension().and_then(OsStr::to_str) {

@@ -88,7 +88,7 @@ pub struct Comparison {
     pub equations: usize,
     /// The number of these equations that only name another quantity.
     pub names: usize,
-    /// The number of printed terms in the other equations, after brackets are expanded.
+    /// The number of printed terms in the other equations, after parentheses are expanded.
     pub terms: usize,
     /// Whether the derived equations contain the wrenches of the tips: this is the case if any printed one does.
     pub wrench: bool,

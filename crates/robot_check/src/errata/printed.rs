@@ -38,7 +38,7 @@ pub(super) struct PrintedEquation {
     pub(super) quantity: String,
     /// The bytes of the left side.
     pub(super) span: Span,
-    /// The terms of the right side in printed order, before brackets are expanded.
+    /// The terms of the right side in printed order, before parentheses are expanded.
     pub(super) terms: Vec<Formula>,
 }
 
@@ -177,8 +177,8 @@ fn complete(equations: Vec<PrintedEquation>) -> Result<Vec<PrintedEquation>, Box
     }
 }
 
-/// The ranges of the terms of a sum, which is split before each plus or minus sign that is outside brackets and follows
-/// an operand.
+/// The ranges of the terms of a sum, which is split before each plus or minus sign that is outside parentheses and
+/// follows an operand.
 fn split_terms(text: &str) -> Vec<Range<usize>> {
     let bytes = text.as_bytes();
     let mut ranges = vec![];

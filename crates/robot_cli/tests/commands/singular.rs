@@ -57,7 +57,7 @@ fn a_page_is_about_the_other_functions() {
     assert_one_note(&shown.errors);
     assert!(shown.output.contains(WHY) && shown.output.contains("<code>mass_matrix</code>"));
     assert!(!shown.output.contains("<code>forward_dynamics</code>"));
-    assert!(!shown.output.contains("were not compared with the numerical solver"));
+    assert!(!shown.output.contains("were not compared with the numeric solver"));
 }
 
 #[test]

@@ -182,7 +182,7 @@ fn merged<'h>(mut terms: Terms<'h>, more: Terms<'h>) -> Terms<'h> {
     terms
 }
 
-/// The product or, with the power −1, the quotient of two sums. A sum of several terms becomes a factor in brackets.
+/// The product or, with the power −1, the quotient of two sums. A sum of several terms becomes a factor in parentheses.
 fn times<'h>(a: Terms<'h>, b: Terms<'h>, power: i32, order: &Order<'_>) -> ArrangedTerm<'h> {
     let (a, b) = (one_term(sorted(a, order)), one_term(sorted(b, order)));
     let mut factors = a.factors;

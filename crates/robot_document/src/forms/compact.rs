@@ -68,7 +68,7 @@ pub(super) fn definitions<'h>(
 /// The largest number of terms of a sum that is multiplied out to be collected.
 const MAX_TERMS: usize = 60;
 
-/// An equation whose right side has collected powers and sorted factors. Common factors are taken out of brackets if
+/// An equation whose right side has collected powers and sorted factors. Common factors are taken out of parentheses if
 /// this needs no more operations.
 pub(super) fn tidy(
     writer: &Writer<'_, '_>,

@@ -1,5 +1,5 @@
 //! The expanded form, in which products are multiplied out, s² is replaced by 1 − c² and like terms are merged; and the
-//! collected form, in which common factors of the same sums are taken out of brackets.
+//! collected form, in which common factors of the same sums are taken out of parentheses.
 
 use robot_dynamics::quantity::{Kind, Quantity};
 use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};

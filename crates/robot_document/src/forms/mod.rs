@@ -358,8 +358,9 @@ impl<'g> Writer<'_, 'g> {
     /// The terms of a polynomial as the form requires: collected or multiplied out, in both cases with the sums of
     /// angles that make it shortest.
     ///
-    /// In the form [`Form::Collected`], the terms of inertia and gravity, of friction, and of external wrenches are collected separately.
-    /// Long numbers with roots become decimals if that is shorter and [`EquationOptions::rounds_roots`] is set.
+    /// In the form [`Form::Collected`], the terms of inertia and gravity, of friction, and of the wrenches of the tips
+    /// are collected separately. Long numbers with roots become decimals if that is shorter and
+    /// [`EquationOptions::rounds_roots`] is set.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
         let exact = self.collected_exactly(value);
         let decimal =

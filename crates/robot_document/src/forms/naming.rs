@@ -119,7 +119,7 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec
 pub(super) fn named_length(roots: &[Expr<'_>], digits: Option<usize>) -> usize {
     let named: FxHashSet<Id> =
         worth_naming(roots, digits).iter().map(|worthy| worthy.expr.id()).collect();
-    // The length of each part, and whether it is a sum, which needs brackets as a factor.
+    // The length of each part, and whether it is a sum, which needs parentheses as a factor.
     let mut known: FxHashMap<Id, (usize, bool)> = FxHashMap::default();
     let mut total = 0;
     for expr in walk::reachable(roots) {

@@ -12,7 +12,7 @@ pub enum Form {
     /// Sums of products with like terms merged, as in the paper.
     #[default]
     Expanded,
-    /// As people write equations: with common factors in front of brackets, complete squares and sums of angles.
+    /// As people write equations: with common factors in front of parentheses, complete squares and sums of angles.
     Collected,
     /// Q = M(q) q̈ + C(q, q̇) q̇ + g(q), with a function for each coefficient. Only for joint torques.
     Grouped,
@@ -70,14 +70,14 @@ pub struct EquationOptions {
     /// Whether the coefficients in the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out instead of
     /// collected.
     pub expand: bool,
-    /// Whether a coefficient in the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a rest, if
-    /// that is at most two thirds as long.
+    /// Whether a coefficient in the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a
+    /// remainder, if that is at most two thirds as long.
     pub references: bool,
     /// Whether the grouped form has Christoffel symbols instead of the coefficients of products of velocities.
     pub christoffel: bool,
     /// Whether quantities are printed as in the paper: forces and moments in the joints from the last link to the
     /// first, vectors with the number of their link as the lower index too, Q with the index m, terms and factors in
-    /// the order in which the paper's relations yield them, masses in front of brackets, and relations before the
+    /// the order in which the paper's relations yield them, masses in front of parentheses, and relations before the
     /// quantities that they yield.
     pub paper: bool,
     /// The order of terms and factors in the form [`Form::Expanded`], for the quantities that it contains.

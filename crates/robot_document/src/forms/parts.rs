@@ -1,4 +1,5 @@
-//! The parts of a joint torque that are collected separately: inertia and gravity, friction, and external wrenches.
+//! The parts of a joint torque that are collected separately: inertia and gravity, friction, and the wrenches of the
+//! tips.
 
 use robot_symbolic::{Expr, Graph, Monomial, View};
 
@@ -11,7 +12,7 @@ pub(super) enum Part {
     Motion,
     /// From friction: with exactly one velocity, or with a function other than a sine or cosine.
     Friction,
-    /// From an external wrench: with a component of the wrench of a tip.
+    /// From the wrench of a tip: with one of its components.
     External,
 }
 

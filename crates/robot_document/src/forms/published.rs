@@ -89,7 +89,7 @@ impl TermOrder {
         };
         differences.compared += 1;
         let printed = printed.iter().map(|term| product(term, graph));
-        // Equations with brackets are not compared.
+        // Equations with parentheses are not compared.
         if let (Some(printed), Some(own)) = (printed.collect::<Option<Vec<_>>>(), products(terms)) {
             let printed: BTreeSet<_> = printed.iter().map(key).collect();
             let is_shared = own.iter().any(|term| printed.contains(&key(term)));
@@ -98,7 +98,7 @@ impl TermOrder {
     }
 
     /// The terms of a quantity in the order of the text; `None` if the text does not have the quantity, or if the text
-    /// or the terms have brackets.
+    /// or the terms have parentheses.
     pub(super) fn arranged<'g>(
         &self,
         quantity: &str,
@@ -126,7 +126,7 @@ impl TermOrder {
     }
 }
 
-/// The factors of terms, without numbers; `None` if a term has brackets.
+/// The factors of terms, without numbers; `None` if a term has parentheses.
 fn products<'g>(terms: &[ArrangedTerm<'g>]) -> Option<Vec<Product<'g>>> {
     let of_atoms = |term: &ArrangedTerm<'g>| {
         let factors = term.factors.iter();
@@ -135,7 +135,7 @@ fn products<'g>(terms: &[ArrangedTerm<'g>]) -> Option<Vec<Product<'g>>> {
     terms.iter().map(of_atoms).collect()
 }
 
-/// The factors of a term, without numbers; `None` if it has brackets.
+/// The factors of a term, without numbers; `None` if it has parentheses.
 fn product<'g>(term: &Formula, graph: &'g Graph) -> Option<Product<'g>> {
     let of = |atom: Expr<'g>| (Some(vec![(atom, 1)]), atom);
     let (factors, _) = term.fold(|step: Step<'_, (Option<Product<'g>>, Expr<'g>)>| {

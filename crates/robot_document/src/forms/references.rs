@@ -35,8 +35,8 @@ struct Way {
 /// The largest number of printed symbols of a coefficient that is written by an earlier one instead of named parts.
 const MAX_BY_EARLIER: usize = 60;
 
-/// Writes coefficients as a multiple of an earlier one of their section, plus a rest, if that is at most two thirds as
-/// long, or if it is short and the coefficient would otherwise need named parts.
+/// Writes coefficients as a multiple of an earlier one of their section, plus a remainder, if that is at most two
+/// thirds as long, or if it is short and the coefficient would otherwise need named parts.
 pub(super) fn refer<'g>(
     writer: &Writer<'_, 'g>,
     sections: &[Section<'g>],

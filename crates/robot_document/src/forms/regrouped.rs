@@ -348,7 +348,7 @@ fn unit<'g>() -> ArrangedTerm<'g> {
     ArrangedTerm { negative: false, coefficient: Number::integer(1), factors: vec![] }
 }
 
-/// The product of a symbol and its coefficient; a sum in brackets does not begin with a minus sign.
+/// The product of a symbol and its coefficient; a sum in parentheses does not begin with a minus sign.
 fn product<'g>(
     writer: &Writer<'_, 'g>,
     symbol: Expr<'g>,

@@ -17,7 +17,7 @@ pub type Rank = (u8, u8, usize);
 /// The rank of roots of numbers, which stand beside the coefficient of a term: √2/2 F.
 const ROOTS: Rank = (0, 0, 0);
 
-/// The rank of sums in brackets, which stand after parameters and before sines and cosines.
+/// The rank of sums in parentheses, which stand after parameters and before sines and cosines.
 pub(crate) const BRACKETS: Rank = (1, 0, 0);
 
 /// The order of the factors in the equations of a robot.

@@ -53,7 +53,7 @@ pub(super) fn blocks(
         heading("A check value"),
         paragraph(
             "At the nominal parameters, this state requires the following joint torques and \
-             forces. They were computed by a numerical solver, not from the equations.",
+             forces. They were computed by a numeric solver, not from the equations.",
         ),
     ];
     if has_tip {

@@ -207,7 +207,7 @@ mod tests {
         assert!(!a.is_constant() && scalar(&graph, "2/3").is_constant());
     }
 
-    /// Brackets are multiplied out if nothing is divided by a sum, and if the result is short.
+    /// Parentheses are multiplied out if nothing is divided by a sum, and if the result is short.
     #[test]
     fn short_expressions_are_tidied() {
         let graph = Graph::new();

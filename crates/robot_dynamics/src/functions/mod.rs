@@ -141,7 +141,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
         )
     }
 
-    /// An input array with one element for each coordinate.
+    /// An input array with one entry for each coordinate.
     fn coordinate_input(&self, variable: JointVariable) -> Input {
         Input {
             name: variable.name().to_owned(),

@@ -14,7 +14,7 @@ const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 
 /// The indices, from 0, of the coordinates whose accelerations the joint torques do not determine in any configuration,
-/// at the nominal parameters. Empty if the mass matrix is regular in some configuration, or if a parameter has no
+/// at the nominal parameters. Empty if the mass matrix is nonsingular in some configuration, or if a parameter has no
 /// nominal value.
 #[must_use]
 pub fn undetermined(robot: &Robot) -> Vec<usize> {
@@ -27,7 +27,8 @@ pub fn undetermined(robot: &Robot) -> Vec<usize> {
     for _ in 0..CONFIGURATIONS {
         let here = of_matrix(&matrix.at(&matrix.configuration(&mut random)));
         found.retain(|coordinate| here.contains(coordinate));
-        // One regular configuration is enough. It is important to stop here, because every build calls this function.
+        // One configuration with a nonsingular mass matrix is enough. It is important to stop here, because every build
+        // calls this function.
         if found.is_empty() {
             break;
         }

@@ -1,4 +1,4 @@
-//! Identical limbs: parts on a fixed base that differ only in numbers.
+//! Limbs that are alike: parts on a fixed base that differ only in numbers.
 //!
 //! Here, a limb is a link on the base together with everything that it carries: a leg, a finger, or one of two arms. A
 //! base at rest couples nothing, so the joint torques of a limb depend only on its own motion, and the placement of its

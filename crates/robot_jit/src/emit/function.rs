@@ -85,7 +85,7 @@ const MOST_STACK: u32 = 256 << 10;
 const LONG: usize = 1000;
 
 /// The size of code, in bytes, above which its time is that of fetching it. An order that spills fewer registers is
-/// then faster than one that waits less: Panda's derivatives of forward dynamics took 530 ns instead of 640 ns.
+/// then faster than one that waits less: the Panda's derivatives of forward dynamics took 530 ns instead of 640 ns.
 const CACHED: usize = 24 << 10;
 
 fn emit(

@@ -128,7 +128,7 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     origin && !turned
 }
 
-/// Shifts a tensor to the center of mass by the parallel axis theorem: I_c = I_o − m (c·c 1 − c cᵀ).
+/// Shifts a tensor to the center of mass by the parallel-axis theorem: I_c = I_o − m (c·c 1 − c cᵀ).
 fn shift(about_origin: &Inertia, mass: &Formula, [x, y, z]: &[Formula; 3]) -> Option<Inertia> {
     let moment = |own: &Formula, a: &Formula, b: &Formula| {
         let squares = compute(&[a, b], "(#0)^2 + (#1)^2", |v| &(v[0] * v[0]) + &(v[1] * v[1]))?;

@@ -87,8 +87,8 @@ fn wrong_lengths_are_errors_and_all_named() {
     assert_eq!(error, NumericError::Lengths(expected.to_vec()));
     assert_eq!(
         error.to_string(),
-        "`q` must have 3 elements, not 2; `qdd` must have 3 elements, not 9; \
-         `wrenches` must have 2 elements, not 1"
+        "`q` must have 3 entries, not 2; `qdd` must have 3 entries, not 9; \
+         `wrenches` must have 2 entries, not 1"
     );
 }
 

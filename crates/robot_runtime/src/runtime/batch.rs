@@ -3,7 +3,7 @@
 use super::lanes::Lanes;
 use super::scalar::Scalar;
 
-/// Converts states to lanes: lane n of element d is coordinate d of state n.
+/// Converts states to lanes: lane n of entry d is coordinate d of state n.
 #[inline(always)]
 pub fn lanes_from_states<T: Scalar, const D: usize, const N: usize>(
     states: &[[T; D]; N],

@@ -19,7 +19,8 @@ const MAX_KERNELS: usize = 48;
 /// The largest integer that is allowed as a coefficient even if no term has it.
 const MAX_INTEGER: i64 = 16;
 
-/// The largest length of a sum that is written as a square: the brackets of longer sums could not be broken over lines.
+/// The largest length of a sum that is written as a square: the parentheses of longer sums could not be broken over
+/// lines.
 const MAX_SQUARED: usize = 5;
 
 /// A way to write a sum f as K Q + R.
@@ -377,7 +378,7 @@ impl<'t> Seeker<'t> {
     }
 }
 
-/// The number of printed symbols of a factor, with brackets if it is a sum.
+/// The number of printed symbols of a factor, with parentheses if it is a sum.
 fn part(terms: &Terms) -> usize {
     match terms.as_slice() {
         [(powers, number)] if powers.is_one() && is_unit(number) => 0,

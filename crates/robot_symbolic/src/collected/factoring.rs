@@ -12,7 +12,7 @@ use crate::rational::Rational;
 /// The number of candidates that are tried at each depth; beyond these depths one is tried.
 const WIDTHS: [usize; 3] = [4, 3, 2];
 
-/// The deepest nesting of brackets.
+/// The deepest nesting of parentheses.
 const MAX_BRACKETS: usize = 3;
 
 /// The deepest nesting of sums that are factored; deeper sums stay as they are.
@@ -51,9 +51,9 @@ impl Product {
         }
     }
 
-    /// Multiplies out a parameter times a sum of two products with sines, cosines or motions, if the sum has brackets
-    /// itself: both ways have the same length, and people write it without the outer brackets. Other products are
-    /// returned unchanged.
+    /// Multiplies out a parameter times a sum of two products with sines, cosines or motions, if the sum has
+    /// parentheses itself: both ways have the same length, and people write it without the outer parentheses. Other
+    /// products are returned unchanged.
     fn opened(self, early: usize) -> Vec<Product> {
         let is_early = |(variable, _): (Variable, u16)| usize::from(variable) < early;
         let variable = Product { sums: vec![], ..self.clone() };
@@ -77,7 +77,7 @@ impl Product {
         }
     }
 
-    /// The number of variables that stand both before and within brackets.
+    /// The number of variables that stand both before and within parentheses.
     fn split_powers(&self) -> usize {
         let within = |variable: Variable| {
             let products = self.sums.iter().flat_map(|(sum, _)| &sum.products);
@@ -88,7 +88,7 @@ impl Product {
             + inside.sum::<usize>()
     }
 
-    /// The number of variables from `early` on that are within brackets.
+    /// The number of variables from `early` on that are within parentheses.
     fn late_in_brackets(&self, early: usize) -> usize {
         let sums = self.sums.iter();
         sums.map(|(sum, _)| sum.products.iter().map(|it| it.late(early)).sum::<usize>()).sum()
@@ -137,13 +137,13 @@ impl Formula {
     }
 
     /// Measures how hard a formula is to read, by the following numbers in this order: printed symbols, nested
-    /// brackets with sines and cosines, squares that are split as in x (x + y), sines, cosines and motions within
-    /// brackets, and products.
+    /// parentheses with sines and cosines, squares that are split as in x (x + y), sines, cosines and motions within
+    /// parentheses, and products.
     ///
-    /// A common factor reads better before brackets than in every term, but not if it is within brackets itself. The 1
-    /// in k (x + 1) is not counted, because people write k x + k in this way.
+    /// A common factor reads better before parentheses than in every term, but not if it is within parentheses itself.
+    /// The 1 in k (x + 1) is not counted, because people write k x + k in this way.
     ///
-    /// A minus sign at the beginning counts only in the whole sum: the sign before brackets absorbs it otherwise.
+    /// A minus sign at the beginning counts only in the whole sum: the sign before parentheses absorbs it otherwise.
     fn measure(&self, kinds: &Kinds, place: Place) -> [usize; 5] {
         let is_within = place.brackets < MAX_BRACKETS;
         let late = match self.depth() {
@@ -157,7 +157,7 @@ impl Formula {
         [length, self.nesting(kinds).saturating_sub(1), split, late, self.products.len()]
     }
 
-    /// The number of sums in brackets without sines and cosines in which one term is 1 or −1.
+    /// The number of sums in parentheses without sines and cosines in which one term is 1 or −1.
     fn units_in_brackets(&self, kinds: &Kinds) -> usize {
         let is_unit = |product: &Product| product.is_number() && is_unit(&product.coefficient);
         let of_sum = |sum: &Formula| {
@@ -168,7 +168,7 @@ impl Formula {
         sums.map(|(sum, _)| of_sum(sum)).sum()
     }
 
-    /// Whether the sum has neither brackets nor sines and cosines, as m₂ + m₃ and l + q₃.
+    /// Whether the sum has neither parentheses nor sines and cosines, as m₂ + m₃ and l + q₃.
     fn is_plain(&self, kinds: &Kinds) -> bool {
         let is_plain = |product: &Product| {
             product.sums.is_empty() && !product.powers.iter().any(|(one, _)| kinds.is_circular(one))
@@ -176,7 +176,7 @@ impl Formula {
         self.products.iter().all(is_plain)
     }
 
-    /// The depth of nested brackets, in which plain sums do not count within others.
+    /// The depth of nested parentheses, in which plain sums do not count within others.
     fn nesting(&self, kinds: &Kinds) -> usize {
         let sums = self.products.iter().flat_map(|product| &product.sums);
         let of_sum = |sum: &Formula| match sum.nesting(kinds) {
@@ -191,12 +191,12 @@ impl Formula {
         self.products.iter().flat_map(|product| &product.sums).all(|(sum, _)| sum.is_plain(kinds))
     }
 
-    /// The depth of nested brackets.
+    /// The depth of nested parentheses.
     fn depth(&self) -> usize {
         self.products.iter().map(Product::depth).max().unwrap_or_default()
     }
 
-    /// The terms without any brackets.
+    /// The terms without any parentheses.
     pub(super) fn flat(terms: &Terms) -> Formula {
         let products = terms.as_slice().iter();
         let products =
@@ -218,7 +218,8 @@ impl Formula {
         Formula { products }
     }
 
-    /// The sum times `sign`, 1 or −1, as it is written in brackets: products with sines, cosines and motions come last.
+    /// The sum times `sign`, 1 or −1, as it is written in parentheses: products with sines, cosines and motions come
+    /// last.
     fn in_brackets(&self, sign: &Rational, early: usize) -> Formula {
         let signed = |product: &Product| Product {
             coefficient: &product.coefficient * sign,
@@ -229,7 +230,7 @@ impl Formula {
         Formula::sorted(self.products.iter().map(signed).collect(), is_late)
     }
 
-    /// Removes the minus sign at the beginning if brackets can absorb it: `(b - a) c` for `-(a - b) c`. Otherwise
+    /// Removes the minus sign at the beginning if parentheses can absorb it: `(b - a) c` for `-(a - b) c`. Otherwise
     /// `None`.
     fn without_leading_minus(&self, early: usize) -> Option<Formula> {
         if !self.has_leading_minus() {
@@ -254,7 +255,7 @@ impl Formula {
         Some(formula)
     }
 
-    /// Multiplies out the sums in brackets that do not become longer, if this reduces the nesting of brackets;
+    /// Multiplies out the sums in parentheses that do not become longer, if this reduces the nesting of parentheses;
     /// otherwise `None`.
     fn unnested(&self, early: usize) -> Option<Formula> {
         if self.depth() < 2 {
@@ -304,7 +305,7 @@ impl Formula {
 struct Place {
     /// The number of sums that contain it.
     depth: usize,
-    /// The number of nested brackets that are still allowed within it.
+    /// The number of nested parentheses that are still allowed within it.
     brackets: usize,
 }
 
@@ -317,9 +318,9 @@ pub(super) struct Factoring {
     kinds: Kinds,
 }
 
-/// What determines how well variables read in brackets.
+/// What determines how well variables read in parentheses.
 pub(super) struct Kinds {
-    /// The number of variables that are written before brackets; they are the first ones.
+    /// The number of variables that are written before parentheses; they are the first ones.
     pub(super) early: usize,
     /// Whether each variable is a sine or cosine.
     pub(super) circular: Vec<bool>,

@@ -1,5 +1,5 @@
-//! Short formulas: sums of products in which common factors are taken out of brackets, with sines and cosines of sums
-//! of angles where these are shorter.
+//! Short formulas: sums of products in which common factors are taken out of parentheses, with sines and cosines of
+//! sums of angles where these are shorter.
 //!
 //! A [`Collector`] turns a canonical [`Polynomial`] into a nested sum of products in three steps:
 //!
@@ -13,10 +13,10 @@
 //!    factorization of Boolean expressions", 1982, and the two-term divisors of J. Rajski and J. Vasudevamurthy, 1992.
 //!
 //! The length of a formula is the number of its printed symbols: a symbol with its index, a number, a sign, an
-//! exponent, a pair of brackets, and the sine or cosine of a sum of angles count one each. Where forms are compared, the
-//! 1 in k (x + 1) does not count if x has no sine or cosine. Numbers do not change: every
-//! printed coefficient is one of the polynomial or an integer. The result is proved equal to the polynomial by
-//! expanding it again; if the proof fails, the polynomial is printed as a plain sum.
+//! exponent, a pair of parentheses, and the sine or cosine of a sum of angles count one each. Where forms are compared,
+//! the 1 in k (x + 1) does not count if x has no sine or cosine. Numbers do not change: every printed coefficient is
+//! one of the polynomial or an integer. The result is proved equal to the polynomial by expanding it again; if the
+//! proof fails, the polynomial is printed as a plain sum.
 
 mod addition;
 mod angles;
@@ -55,13 +55,13 @@ pub struct Collector<'g, 'a> {
     /// The groups of parallel joints whose sums of angles can be written; empty if all sums of angles are to stay
     /// expanded.
     pub angles: &'a [ParallelAngles<'g>],
-    /// Whether common factors are taken out of brackets.
+    /// Whether common factors are taken out of parentheses.
     pub factors: bool,
 }
 
 impl<'g> Collector<'g, '_> {
     /// Returns the terms of the short form of a polynomial in which angle sums are expanded. The factors of a term are
-    /// in the order of the ranks that `rank` gives to atoms; sums in brackets have the rank `brackets`.
+    /// in the order of the ranks that `rank` gives to atoms; sums in parentheses have the rank `brackets`.
     ///
     /// A polynomial with floating-point numbers or with more than [`MAX_TERMS`] terms is only arranged.
     #[must_use]
@@ -148,7 +148,7 @@ fn term_length(term: &ArrangedTerm<'_>) -> usize {
     number + bar + term.factors.iter().map(factor).sum::<usize>()
 }
 
-/// Cancels each sum in brackets with the same sum in the denominator of its term.
+/// Cancels each sum in parentheses with the same sum in the denominator of its term.
 fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
     let of = |value: Expr<'g>| Polynomial::of(value, &PolynomialOptions::default()).ok();
     for term in terms {

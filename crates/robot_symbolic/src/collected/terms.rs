@@ -214,7 +214,8 @@ impl Terms {
         self.unsigned_length() + usize::from(leading)
     }
 
-    /// The length without a minus sign at the beginning, which the term that contains the sum in brackets can absorb.
+    /// The length without a minus sign at the beginning, which the term that contains the sum in parentheses can
+    /// absorb.
     pub(super) fn unsigned_length(&self) -> usize {
         self.0.iter().map(term_length).sum::<usize>() + self.0.len().saturating_sub(1)
     }

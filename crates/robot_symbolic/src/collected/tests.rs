@@ -76,7 +76,8 @@ fn a_factor_of_a_whole_term_leaves_a_one_in_brackets() {
     }
 }
 
-/// Among forms of the same length, common factors stand before brackets, also after other brackets and within them.
+/// Among forms of the same length, common factors stand before parentheses, also after other parentheses and within
+/// them.
 #[test]
 fn common_factors_of_the_rest_leave_brackets() {
     for (source, expected) in [
@@ -93,7 +94,7 @@ fn common_factors_of_the_rest_leave_brackets() {
     }
 }
 
-/// The sign before brackets absorbs a minus sign at their beginning, so both sums are written in the same way.
+/// The sign before parentheses absorbs a minus sign at their beginning, so both sums are written in the same way.
 #[test]
 fn a_sum_of_minus_signs_in_brackets_is_as_short_as_one_of_plus_signs() {
     let sum = "0.5*b*sin(q5)*sin(q6) - 0.5*a*sin(q5)*cos(q6) + 0.5*c*cos(q5) + k*sin(q4)*sin(q5)";

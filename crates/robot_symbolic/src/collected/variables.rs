@@ -125,13 +125,13 @@ impl<'g> Variables<'g> {
         self.meanings.partition_point(|(atom, _)| early(*atom))
     }
 
-    /// The kinds of the variables, of which the first `early` are written before brackets.
+    /// The kinds of the variables, of which the first `early` are written before parentheses.
     pub(super) fn kinds(&self, early: usize) -> Kinds {
         let circular = self.meanings.iter().map(|(atom, _)| angle(*atom).is_some()).collect();
         Kinds { early, circular }
     }
 
-    /// Converts a formula to terms for printing. Sums in brackets stand after the factors among the first `early`
+    /// Converts a formula to terms for printing. Sums in parentheses stand after the factors among the first `early`
     /// variables.
     pub(super) fn written(&self, formula: &Formula, early: usize) -> Vec<ArrangedTerm<'g>> {
         formula.products.iter().map(|product| self.product(product, early)).collect()

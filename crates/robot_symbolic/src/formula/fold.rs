@@ -13,7 +13,7 @@ pub enum Step<'f, T> {
     Number(&'f Rational),
     /// π.
     Pi,
-    /// A name with its bytes in the formula's text.
+    /// A name, and its range of bytes in the formula's text.
     Symbol(&'f str, Range<usize>),
     /// a + b.
     Add(T, T),

@@ -32,7 +32,7 @@ pub enum ArrangedFactor<'g> {
 }
 
 impl<'g> ArrangedTerm<'g> {
-    /// The product of a sum and further factors, as one term. A sum of several terms becomes a factor in brackets
+    /// The product of a sum and further factors, as one term. A sum of several terms becomes a factor in parentheses
     /// before the others; its signs are chosen so that it does not begin with a minus sign.
     #[must_use]
     pub fn product(sum: &[ArrangedTerm<'g>], factors: Vec<(ArrangedFactor<'g>, i32)>) -> Self {

@@ -43,7 +43,7 @@ pub enum Group {
     Optimize,
     /// Printing programs for a target.
     Print,
-    /// Limiting the cost of programs.
+    /// Limiting operations and stack.
     Limit,
 }
 

@@ -32,8 +32,8 @@ pub const DEFAULT_BATCH: usize = 8;
 /// The largest number of states in a block of a batch, whose arrays are on the stack.
 const MAX_BATCH: usize = 64;
 
-/// The way in which identical limbs of a robot, such as the legs of a walking machine or the fingers of a hand, are
-/// computed.
+/// The way in which limbs of a robot that are alike, such as the legs of a walking machine or the fingers of a hand,
+/// are computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Limbs {
     /// Together, in the lanes of one call.
@@ -69,7 +69,7 @@ pub struct Options {
     pub fused: bool,
     /// The source of sines and cosines.
     pub trigonometry: Trigonometry,
-    /// The way in which limbs of the same kind are computed.
+    /// The way in which limbs that are alike are computed.
     pub limbs: Limbs,
     /// The tolerance in rad within which constant angles become a multiple of π/2; `None` for the value in
     /// the robot file, whose default is 10⁻⁹.

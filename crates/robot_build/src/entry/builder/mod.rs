@@ -135,7 +135,7 @@ impl Builder {
         self
     }
 
-    /// Sets how identical limbs are computed; the default is side by side.
+    /// Sets how limbs that are alike are computed; the default is side by side.
     pub fn limbs(mut self, limbs: Limbs) -> Builder {
         self.options.limbs = limbs;
         self

@@ -27,7 +27,8 @@ static NUMBER: AtomicU32 = AtomicU32::new(0);
 pub(super) struct Staged {
     temporary: PathBuf,
     target: PathBuf,
-    /// The open file that holds the lock while it is temporary. Not every system can lock folders.
+    /// The open temporary file, whose lock shows other processes that it is in use. `None` for a folder if the system
+    /// cannot lock folders.
     lock: Option<fs::File>,
     is_placed: bool,
 }

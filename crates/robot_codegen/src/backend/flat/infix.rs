@@ -1,4 +1,4 @@
-//! Printing of expressions with infix operators and brackets.
+//! Printing of expressions with infix operators and parentheses.
 
 use robot_symbolic::Function as Call;
 
@@ -38,7 +38,7 @@ enum Strength {
     Operand,
 }
 
-/// Prints an expression with exactly the brackets that left-associative operators need.
+/// Prints an expression with exactly the parentheses that left-associative operators need.
 #[must_use]
 pub fn infix(expression: &Expression, spelling: &impl Spelling) -> String {
     text(expression, spelling).0

@@ -194,7 +194,7 @@ fn constructor(scope: &mut Scope<'_>) -> Item {
     syntax::impl_model(items)
 }
 
-/// Converts the value of a field to the type in which it is stored. The node of the cast gets brackets where its
+/// Converts the value of a field to the type in which it is stored. The node of the cast gets parentheses where its
 /// operand needs them, because `as` has a high precedence.
 fn stored(scope: &Scope<'_>, value: Expr) -> Expr {
     match scope.options.scalar {

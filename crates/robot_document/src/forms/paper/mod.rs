@@ -20,7 +20,7 @@ pub(crate) use relations::vectors;
 
 impl<'g> Writer<'_, 'g> {
     /// The terms of quantities in the order in which the paper's relations yield them, with masses in front of
-    /// brackets; `None` for a quantity that these relations do not yield, such as a joint torque with friction.
+    /// parentheses; `None` for a quantity that these relations do not yield, such as a joint torque with friction.
     pub(super) fn in_paper_order(
         &self,
         quantities: &[Quantity<'g>],
@@ -91,7 +91,8 @@ impl<'g> Writer<'_, 'g> {
     }
 }
 
-/// A mass times a sum in brackets, as in (16) to (19). A minus sign is taken out of the brackets if any term has one.
+/// A mass times a sum in parentheses, as in (16) to (19). A minus sign is taken out of the parentheses if any term has
+/// one.
 fn bracketed<'g>(mass: &[ArrangedTerm<'g>], sum: &[ArrangedTerm<'g>]) -> Vec<ArrangedTerm<'g>> {
     let ([mass], [_, _, ..]) = (mass, sum) else {
         return Sum::of_terms(mass).times(&Sum::of_terms(sum)).arranged();

@@ -150,7 +150,7 @@ fn comparison(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
 
 static int failures = 0;
 
-// The compiler shall not know the numbers, or it computes results by itself, as no program does later.
+// The compiler must not know the numbers; otherwise it could compute the results itself.
 template <std::size_t N> static std::array<{real}, N> hidden(std::array<{real}, N> numbers)
 {{
     for ({real} &number : numbers) {{

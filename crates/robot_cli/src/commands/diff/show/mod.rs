@@ -122,7 +122,7 @@ fn equation(equation: &Equation, most: usize) -> String {
     shown
 }
 
-/// Prints `g*m1`, `2 g*m1` or `(-1) g*m1`. Brackets distinguish the sign of a coefficient from that of the line.
+/// Prints `g*m1`, `2 g*m1` or `(-1) g*m1`. Parentheses distinguish the sign of a coefficient from that of the line.
 fn product(coefficient: &str, powers: &str) -> String {
     match (coefficient, powers) {
         ("1", powers) => powers.to_owned(),
