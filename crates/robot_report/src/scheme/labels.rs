@@ -92,7 +92,7 @@ const ON_LABEL: f64 = 1e4;
 /// The distance within which two lines look like one, and that of the points at which this is tested.
 const CLOSE: f64 = 4.0;
 const PIECE: f64 = 6.0;
-/// The cost of a line across an axis of a frame, as a share of that across another line.
+/// The cost of a line across an axis of a frame, as a fraction of that across another line.
 const ON_AXIS: f64 = 0.3;
 /// The most passes in which labels move to better places.
 const PASSES: usize = 4;
