@@ -162,7 +162,7 @@ fn with_payload(payload: &Payload) -> Setter {
         doc: vec![
             "Replaces the payload with the given rigid body.".to_owned(),
             String::new(),
-            "The constructor adds it to the link's own inertia: calls cost the same.".to_owned(),
+            "The constructor adds it to the link's own inertia: a call takes the same operations with any payload.".to_owned(),
         ],
         arguments: vec![
             argument("mass", "mass of the body", "kg", std::slice::from_ref(mass)),

@@ -147,7 +147,7 @@ fn spindle(
             &span,
             "`coulomb` of a revolute joint needs `spindle_diameter`",
             "add `spindle_diameter`, the journal diameter in m; for a friction torque that does \
-             not depend on the load, use `coulomb_torque`",
+             not depend on the contact force, use `coulomb_torque`",
         ),
         (JointKind::Revolute, None, Some(span)) => entries.conflict(
             &span,

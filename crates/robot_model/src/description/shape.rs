@@ -144,7 +144,11 @@ pub static ROBOT_FILE: Shape = Shape {
         key("frame", OneOrMany(&FRAME), "Named frames."),
         key("payload", Table(&PAYLOAD), "A body that the robot may carry, set at run time."),
         key("code", Table(&CODE), "Which functions to generate if the caller names none."),
-        key("budget", OneOrMany(&BUDGET), "Limits on the cost of generated code."),
+        key(
+            "budget",
+            OneOrMany(&BUDGET),
+            "Limits on the operations and the stack of generated code.",
+        ),
     ],
 };
 
@@ -250,7 +254,11 @@ pub static JOINT: Shape = Shape {
         depends("type", Word(JOINT_TYPES), "The type of motion; in a DH table, that of the row."),
         key("name", Label, "Default: the name of the link."),
         depends("axis", Axis, "Its direction in the link frame, of any nonzero length."),
-        key("limits", Limits, "Lower and upper, rad or m; test states stay within them."),
+        key(
+            "limits",
+            Limits,
+            "Lower and upper, rad or m; nothing enforces them. They bound random states and the motions on pages.",
+        ),
         key("mimic", Table(&MIMIC), "The joint follows another."),
     ],
 };

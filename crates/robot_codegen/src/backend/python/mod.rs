@@ -1,6 +1,6 @@
 //! The printer of Python: the same functions work on numbers and on NumPy arrays.
 //!
-//! An entry of an input is a number, or an array with one entry for each state. Sines and cosines
+//! An entry of an input is a number, or an array with one element for each state. Sines and cosines
 //! are the runtime's polynomials, with the same bits, unless the options choose the standard library.
 
 mod helpers;
