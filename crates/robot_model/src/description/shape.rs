@@ -294,9 +294,9 @@ pub static INERTIA: Shape = Shape {
     doc: "Entries of the tensor, kg m^2; products are entries of the tensor, xy = -int xy dm.",
     keys: &[
         key("unchecked", Boolean, "Accepts a physically impossible tensor."),
-        depends("xx", Formula, "Moment about x."),
-        depends("yy", Formula, "Moment about y."),
-        depends("zz", Formula, "Moment about z."),
+        depends("xx", Formula, "Moment of inertia about x."),
+        depends("yy", Formula, "Moment of inertia about y."),
+        depends("zz", Formula, "Moment of inertia about z."),
         key("xy", Formula, "Entry (1, 2)."),
         key("xz", Formula, "Entry (1, 3)."),
         key("yz", Formula, "Entry (2, 3)."),

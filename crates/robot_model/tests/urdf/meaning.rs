@@ -281,7 +281,7 @@ fn what_a_simulator_adds_is_counted() {
         .replace("</link>", &format!("{off}</link>"))
         .replace("</joint>", &format!("{spring}</joint>"));
     assert_eq!(crate::read(&within).left_out, ["gravity, springs or damping of 2 Gazebo elements"]);
-    // Limits of forces and rates are counted by kind.
+    // Limits of forces and velocities are counted by kind.
     let limits = |limit: &str| format!("type=\"continuous\"><axis xyz=\"0 0 1\"/>{limit}");
     let both = "<limit effort=\"5\" velocity=\"2\"/>";
     let joints = [limits(both), limits(""), limits("<limit effort=\"5\"/>")];
