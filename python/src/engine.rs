@@ -175,22 +175,22 @@ impl Task<'_> {
         let [mut given, mut found] = self.sizes.map(|size| vec![0.0; size * BLOCK]);
         for first in (start..end).step_by(BLOCK) {
             let states = BLOCK.min(end - first);
-            let mut columns = given.chunks_exact_mut(BLOCK);
+            let mut rest = given.as_mut_slice();
             for table in self.inputs {
-                for (entry, column) in (0..table.entries()).zip(&mut columns) {
-                    (0..states).for_each(|state| column[state] = table.read(first + state, entry));
-                }
+                let (columns, after) = rest.split_at_mut(table.entries() * BLOCK);
+                table.read_block(first, states, columns, BLOCK);
+                rest = after;
             }
             let inputs: Vec<&[f64]> =
                 given.chunks_exact(BLOCK).map(|column| &column[..states]).collect();
             let mut outputs: Vec<&mut [f64]> =
                 found.chunks_exact_mut(BLOCK).map(|column| &mut column[..states]).collect();
             self.handle.columns(&inputs, &mut outputs)?;
-            let mut columns = found.chunks_exact(BLOCK);
+            let mut rest = found.as_slice();
             for table in self.outputs {
-                for (entry, column) in (0..table.entries()).zip(&mut columns) {
-                    (0..states).for_each(|state| table.write(first + state, entry, column[state]));
-                }
+                let (columns, after) = rest.split_at(table.entries() * BLOCK);
+                table.write_block(first, states, columns, BLOCK);
+                rest = after;
             }
         }
         Ok(())

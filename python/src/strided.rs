@@ -3,10 +3,16 @@
 
 #![allow(unsafe_code)]
 
+use std::array;
+
 use numpy::{PyArray1, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::buffer::PyBuffer;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+/// The number of states that are copied at once, entry by entry: their rows, and the parts of the columns, are then in
+/// the cache while they are needed.
+const TILE: usize = 8;
 
 /// A table of doubles, (states, entries), in memory that a buffer keeps while the table is used.
 #[derive(Clone, Copy)]
@@ -55,6 +61,61 @@ impl Table {
         assert!(state < self.shape[0] && entry < self.shape[1]);
         let bytes = state as isize * self.strides[0] + entry as isize * self.strides[1];
         self.start.wrapping_offset(bytes).cast()
+    }
+
+    /// Copies states from `first` on into columns of `length` numbers, one for each entry.
+    pub(crate) fn read_block(
+        self,
+        first: usize,
+        states: usize,
+        columns: &mut [f64],
+        length: usize,
+    ) {
+        self.check_block(first, states, columns.len(), length);
+        let whole = states - states % TILE;
+        for state in (0..whole).step_by(TILE) {
+            for (entry, column) in columns.chunks_exact_mut(length).enumerate() {
+                let place = self.place(first + state, entry);
+                column[state..state + TILE].copy_from_slice(&array::from_fn::<f64, TILE, _>(
+                    |index| {
+                        let offset = index as isize * self.strides[0];
+                        // SAFETY: as in `read`; the states of the block are inside of the shape.
+                        unsafe { place.wrapping_byte_offset(offset).read_unaligned() }
+                    },
+                ));
+            }
+        }
+        for state in whole..states {
+            for (entry, column) in columns.chunks_exact_mut(length).enumerate() {
+                column[state] = self.read(first + state, entry);
+            }
+        }
+    }
+
+    /// Copies columns back to states from `first` on.
+    pub(crate) fn write_block(self, first: usize, states: usize, columns: &[f64], length: usize) {
+        self.check_block(first, states, columns.len(), length);
+        let whole = states - states % TILE;
+        for state in (0..whole).step_by(TILE) {
+            for (entry, column) in columns.chunks_exact(length).enumerate() {
+                let place = self.place(first + state, entry);
+                for (index, value) in column[state..state + TILE].iter().enumerate() {
+                    let offset = index as isize * self.strides[0];
+                    // SAFETY: as in `write`; the states of the block are inside of the shape.
+                    unsafe { place.wrapping_byte_offset(offset).write_unaligned(*value) };
+                }
+            }
+        }
+        for state in whole..states {
+            for (entry, column) in columns.chunks_exact(length).enumerate() {
+                self.write(first + state, entry, column[state]);
+            }
+        }
+    }
+
+    fn check_block(self, first: usize, states: usize, numbers: usize, length: usize) {
+        assert!(first + states <= self.shape[0] && states <= length);
+        assert_eq!(numbers, self.shape[1] * length);
     }
 
     pub(crate) fn read(self, state: usize, entry: usize) -> f64 {

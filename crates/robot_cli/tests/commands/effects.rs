@@ -23,7 +23,6 @@ fn frames_of_base_parameters_are_noticed_where_there_are_none() {
         &["show", &arm],
         &["search", &arm, "--dry-run"],
         &["scheme", &arm],
-        &["watch", &arm, "--saves", "0"],
     ] {
         let found = notes(&[arguments, &frames].concat());
         assert!(found.contains(note), "{arguments:?}: {found}");
