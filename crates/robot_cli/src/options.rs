@@ -102,7 +102,7 @@ fn argument(option: &'static OptionSpec) -> Arg {
     }
     match option.kind {
         Kind::Count { default } => {
-            let argument = argument.value_name(option.value_name).value_parser(whole(0..=u64::MAX));
+            let argument = argument.value_name(option.value_name).value_parser(whole(0_u64..));
             match default {
                 Some(number) => argument
                     .num_args(0..=1)

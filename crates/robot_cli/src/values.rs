@@ -1,7 +1,7 @@
 //! Numbers on the command line: `0.5`, `pi/2`, `90deg`.
 
 use std::fmt::Display;
-use std::ops::RangeInclusive;
+use std::ops::{Bound, RangeBounds};
 
 use robot_model::diagnostic::quote;
 use robot_model::robot::{JointKind, Robot};
@@ -38,7 +38,9 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
 }
 
 /// Returns a parser of arguments that are whole numbers in a range, written such as `1000` or `1e3`.
-pub(crate) fn whole<T>(range: RangeInclusive<T>) -> impl Fn(&str) -> Result<T, String> + Clone
+pub(crate) fn whole<T>(
+    range: impl RangeBounds<T> + Clone,
+) -> impl Fn(&str) -> Result<T, String> + Clone
 where
     T: TryFrom<u64> + PartialOrd + Display + Copy,
 {
@@ -50,7 +52,14 @@ where
         let number = text.parse::<u64>().ok().or_else(|| spelled().map(|x| x as u64));
         let number = number.and_then(|number| T::try_from(number).ok());
         number.filter(|number| range.contains(number)).ok_or_else(|| {
-            format!("expected a whole number from {} to {}", range.start(), range.end())
+            let limits = match (range.start_bound(), range.end_bound()) {
+                (Bound::Included(least), Bound::Included(most)) => {
+                    format!(" from {least} to {most}")
+                }
+                (Bound::Included(least), _) if number.is_some() => format!(" of at least {least}"),
+                _ => String::new(),
+            };
+            format!("expected a whole number{limits}")
         })
     }
 }

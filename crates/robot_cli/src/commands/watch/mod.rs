@@ -46,10 +46,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     force: ForceArgument,
     /// Maximum number of terms shown per equation
-    #[arg(long, default_value_t = 20, value_parser = whole(0..=usize::MAX))]
+    #[arg(long, default_value_t = 20, value_parser = whole(0_usize..))]
     terms: usize,
     /// End after this many saves [default: run until Ctrl-C]
-    #[arg(long, value_name = "COUNT", value_parser = whole(0..=usize::MAX))]
+    #[arg(long, value_name = "COUNT", value_parser = whole(0_usize..))]
     saves: Option<usize>,
 }
 
