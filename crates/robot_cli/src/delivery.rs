@@ -257,18 +257,14 @@ fn up_to_date<'a>(
 ) -> Result<(), Failure> {
     let (mut stale, mut refused) = (vec![], vec![]);
     for (path, bytes) in files {
-        let before = stale.len();
-        match staleness(&path, bytes)? {
-            None => {}
-            Some(Staleness::Bytes) => stale.push(format!("{} is out of date", shown(&path))),
-            Some(Staleness::Missing) => stale.push(format!("{} is missing", shown(&path))),
-            Some(Staleness::Differs { line }) => {
-                stale.push(format!("{}:{line} is out of date", shown(&path)));
-            }
-        }
-        if stale.len() > before
-            && let Err(errors) = writer.check(&[(&path, ownership)])
-        {
+        let Some(found) = staleness(&path, bytes)? else { continue };
+        let name = shown(&path);
+        stale.push(match found {
+            Staleness::Bytes => format!("{name} is out of date"),
+            Staleness::Missing => format!("{name} is missing"),
+            Staleness::Differs { line } => format!("{name}:{line} is out of date"),
+        });
+        if let Err(errors) = writer.check(&[(&path, ownership)]) {
             refused.extend(errors.as_slice().iter().map(Error::to_string));
         }
     }

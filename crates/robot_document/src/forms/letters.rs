@@ -67,22 +67,24 @@ impl Letters {
             let single = characters.next().is_some_and(|first| first.is_ascii_alphabetic());
             (single && characters.next().is_none()) || signs::Letter::greek(letter).is_some()
         };
-        if let Some(wrong) = letters.iter().find(|letter| !is_letter(letter)) {
+        let others = letters.iter().filter(|letter| !is_letter(letter)).map(|letter| {
             let rule = "one of a to z or A to Z, or the name of a Greek one";
-            return Err(InvalidLetters(format!("`{}` is not a letter: {rule}", quote(wrong))));
-        }
-        let twice = |(place, one): &(usize, &&str)| letters[..*place].contains(*one);
-        if let Some((_, wrong)) = letters.iter().enumerate().find(twice) {
-            return Err(InvalidLetters(format!("`{}` is given twice", quote(wrong))));
-        }
-        let count = letters.len();
+            format!("`{}` is not a letter: {rule}", quote(letter))
+        });
+        let again =
+            letters.iter().enumerate().filter(|(place, one)| letters[..*place].contains(one));
+        let again = again.map(|(_, letter)| format!("`{}` is given twice", quote(letter)));
+        let mut wrong: Vec<String> = others.chain(again).collect();
+        wrong.extend(
+            (letters.len() != 4).then(|| format!("{} letters are not four", letters.len())),
+        );
         let letters: Vec<Option<String>> =
-            letters.into_iter().map(|letter| Some(letter.to_owned())).collect();
+            letters.iter().map(|letter| Some((*letter).to_owned())).collect();
         match <[Option<String>; 4]>::try_from(letters) {
-            Ok([torque, mass, velocity, gravity]) => {
+            Ok([torque, mass, velocity, gravity]) if wrong.is_empty() => {
                 Ok(Letters { torque, mass, velocity, gravity })
             }
-            Err(_) => Err(InvalidLetters(format!("{count} letters are not four"))),
+            _ => Err(InvalidLetters(wrong.join("; "))),
         }
     }
 
@@ -162,6 +164,12 @@ mod tests {
         assert_eq!(Letters::default().torque_sign(), Math::Letter('Q'));
         for wrong in ["tau,M,C", "tau,M,M,g", "tau,M,C,gg", "feild", ",,,", "1,2,3,4"] {
             assert!(Letters::parse(wrong).is_err(), "{wrong}");
+        }
+        let all = Letters::parse("tau,M,M,gg,1").unwrap_err().to_string();
+        for part in
+            ["`gg` is not a letter", "`1` is not a letter", "`M` is given twice", "5 letters"]
+        {
+            assert!(all.contains(part), "{part}: {all}");
         }
     }
 }
