@@ -261,3 +261,20 @@ fn quotient(a: Option<Polynomial>, b: Option<&Polynomial>, of_sum: u8) -> Option
     let monomial = monomial.map_or(of(of_sum), |monomial| monomial.map(inverse));
     product(Some(&a), Some(&Polynomial::from([(monomial, reciprocal)])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The reciprocal of b ± e is uncertain by e / b².
+    #[test]
+    fn quotients_by_small_numbers_are_uncertain() {
+        let of_number = |value: f64, error: f64| {
+            let number = Coefficient { values: [value; POINTS], errors: [error; POINTS] };
+            Polynomial::from([(Monomial::default(), number)])
+        };
+        let found = quotient(Some(of_number(1.0, 0.0)), Some(&of_number(1e-3, 1e-9)), OF_SUM);
+        let error = found.unwrap().values().map(|number| number.errors[0]).sum::<f64>();
+        assert!((error - 1e-3).abs() < 1e-9, "{error}");
+    }
+}
