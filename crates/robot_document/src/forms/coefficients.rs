@@ -157,7 +157,8 @@ fn with_decimals<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<E
 }
 
 /// The joint torques as sums of products of named coefficients, and the definitions of these. Short coefficients are
-/// written out; common parts of long ones are named too.
+/// written out; common parts of long ones are named too. The coefficients are defined before, by [`define_all`], which
+/// names the `zeros`.
 pub(super) fn by_name<'g>(
     writer: &mut Writer<'_, 'g>,
     title: &str,
@@ -165,12 +166,12 @@ pub(super) fn by_name<'g>(
     sections: &[Section<'g>],
     mut shown: Vec<Vec<Shown<'g>>>,
     sums: Vec<Sum<'g>>,
+    zeros: &[String],
 ) -> Result<Vec<Group>, Error> {
     if writer.options.references {
         references::refer(writer, sections, &mut shown);
     }
-    let zeros = define_all(writer, sections, &shown)?;
-    let forces = generalized_forces(writer, sums, &zeros)?;
+    let forces = generalized_forces(writer, sums, zeros)?;
     let mut groups = vec![Group::of_quantities(title, introduction, forces)];
     groups.extend(definitions_of(writer, sections, &shown)?);
     Ok(groups)

@@ -3,7 +3,9 @@
 use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Rational, walk};
 
-use super::coefficients::{Coefficient, Section, Shown, Sum, by_name, limit, motions, shown};
+use super::coefficients::{
+    Coefficient, Section, Shown, Sum, by_name, define_all, limit, motions, shown,
+};
 use super::letters::candidates;
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
@@ -36,9 +38,11 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     limit(writer, &sections, &mut shown);
     let is_united = shown.iter().flatten().any(|shown| matches!(shown, Shown::Earlier));
     let introduction = introduction(writer, is_united);
+    // The values that are known below are printed with these symbols.
+    let zeros = define_all(writer, &sections, &shown)?;
     let known = Known::new(writer, &sections, &shown, &sums)?;
     let title = "Equations of motion, grouped";
-    let mut groups = by_name(writer, title, introduction, &sections, shown, sums)?;
+    let mut groups = by_name(writer, title, introduction, &sections, shown, sums, &zeros)?;
     let terms: Vec<(Term, &Section<'_>)> =
         terms(&sections).filter(|(_, section)| !known.is_empty(section)).collect();
     attach(writer, &mut groups, &terms, &known)?;

@@ -53,7 +53,8 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
                 aliases::replace(&sections, &mut shown, &mut sums);
             }
             limit(writer, &sections, &mut shown);
-            by_name(writer, TITLE, introduction, &sections, shown, sums)?
+            let zeros = define_all(writer, &sections, &shown)?;
+            by_name(writer, TITLE, introduction, &sections, shown, sums, &zeros)?
         }
     });
     Ok(groups)

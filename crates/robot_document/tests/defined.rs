@@ -1,0 +1,144 @@
+//! Each symbol in printed equations is a variable or parameter of the robot, or is defined by one of them, and it looks
+//! the same where it is defined and where it is used.
+
+#![allow(clippy::unwrap_used, reason = "a test that fails panics")]
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use robot_document::math::{Math, Symbol};
+use robot_document::{EquationOptions, Equations, Form, Group, Letters, Room, equations};
+use robot_dynamics::quantity::Kind;
+use robot_model::description::read_toml;
+use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
+
+fn robots() -> Vec<Robot> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+    let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut paths: Vec<_> = paths.filter(|path| path.extension().unwrap() == "toml").collect();
+    paths.sort();
+    let read = |path: &std::path::PathBuf| {
+        let text = std::fs::read_to_string(path).unwrap();
+        read_toml(&path.display().to_string(), &text).unwrap().robot
+    };
+    let robots: Vec<Robot> = paths.iter().map(read).collect();
+    assert!(robots.iter().any(Robot::has_friction));
+    robots
+}
+
+/// The symbols within a formula.
+fn symbols(math: &Math) -> Vec<&Symbol> {
+    let parts: Vec<&Math> = match math {
+        Math::Symbol(symbol) => return vec![symbol],
+        Math::Row(all) | Math::Lines(all) => all.iter().collect(),
+        Math::Script(script) => {
+            std::iter::once(&script.base).chain(&script.lower).chain(&script.upper).collect()
+        }
+        Math::Accent(_, inside)
+        | Math::Styled(_, inside)
+        | Math::Root(inside)
+        | Math::Fenced(_, inside) => vec![inside],
+        Math::Fraction(parts) => parts.iter().collect(),
+        Math::Matrix(rows) => rows.iter().flatten().collect(),
+        _ => vec![],
+    };
+    parts.into_iter().flat_map(symbols).collect()
+}
+
+/// The layout of a left side or of an entry of a matrix.
+fn shape(look: &Math) -> &Math {
+    match look {
+        Math::Symbol(symbol) => &symbol.shape,
+        other => other,
+    }
+}
+
+/// The layouts of the variables and parameters of a robot, by their names.
+fn inputs(robot: &Robot, printed: &Equations) -> BTreeMap<String, Math> {
+    let motions = JointVariable::MOTION.iter().flat_map(|variable| robot.symbols(*variable));
+    let parameters = robot.parameters.iter().map(|parameter| parameter.name.clone());
+    let wrenches = robot.tips().flat_map(|(_, wrench)| wrench.components().map(str::to_owned));
+    let names = motions.chain(parameters).chain(wrenches);
+    names.map(|name| (name.clone(), shape(&printed.symbols.look(&name)).clone())).collect()
+}
+
+/// Asserts that the equations define what they use.
+fn check(what: &str, robot: &Robot, printed: &Equations) {
+    let mut known = inputs(robot, printed);
+    let all = || printed.groups.iter().flat_map(|group| &group.equations);
+    for array in printed.groups.iter().flat_map(|group| group.arrays.iter().flatten()) {
+        let cells = array.rows.iter().flatten();
+        known.extend(cells.map(|cell| (cell.name.clone(), shape(&cell.look).clone())));
+    }
+    known.extend(all().map(|one| (one.name.clone(), shape(&one.left).clone())));
+    for equation in all() {
+        for symbol in symbols(&equation.right) {
+            let defined = known.get(&symbol.name);
+            assert_eq!(
+                defined,
+                Some(&*symbol.shape),
+                "{what}: {} in {}",
+                symbol.name,
+                equation.name
+            );
+        }
+    }
+}
+
+/// The equations as they are printed if matrices and columns have this room: arrays that are not printed define nothing.
+fn arranged(printed: &Equations, room: Room) -> Equations {
+    let mut arranged = printed.arranged(room);
+    for group in &mut arranged.groups {
+        let original = printed.groups.iter().find(|one| one.title == group.title).unwrap();
+        let is_shown = |name: &str| group.equations.iter().any(|one| one.name == name);
+        let arrays = original.arrays.iter().flatten().filter(|array| is_shown(&array.name));
+        group.arrays = Some(arrays.cloned().collect());
+    }
+    arranged
+}
+
+fn check_all(robot: &Robot, options: &EquationOptions) {
+    // Expanded and collected joint torques of a robot with many joints are too long.
+    let Ok(printed) = equations(robot, options) else { return };
+    let what = format!("{} {options:?}", robot.name);
+    let without_arrays = |group: &Group| Group { arrays: None, ..group.clone() };
+    let groups = printed.groups.iter().map(without_arrays).collect();
+    let plain = Equations { groups, ..printed.clone() };
+    check(&what, robot, &plain);
+    for room in
+        [Room::Points(200.0), Room::Points(450.0), Room::Points(2000.0), Room::Characters(100)]
+    {
+        check(&format!("{what} {room:?}"), robot, &arranged(&printed, room));
+    }
+}
+
+#[test]
+fn every_symbol_is_defined_and_looks_the_same() {
+    for robot in robots() {
+        let friction = robot.has_friction();
+        for form in Form::ALL {
+            check_all(&robot, &EquationOptions { form, friction, ..EquationOptions::default() });
+        }
+    }
+}
+
+#[test]
+fn every_symbol_is_defined_with_each_option() {
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() < 6) {
+        for form in Form::ALL {
+            let usual = EquationOptions { form, ..EquationOptions::default() };
+            let kinds = Kind::ALL.to_vec();
+            let letters = Letters::parse("field").unwrap();
+            for options in [
+                EquationOptions { letters, friction: true, ..usual.clone() },
+                EquationOptions { kinds: kinds.clone(), ..usual.clone() },
+                EquationOptions { kinds, paper: true, friction: true, ..usual.clone() },
+                EquationOptions { christoffel: true, references: false, ..usual.clone() },
+                EquationOptions { expand: true, digits: Some(4), rounds_roots: true, ..usual },
+            ] {
+                check_all(robot, &options);
+            }
+        }
+    }
+}
