@@ -6,7 +6,7 @@ use robot_build::Programs;
 use robot_document::markup::{Node, holding};
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
-use robot_simulation::{Trajectory, torque_contributions};
+use robot_simulation::{TorqueContributions, Trajectory, torque_contributions};
 
 use crate::plot::{self, Plot};
 use crate::table::Table;
@@ -31,18 +31,14 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
             return vec![holding("p", words).class("note").into()];
         }
     };
-    let contributions = found.titled();
     let mut columns = vec!["Coordinate", "Unit"];
-    columns.extend(contributions.iter().map(|(name, _)| *name));
-    let mut table = Table::new("The largest magnitudes along the trajectory", columns);
+    columns.extend(found.titled().iter().map(|(name, _)| *name));
+    let mut table = Table::stacked("The largest magnitudes along the trajectory", columns);
     let mut body = vec![Node::from(holding("p", WORDS))];
-    for (index, coordinate) in robot.coordinates.iter().enumerate() {
+    for (index, (coordinate, curves)) in
+        robot.coordinates.iter().zip(curves(robot, &found)).enumerate()
+    {
         let unit = JointVariable::Torque.unit(coordinate.kind);
-        let of = |samples: &[Vec<f64>]| -> Vec<f64> {
-            samples.iter().filter_map(|sample| sample.get(index).copied()).collect()
-        };
-        let curves: Vec<_> =
-            contributions.iter().map(|(name, samples)| (*name, of(samples))).collect();
         let symbol = text::symbol(&JointVariable::Position.symbol(index));
         let peaks =
             curves.iter().map(|(_, values)| text::number(plot::rounded(plot::peak(values))));
@@ -54,6 +50,37 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
     }
     body.push(table.build().into());
     body
+}
+
+/// The largest size of what rounding leaves of a sum, relative to the largest joint torque: that of about a thousand
+/// roundings.
+const NOISE: f64 = 1e-13;
+
+/// The contributions to the joint torque of a coordinate over time, by their names.
+type Curves = Vec<(&'static str, Vec<f64>)>;
+
+/// The contributions of each coordinate. Those that are only the rounding error of a sum of larger terms are 0, such as
+/// the torque of gravity about a vertical axis; they are compared with all torques of the same unit.
+fn curves(robot: &Robot, found: &TorqueContributions) -> Vec<Curves> {
+    let of = |index: usize| -> Curves {
+        let values = |samples: &Vec<Vec<f64>>| {
+            samples.iter().filter_map(|sample| sample.get(index).copied()).collect()
+        };
+        found.titled().into_iter().map(|(name, samples)| (name, values(samples))).collect()
+    };
+    let largest =
+        |curves: &Curves| curves.iter().map(|(_, values)| plot::peak(values)).fold(0.0, f64::max);
+    let mut all: Vec<Curves> = (0..robot.coordinates.len()).map(of).collect();
+    let sizes: Vec<f64> = all.iter().map(largest).collect();
+    for (coordinate, curves) in robot.coordinates.iter().zip(&mut all) {
+        let alike = robot.coordinates.iter().zip(&sizes);
+        let alike = alike.filter(|(other, _)| other.kind == coordinate.kind);
+        let noise = NOISE * alike.map(|(_, size)| *size).fold(0.0, f64::max);
+        for (_, values) in curves.iter_mut().filter(|(_, values)| plot::peak(values) <= noise) {
+            values.fill(0.0);
+        }
+    }
+    all
 }
 
 /// The explanation of the trajectory.
@@ -96,6 +123,26 @@ fn trajectory(robot: &Robot) -> Trajectory {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_rounding_leaves_is_zero() {
+        let path = format!("{}/../../robots/panda.toml", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let robot = robot_model::description::read_toml("panda.toml", &text).unwrap().robot;
+        let sample = |first: f64| vec![vec![first, 50.0, 1e-9, 0.0, 0.0, 0.0, 0.0]];
+        let (gravity, inertia) = (sample(6.2e-15), sample(7.0));
+        let zero = sample(0.0);
+        let t = vec![0.0];
+        let total = inertia.clone();
+        let (coriolis, friction, wrench) = (zero, None, None);
+        let found = TorqueContributions { t, total, inertia, coriolis, gravity, friction, wrench };
+        let shown = curves(&robot, &found);
+        let gravity = |index: usize| -> &Vec<f64> {
+            let own = shown[index].iter().find(|(name, _)| *name == "gravity");
+            &own.unwrap().1
+        };
+        assert_eq!([0, 1, 2].map(gravity), [&vec![0.0], &vec![50.0], &vec![1e-9]]);
+    }
 
     /// The velocities and accelerations are the derivatives of the positions.
     #[test]

@@ -36,16 +36,30 @@
     return { values, configure, move, compute };
   }
 
-  // Numbers of a table with the same places behind the point.
+  // Numbers of a table: with the same places behind the point, or with significant digits of their own.
   const exact = (value) => Object.is(value, -0) ? "-0" : String(value);
-  function show(cells, values) {
-    const largest = values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  const magnitude = (values) => values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+  function aligned(values) {
+    const largest = magnitude(values);
     const places = largest > 0 ? Math.min(8, Math.max(0, 3 - Math.floor(Math.log10(largest)))) : 0;
+    return (value) => value.toFixed(places);
+  }
+  // The units of the entries differ, and so do their sizes; what is left of a sum by rounding is 0.
+  function significant(values) {
+    const noise = 1e-13 * magnitude(values);
+    return (value) => {
+      const size = Math.abs(value);
+      if (noise >= size) return "0";
+      if (1e-4 > size || size >= 1e6) return value.toExponential(2);
+      return value.toFixed(Math.max(0, 2 - Math.floor(Math.log10(size))));
+    };
+  }
+  function show(cells, values, format) {
     values.forEach((value, i) => {
       const cell = cells[i], text = exact(value);
       if (cell.dataset.value !== text) cell.dataset.value = text;
-      const fixed = value.toFixed(places);
-      const shown = (Number(fixed) === 0 ? fixed.replace("-", "") : fixed).replace("-", "\u2212");
+      const digits = format(value);
+      const shown = (Number(digits) === 0 ? digits.replace("-", "") : digits).replaceAll("-", "\u2212");
       if (cell.firstChild.data !== shown) cell.firstChild.data = shown;
     });
   }
@@ -69,7 +83,7 @@
   };
   function torques(values) {
     const rows = causes.map((_, i) => contributions(values, i));
-    show(causes.flat(), rows.flat());
+    show(causes.flat(), rows.flat(), aligned(rows.flat()));
     rows.forEach((row, i) => {
       reach[i] = Math.max(reach[i], ...row.map(Math.abs));
       row.forEach((value, k) => {
@@ -78,8 +92,9 @@
         bars[i][k].setAttribute("d", k === 0 ? `M${x} 0V${6 * row.length - 6}` : `M0 ${y}H${x}`);
       });
     });
-    show(entries, [...values.M]);
-    const most = Math.max(...values.M.map(Math.abs));
+    const matrix = [...values.M];
+    show(entries, matrix, significant(matrix));
+    const most = magnitude(matrix);
     entries.forEach((cell, k) => {
       const part = Math.abs(values.M[k]) / most;
       const shade = part > 0 ? "shade-" + Math.min(5, Math.floor(6 * Math.sqrt(part))) : "zero";
