@@ -142,3 +142,22 @@ fn every_symbol_is_defined_with_each_option() {
         }
     }
 }
+
+#[test]
+fn entries_with_long_numbers_are_printed_once() {
+    let is_long = |word: &str| word.bytes().filter(u8::is_ascii_digit).count() > 7;
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() <= 6) {
+        let options = EquationOptions { form: Form::Grouped, ..EquationOptions::default() };
+        let printed = equations(robot, &options).unwrap();
+        for group in printed.groups.iter().filter(|group| group.definitions) {
+            let mut known: BTreeMap<&str, &str> = BTreeMap::new();
+            for equation in &group.equations {
+                let words: Vec<&str> = equation.text.split(['*', ' ', '(']).collect();
+                if words.len() > 1 && words.iter().any(|word| is_long(word)) {
+                    let other = known.insert(&equation.text, &equation.name);
+                    assert_eq!(other, None, "{} {}", robot.name, equation.name);
+                }
+            }
+        }
+    }
+}

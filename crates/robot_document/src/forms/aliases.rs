@@ -10,7 +10,7 @@ use crate::error::Error;
 /// Replaces each coefficient that equals an earlier one of its section, possibly with the opposite sign, by the earlier
 /// one: the joint torques contain b₂₃₃ (q̇₃ + q̇₄) q̇₃, and there is no equation b₂₃₄ = b₂₃₃.
 ///
-/// Coefficients of one or two printed symbols, such as a mass, keep their equations.
+/// Coefficients of one or two printed symbols, such as a mass, keep their equations, unless they contain a long number.
 pub(super) fn replace<'g>(
     sections: &[Section<'g>],
     shown: &mut [Vec<Shown<'g>>],

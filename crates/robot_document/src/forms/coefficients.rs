@@ -78,10 +78,15 @@ pub(super) enum Shown<'g> {
 }
 
 impl<'g> Shown<'g> {
-    /// The value of a printed coefficient if it is long enough to be compared with others.
+    /// The value of a printed coefficient if it is long enough to be compared with others. One with a long number, such as
+    /// 0.01713647315 cos q₅, is long, because a reader would compare it digit by digit.
     pub(super) fn comparable(&self) -> Option<&Polynomial<'g>> {
         match self {
-            Shown::Short { value, terms } => (length(terms) >= MIN_LENGTH).then_some(value),
+            Shown::Short { value, terms } => {
+                let is_number_times_symbol =
+                    length(terms) + 1 == MIN_LENGTH && numbers::has_long(value);
+                (length(terms) >= MIN_LENGTH || is_number_times_symbol).then_some(value)
+            }
             Shown::Long { value } => value.as_ref(),
             Shown::Zero | Shown::Earlier => None,
         }

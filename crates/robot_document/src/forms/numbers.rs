@@ -106,6 +106,11 @@ fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant>
     })
 }
 
+/// Whether a number in a polynomial has more digits than people write.
+pub(super) fn has_long(value: &Polynomial<'_>) -> bool {
+    value.terms().any(|(_, number)| digits(number) > MOST_DIGITS)
+}
+
 /// The number of significant digits of a decimal.
 fn digits(number: &Number) -> usize {
     let text = format!("{:e}", number.to_f64().abs());
