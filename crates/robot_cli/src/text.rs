@@ -56,28 +56,43 @@ pub(crate) fn sum(whole: &str) -> String {
     lines
 }
 
-/// Breaks a sum into lines of at most `columns` columns, before signs. It is broken within parentheses only if
-/// their contents do not fit on a line.
-fn wrapped(text: &str, columns: usize) -> Vec<&str> {
-    let mut breaks: Vec<(usize, usize)> = vec![];
-    let mut depth = 0_usize;
+/// The cost of a line break within the argument of a function: any number of other parentheses costs less.
+const ARGUMENT: usize = 1_000_000;
+
+/// The places before signs at which a sum can be broken, with their costs: the number of parentheses around them, and
+/// more within arguments of functions.
+fn breaks(text: &str) -> Vec<(usize, usize)> {
+    let mut breaks = vec![];
+    // The costs of the parentheses that are open.
+    let mut open: Vec<usize> = vec![];
     for (place, character) in text.char_indices() {
         let before = &text[..place];
+        let cost = open.iter().sum::<usize>();
         match character {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
+            '(' if before.ends_with(|before: char| before.is_ascii_alphanumeric()) => {
+                open.push(ARGUMENT);
+            }
+            '(' => open.push(1),
+            ')' => drop(open.pop()),
             '+' | '-' if before.ends_with(' ') && !before.ends_with("= ") => {
-                breaks.push((place, depth));
+                breaks.push((place, cost));
             }
             _ => {}
         }
     }
+    breaks
+}
+
+/// Breaks a sum into lines of at most `columns` columns, before signs. It is broken within parentheses only if
+/// their contents do not fit on a line, and within the argument of a function only if no other break is within reach.
+fn wrapped(text: &str, columns: usize) -> Vec<&str> {
+    let breaks = breaks(text);
     let (mut lines, mut start) = (vec![], 0);
     while text.len() - start > columns {
         let further = || breaks.iter().filter(|(place, _)| *place > start);
-        // The last break within reach outside of parentheses, or else within them, or else the next one.
+        // The cheapest break within reach, and the last one of these, or else the next one.
         let reach = further().filter(|(place, _)| *place - start <= columns);
-        let chosen = reach.min_by_key(|(place, depth)| (*depth, std::cmp::Reverse(*place)));
+        let chosen = reach.min_by_key(|(place, cost)| (*cost, std::cmp::Reverse(*place)));
         let Some((place, _)) = chosen.or_else(|| further().next()) else { break };
         lines.push(text[start..*place].trim_end());
         start = *place;
@@ -304,6 +319,8 @@ mod tests {
         let lines = wrapped("Q = -a*(b - c) + d", 10);
         assert_eq!(lines, ["Q = -a*(b", "- c) + d"]);
         assert_eq!(wrapped("Q1 = 0", 3), ["Q1 = 0"]);
+        let lines = wrapped("Q = (a - b + c)*sin(q2 + q3)", 22);
+        assert_eq!(lines, ["Q = (a - b", "+ c)*sin(q2 + q3)"]);
         // After a closing parenthesis a sign is outside of the pair; after two of them, outside of the inner one.
         let lines = wrapped("x = a + (b - c) + d + eeeeeeee", 22);
         assert_eq!(lines, ["x = a + (b - c) + d", "+ eeeeeeee"]);
