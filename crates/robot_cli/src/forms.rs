@@ -64,7 +64,7 @@ pub(crate) struct EquationArguments {
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
     /// Significant digits of decimals in equations [default: 10]
-    #[arg(long, value_name = "N", value_parser = whole(1..=ALL_DIGITS))]
+    #[arg(long, value_name = "N", value_parser = whole(1..=ALL_DIGITS), allow_negative_numbers = true)]
     digits: Option<u8>,
     /// Include friction in the joint torques
     #[arg(long)]

@@ -155,6 +155,15 @@ pub(crate) fn with_tips(
             .iter()
             .map(|known| StyledStr::from(format!("did you mean '{LITERAL}{known}{LITERAL:#}'?"))),
     );
+    let is_file = |name: &&std::ffi::OsString| {
+        name.to_string_lossy().starts_with('-')
+            && name.len() > 1
+            && std::path::Path::new(name).is_file()
+    };
+    tips.extend(arguments.iter().skip(1).filter(is_file).map(|name| {
+        let name = robot_build::shown(std::path::Path::new(name));
+        StyledStr::from(format!("write the file as '{LITERAL}./{name}{LITERAL:#}'"))
+    }));
     if !tips.is_empty() {
         error.insert(ContextKind::Suggested, ContextValue::StyledStrs(tips));
     }

@@ -16,6 +16,7 @@ pub(crate) fn robot(
     friction: &FrictionArguments,
     terminal: &mut Terminal<'_>,
 ) -> Result<Robot, Failure> {
+    settings.check_once()?;
     let described = file.read(terminal)?;
     file.argument().check_base_frames(&[], terminal)?;
     let wrong = settings.wrong(&described.robot);

@@ -22,7 +22,7 @@ const OTHERS: [(&str, &str); 5] = [
     ("the import option `friction`", "`import --friction`"),
     ("the option `rustc`", "`--rustc`"),
     ("run a search for a cheaper plan", "search for a cheaper plan with `robot-symbolic search`"),
-    ("give `--scalar` the value `f32`", "add `--scalar f32`"),
+    ("give `--scalar` the value `f32`", "use `--scalar f32`"),
     ("measure the compiled code", "measure it with `robot-symbolic prove`"),
 ];
 

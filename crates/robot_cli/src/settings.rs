@@ -7,6 +7,7 @@ use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::function::check_once;
 use crate::robot::OpenRobot;
 use crate::text;
 use crate::values;
@@ -22,7 +23,11 @@ pub(crate) struct Settings {
 /// Parses a setting such as `M5=2.5`.
 fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE, such as M5=2.5")?;
-    Ok((name.trim().to_owned(), values::number(value)?))
+    let name = name.trim();
+    match name.is_empty() {
+        true => Err("the name before `=` is missing".to_owned()),
+        false => Ok((name.to_owned(), values::number(value)?)),
+    }
 }
 
 impl Settings {
@@ -51,16 +56,20 @@ impl Settings {
         checked
     }
 
-    /// Finds parameters that do not exist, are set twice, or have no value.
+    /// Returns an error for each parameter that is set twice.
+    pub(crate) fn check_once(&self) -> Result<(), Failure> {
+        let names: Vec<String> = self.settings.iter().map(|(name, _)| name.clone()).collect();
+        check_once("--set", &names)
+    }
+
+    /// Finds parameters that do not exist or have no value.
     pub(crate) fn wrong(&self, robot: &Robot) -> Vec<String> {
         let mut wrong = vec![];
         let parameters = &robot.parameters;
         let known: Vec<&str> = parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        for (index, (name, _)) in self.settings.iter().enumerate() {
+        for (name, _) in &self.settings {
             if !known.contains(&name.as_str()) {
                 wrong.push(format!("--set: {}", text::unknown("parameter", name, &known)));
-            } else if self.settings[..index].iter().any(|(earlier, _)| earlier == name) {
-                wrong.push(format!("--set: `{name}` is set twice"));
             }
         }
         for parameter in parameters.iter().filter(|parameter| parameter.value.is_none()) {

@@ -26,7 +26,12 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     }
     let wrong = || format!("`{}` is not a number; write one such as 0.5 or pi/2", quote(text));
     let mut has_names = false;
-    let number = Formula::parse(text).map_err(|_| wrong())?.evaluate(|_| {
+    let parsed =
+        Formula::parse(text).map_err(|error| match error.message.contains("exponent") {
+            true => format!("`{}`: {}", quote(text), error.message),
+            false => wrong(),
+        })?;
+    let number = parsed.evaluate(|_| {
         has_names = true;
         f64::NAN
     });

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use robot_build::visible;
+use robot_build::{system_reason, visible};
 
 use crate::error::Error;
 use crate::probe::{CRATE, Probe, ROOT_FILE};
@@ -134,7 +134,7 @@ impl Compiler {
     fn run(&self, command: &mut Command) -> Result<Output, Error> {
         command
             .output()
-            .map_err(|error| Error::NoCompiler { path: self.path(), reason: error.to_string() })
+            .map_err(|error| Error::NoCompiler { path: self.path(), reason: system_reason(&error) })
     }
 
     fn refused(&self, output: &Output, folder: &Path) -> Error {

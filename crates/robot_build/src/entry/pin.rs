@@ -33,7 +33,8 @@ pub fn pin_path(robot: &Path) -> PathBuf {
 /// The files that are read for a robot: its file, and its pinned plan, which does not have to exist.
 #[must_use]
 pub fn robot_inputs(robot: &Path) -> [PathBuf; 2] {
-    let followed = robot.canonicalize();
+    // A path that is not a link stays as it was given, for messages.
+    let followed = if robot.is_symlink() { robot.canonicalize().ok() } else { None };
     [robot.to_owned(), pin_path(followed.as_deref().unwrap_or(robot))]
 }
 

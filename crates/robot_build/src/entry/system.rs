@@ -6,7 +6,7 @@ use std::io::{Error, ErrorKind};
 #[must_use]
 pub fn system_reason(error: &Error) -> String {
     let words = match error.kind() {
-        ErrorKind::NotFound => "there is no such file, or its folder takes no files",
+        ErrorKind::NotFound => "there is no such file or folder",
         ErrorKind::PermissionDenied => "you do not have permission",
         ErrorKind::NotADirectory => "a part of its path is a file, not a folder",
         ErrorKind::IsADirectory => "it is a folder",
@@ -16,6 +16,10 @@ pub fn system_reason(error: &Error) -> String {
         ErrorKind::FileTooLarge => "the system does not allow so large a file",
         // This kind has no stable name yet.
         kind if format!("{kind:?}") == "FilesystemLoop" => "its symbolic links form a cycle",
+        // EIO, which has no kind yet.
+        _ if cfg!(unix) && error.raw_os_error() == Some(5) => {
+            "the system does not give its content"
+        }
         _ => return without_number(&error.to_string()).to_owned(),
     };
     match error.get_ref() {

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{ArgAction, Args, ValueEnum};
 use robot_build::MARKER;
 use robot_document::document::{Block, Document};
@@ -39,13 +40,13 @@ pub(crate) struct Arguments {
           default_value = "grouped")]
     form: Vec<FormName>,
     /// Title [default: Equations of motion of NAME]
-    #[arg(long)]
+    #[arg(long, value_parser = NonEmptyStringValueParser::new())]
     title: Option<String>,
     /// Notation [default: typst for a file NAME.typ, markdown for NAME.md, else latex]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Number of columns on a page
-    #[arg(long, default_value_t = 1, value_parser = whole(1..=2_u8))]
+    #[arg(long, default_value_t = 1, value_parser = whole(1..=2_u8), allow_negative_numbers = true)]
     columns: u8,
     /// Width of a column, such as 8.5cm [default: as wide as fits on A4]
     #[arg(long, value_name = "WIDTH", value_parser = centimeters, allow_hyphen_values = true)]
@@ -65,7 +66,7 @@ fn source_path(text: &str) -> Result<PathBuf, String> {
     if is_typeset { Err(refusal.to_owned()) } else { Ok(path) }
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
     Latex,
     Typst,
@@ -76,15 +77,23 @@ enum Format {
 impl Arguments {
     /// The notation that is chosen, or else the one given by the ending of the file's name.
     fn format(&self) -> Result<Format, Failure> {
-        if let Some(format) = self.format {
-            return Ok(format);
-        }
         let extension = self.output.as_ref().and_then(|path| path.extension());
-        match extension.map(|extension| extension.to_string_lossy()).as_deref() {
-            None | Some("tex" | "ltx" | "latex") => Ok(Format::Latex),
-            Some("typ") => Ok(Format::Typst),
-            Some("md") => Ok(Format::Markdown),
-            Some(other) => Err(Failure::Usage(vec![format!(
+        let extension = extension.map(|extension| extension.to_string_lossy());
+        let named = match extension.as_deref() {
+            Some("tex" | "ltx" | "latex") => Some(Format::Latex),
+            Some("typ") => Some(Format::Typst),
+            Some("md") => Some(Format::Markdown),
+            _ => None,
+        };
+        match (self.format, named, extension.as_deref()) {
+            (Some(format), Some(named), Some(extension)) if format != named => {
+                Err(Failure::Usage(vec![format!(
+                    "--format contradicts the name of a file .{extension}; leave it out, or name the file otherwise"
+                )]))
+            }
+            (Some(format), ..) | (None, Some(format), _) => Ok(format),
+            (None, None, None) => Ok(Format::Latex),
+            (None, None, Some(other)) => Err(Failure::Usage(vec![format!(
                 "a document is not written as .{}; name the file NAME.tex, NAME.typ or NAME.md, or choose its notation with \
                  --format",
                 robot_build::shown(std::path::Path::new(other))

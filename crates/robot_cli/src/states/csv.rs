@@ -115,8 +115,12 @@ impl Columns {
                 match number(cells[*column]) {
                     Some(entry) => array.push(entry),
                     None => {
-                        let (name, cell) = (&self.names[*column], quote(cells[*column]));
-                        sink.error(format!("{place}: `{name}` is `{cell}`, not a number"));
+                        let (name, cell) = (&self.names[*column], cells[*column]);
+                        // A number such as 1e999, which no double can hold.
+                        let is_number = cell.parse::<f64>().is_ok_and(f64::is_infinite);
+                        let finite = if is_number { "finite " } else { "" };
+                        let cell = quote(cell);
+                        sink.error(format!("{place}: `{name}` is `{cell}`, not a {finite}number"));
                     }
                 }
             }

@@ -36,15 +36,26 @@ pub(super) fn read<'l>(
         Err(error) if error.classify() == Category::Io => {
             return Err(Failure::input(std::io::Error::from(error).to_string()));
         }
-        Err(error) if error.to_string().starts_with("recursion limit") => {
-            let (line, column) = (error.line(), error.column());
-            sink.no_states(format!(
-                "brackets are nested too deeply at line {line}, column {column}; expected an array of states"
-            ));
-        }
-        Err(error) => sink.no_states(format!("this is not JSON: {error}")),
+        Err(error) => sink.no_states(fault(&error)),
     }
     Ok(())
+}
+
+/// The message for a text that cannot be read as JSON.
+fn fault(error: &serde_json::Error) -> String {
+    let place = format!("line {}, column {}", error.line(), error.column());
+    let text = error.to_string();
+    let text = text.split(" at line ").next().unwrap_or_default();
+    match text {
+        "recursion limit exceeded" => {
+            format!("brackets are nested too deeply at {place}; expected an array of states")
+        }
+        "number out of range" => format!("the number at {place} is too large"),
+        _ if error.is_eof() => {
+            format!("the text ends too early, at {place}; close all brackets and quotes")
+        }
+        _ => format!("this is not JSON at {place}: {text}"),
+    }
 }
 
 /// Reads the elements of an array and passes them to the sink one by one.

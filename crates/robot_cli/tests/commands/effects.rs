@@ -97,3 +97,16 @@ fn imported_friction_that_no_joint_has_is_noticed() {
         assert!(!notes(&["import", file]).contains(note), "{dynamics}");
     }
 }
+
+#[test]
+fn a_document_has_the_format_of_its_name_and_a_title() {
+    let folder = folder("effects_document");
+    let arm = robot("planar_2r");
+    let path = folder.join("arm.typ");
+    let path = path.to_str().unwrap();
+    let wrong = complaint(2, &["document", &arm, "--format", "latex", "-o", path], "");
+    assert!(wrong.contains("--format contradicts the name of a file .typ"), "{wrong}");
+    assert!(run(&["document", &arm, "--format", "typst", "-o", path]).code == 0);
+    let wrong = complaint(2, &["document", &arm, "--title", ""], "");
+    assert!(wrong.contains("--title"), "{wrong}");
+}

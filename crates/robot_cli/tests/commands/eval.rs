@@ -205,11 +205,14 @@ fn what_is_not_a_list_of_states_is_told_with_wrong_options() {
     let shown = complaint(1, &eval, "");
     let lines: Vec<&str> = shown.lines().collect();
     assert!(lines[0].starts_with("error: --set: there is no parameter `m9`."), "{shown}");
-    assert!(lines[1].starts_with(&format!("error: {path}: this is not JSON: ")), "{shown}");
+    assert!(
+        lines[1].starts_with(&format!("error: {path}: this is not JSON at line 1, ")),
+        "{shown}"
+    );
     assert_eq!(lines.len(), 2, "{shown}");
     let twice = ["--set", "m1=1", "--set", "m1=2"];
-    let shown = complaint(1, &[&eval[..4], &["--q", "0,0"], &twice[..]].concat(), "");
-    assert_eq!(shown, "error: --set: `m1` is set twice\n");
+    let shown = complaint(2, &[&eval[..4], &["--q", "0,0"], &twice[..]].concat(), "");
+    assert_eq!(shown, "error: --set: `m1` is given twice; leave one out\n");
 }
 
 #[test]

@@ -233,7 +233,7 @@ fn remedies_fit_what_was_written() {
     let open = complaint(1, &open, "");
     assert!(open.contains("this parenthesis is not closed") && open.lines().count() == 1, "{open}");
     let single = complaint(1, &["generate", &file, "--language", "wgsl", "--scalar", "f64"], "");
-    assert!(single.ends_with("WGSL computes in f32 alone; add `--scalar f32`\n"), "{single}");
+    assert!(single.ends_with("WGSL computes in f32 alone; use `--scalar f32`\n"), "{single}");
     let tip = "\n[[tip]]\nlink = \"2\"\nposition = [0, 0, 0]\n[tip]\nlink = \"1\"\n";
     let text = std::fs::read_to_string(&file).unwrap() + tip;
     let path = folder("single-tip").join("arm.toml");

@@ -55,6 +55,18 @@ fn states_that_cannot_be_read_have_a_reason() {
     let (_, file) = arm("reasons_states");
     let eval = ["eval", &file, "--function", "gravity", "--states", "-"];
     let deep = complaint(1, &eval, &"[".repeat(1000));
+    for (states, expected) in [
+        ("[{\"q\": [1e999, 1]}]", "the number at line 1, column 14 is too large"),
+        ("[{\"q\": [1, 1]}", "the text ends too early, at line 1, column 14"),
+        ("[{\"q\": [NaN, 1]}]", "this is not JSON at line 1, column 9: expected value"),
+        ("q1,q2\n1e999,1\n", "`q1` is `1e999`, not a finite number"),
+        ("q1,q2\nx,1\n", "`q1` is `x`, not a number"),
+    ] {
+        let found = complaint(1, &eval, states);
+        assert!(found.contains(expected), "{states}: {found}");
+    }
+    let power = complaint(2, &["eval", &file, "--function", "gravity", "--q", "10^400,0"], "");
+    assert!(power.contains("`10^400`: the exponent 400 is beyond"), "{power}");
     assert!(deep.contains("brackets are nested too deeply at line 1, column 128"), "{deep}");
     let wide: Vec<u8> = "q1,q2".encode_utf16().flat_map(|unit| [unit as u8, 0]).collect();
     let done = crate::run_with(&eval, &[&[0xff, 0xfe], &wide[..]].concat());
@@ -78,13 +90,13 @@ fn whole_numbers_have_their_range() {
         (&["generate", &file, "--batch=1.5"], ""),
         (&["generate", &file, "--batch=x"], ""),
         (&["generate", &file, "--batch=99999999999999999999999"], ""),
-        (&["diff", &file, &file, "--seed=-1"], ""),
+        (&["diff", &file, &file, "--seed", "-1"], ""),
         (&["diff", &file, &file, "--states=0"], " from 1 to 100000"),
         (&["diff", &file, &file, "--terms=1.5"], ""),
         (&["equations", &file, "--digits=18"], " from 1 to 17"),
         (&["base", &file, "--digits=x"], " from 1 to 17"),
         (&["document", &file, "--columns=3"], " from 1 to 2"),
-        (&["watch", &file, "--saves=x"], ""),
+        (&["watch", &file, "--saves", "-1"], ""),
         (&["simulate", &file, "--max-steps=-1"], ""),
         (&["simulate", &file, "--max-steps", "-1"], ""),
     ] {
@@ -139,4 +151,43 @@ fn whole_numbers_are_read() {
         let done = run(arguments);
         assert_eq!(done.code, 0, "{arguments:?}: {}", done.errors);
     }
+}
+
+#[test]
+fn a_file_that_begins_with_a_dash_has_a_tip() {
+    let (folder, file) = arm("reasons_dash");
+    let text = std::fs::read(&file).unwrap();
+    std::fs::write(folder.join("-dash.toml"), text).unwrap();
+    let command = env!("CARGO_BIN_EXE_robot-symbolic");
+    let check = |name: &str| {
+        let mut command = std::process::Command::new(command);
+        command.args(["check", name]).current_dir(&folder).output().unwrap()
+    };
+    let wrong = String::from_utf8(check("-dash.toml").stderr).unwrap();
+    assert!(wrong.contains("write the file as './-dash.toml'"), "{wrong}");
+    assert!(check("./-dash.toml").status.success());
+}
+
+#[test]
+fn a_plan_is_no_robot_file_and_is_named_as_its_robot_is() {
+    let (folder, file) = arm("reasons_named");
+    output(&["search", &file], "");
+    let plan = file.replace(".toml", ".plan");
+    let found = complaint(1, &["check", &plan], "");
+    assert!(found.contains("this is a pinned plan, not a robot file"), "{found}");
+    assert!(found.contains("name the robot file that the plan belongs to"), "{found}");
+    std::fs::write(&plan, "mine").unwrap();
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_robot-symbolic"));
+    let done = command.args(["search", "arm.toml"]).current_dir(&folder).output().unwrap();
+    let found = String::from_utf8(done.stderr).unwrap();
+    assert!(found.starts_with("error: arm.plan is not replaced"), "{found}");
+}
+
+#[test]
+fn names_do_not_control_a_terminal_on_standard_output_either() {
+    let (folder, file) = arm("reasons_names");
+    let turned = folder.join("RTL\u{202e}.toml");
+    std::fs::copy(file, &turned).unwrap();
+    let found = output(&["check", turned.to_str().unwrap()], "");
+    assert!(found.contains("RTL\\u{202e}.toml: no errors"), "{found}");
 }

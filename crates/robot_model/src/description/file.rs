@@ -82,10 +82,18 @@ fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
     if number == Some(FORMAT) {
         return true;
     }
+    let (message, help) = if root.has("fingerprint") && root.has("digest") {
+        ("this is a pinned plan, not a robot file", "name the robot file that the plan belongs to")
+    } else {
+        (
+            "unknown file format",
+            "write `format = 1`, or use a version of this program that knows the format",
+        )
+    };
     reader.report(
-        Diagnostic::error(code::FORMAT, "unknown file format")
+        Diagnostic::error(code::FORMAT, message)
             .at(&entry.value.span(), format!("only format {FORMAT} is known"))
-            .help("write `format = 1`, or use a version of this program that knows the format"),
+            .help(help),
     );
     false
 }

@@ -315,7 +315,12 @@ enum Target {
 }
 
 pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
-    Error::File { action: "write", path: path.to_owned(), reason: system_reason(error) }
+    let reason = match error.kind() {
+        // The file is made beside its name.
+        std::io::ErrorKind::NotFound => "its folder does not exist, or takes no files".to_owned(),
+        _ => system_reason(error),
+    };
+    Error::File { action: "write", path: path.to_owned(), reason }
 }
 
 /// Whether a path ends with a separator, as paths of folders do.

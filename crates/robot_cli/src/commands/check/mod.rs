@@ -6,7 +6,7 @@ mod json;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use robot_build::{Error, RobotFile};
+use robot_build::{Error, RobotFile, visible};
 use robot_check::doctor::Examination;
 use robot_model::diagnostic::{Severity, Style, code};
 
@@ -30,7 +30,8 @@ mistakes; they change nothing, and most are shown only by this command. Notes sa
 Every diagnostic has a stable code with a page (docs/diagnostics).
 
 Exit codes: 0 if there are no errors; 1 if a file has errors, or warnings with --deny warnings; 2 if the command
-line is wrong. Text goes to standard error, JSON to standard output.")]
+line is wrong. What is wrong goes to standard error as text; that nothing is, and JSON, go to standard
+output.")]
 pub(crate) struct Arguments {
     /// Robot files, TOML or URDF
     #[arg(required_unless_present = "explain", value_name = "FILE")]
@@ -130,7 +131,7 @@ fn show(report: &Report, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         writeln!(terminal.errors, "note[{code}]: {name}:{line}:{column}: {message}")?;
     }
     if found.is_empty() {
-        answered(&format!("{name}: no errors, no warnings\n"), terminal)?;
+        answered(&format!("{}: no errors, no warnings\n", visible(name)), terminal)?;
     } else {
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         writeln!(terminal.errors, "{}", in_flags(found.render(style).trim_end()))?;

@@ -43,13 +43,13 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     reading: ReadingArguments,
     /// Seed of the random states at which torques are compared
-    #[arg(long, default_value_t = 1, value_parser = whole(0_u64..))]
+    #[arg(long, default_value_t = 1, value_parser = whole(0_u64..), allow_negative_numbers = true)]
     seed: u64,
     /// Number of random states, at most 100000
-    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STATES))]
+    #[arg(long, default_value_t = 1000, value_parser = whole(1..=MOST_STATES), allow_negative_numbers = true)]
     states: u32,
     /// Maximum number of terms shown per equation in text [default: 20]
-    #[arg(long, value_parser = whole(0_usize..))]
+    #[arg(long, value_parser = whole(0_usize..), allow_negative_numbers = true)]
     terms: Option<usize>,
     /// Output format
     #[arg(long, value_enum, default_value_t = Format::Text)]

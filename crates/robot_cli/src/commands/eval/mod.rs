@@ -83,6 +83,7 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        self.settings.check_once()?;
         let (path, writer) = (file_of(self.output.as_deref()), self.writer()?);
         let file = self.robot.open()?;
         let described = file.read(terminal)?;

@@ -46,10 +46,10 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     force: ForceArgument,
     /// Maximum number of terms shown per equation
-    #[arg(long, default_value_t = 20, value_parser = whole(0_usize..))]
+    #[arg(long, default_value_t = 20, value_parser = whole(0_usize..), allow_negative_numbers = true)]
     terms: usize,
     /// End after this many saves [default: run until Ctrl-C]
-    #[arg(long, value_name = "COUNT", value_parser = whole(0_usize..))]
+    #[arg(long, value_name = "COUNT", value_parser = whole(0_usize..), allow_negative_numbers = true)]
     saves: Option<usize>,
 }
 
