@@ -254,7 +254,7 @@ fn values_of_wide_tables_have_the_names_of_their_columns() {
     let document = parsed(&page);
     let stacked = document.descendants().filter(|node| node.attribute("class") == Some("stacked"));
     let stacked: Vec<_> = stacked.collect();
-    assert_eq!(stacked.len(), 4);
+    assert_eq!(stacked.len(), 5);
     for table in stacked {
         let named =
             |name: &'static str| table.descendants().filter(move |node| node.has_tag_name(name));

@@ -65,3 +65,14 @@ fn base_parameters_are_as_many_as_known() {
         assert_eq!(check(&robot(name), name, 5), count, "{name}");
     }
 }
+
+/// Only parameters to which others are added have an R in their names.
+#[test]
+fn regrouped_parameters_are_marked() {
+    let robot = robot("planar_2r");
+    let graph = Graph::new();
+    let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+    let base = robot_dynamics::base_parameters::base_parameters(&derivation).unwrap();
+    let names: Vec<String> = base.base.iter().map(|parameter| parameter.name()).collect();
+    assert_eq!(names, ["MXR_1", "MY_1", "ZZR_1", "MX_2", "MY_2", "ZZ_2"]);
+}
