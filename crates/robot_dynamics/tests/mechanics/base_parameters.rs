@@ -1,5 +1,6 @@
 //! Checks that the regressor of the base parameters, times the base parameters, gives the joint torques with friction.
 
+use robot_dynamics::base_parameters::{BaseParameter, base_parameters};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::functions::out_of_reach;
@@ -72,7 +73,7 @@ fn regrouped_parameters_are_marked() {
     let robot = robot("planar_2r");
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-    let base = robot_dynamics::base_parameters::base_parameters(&derivation).unwrap();
-    let names: Vec<String> = base.base.iter().map(|parameter| parameter.name()).collect();
+    let base = base_parameters(&derivation).unwrap();
+    let names: Vec<String> = base.base.iter().map(BaseParameter::name).collect();
     assert_eq!(names, ["MXR_1", "MY_1", "ZZR_1", "MX_2", "MY_2", "ZZ_2"]);
 }
