@@ -88,7 +88,7 @@ fn everything_that_is_wrong_with_json_is_named() {
         ["state 1: `q` is given twice", "state 1: `qd` has an object at entry 2, not a number"];
     assert_eq!(errors(twice), expected);
     assert!(errors("{}")[0].contains("expected an array of states"));
-    assert!(errors("[{")[0].contains("this is not JSON: EOF"));
+    assert!(errors("[{")[0].contains("the text ends too early, at line 1, column 2"));
     assert_eq!(errors(" \n"), ["there are no states"]);
     assert_eq!(states("[]"), []);
 }
