@@ -89,13 +89,32 @@ pub(super) struct Calls {
     pub(super) model: &'static str,
     /// The text before the call of the form over states.
     pub(super) before: &'static str,
+    /// The text between the name of the form over states and its arguments.
+    pub(super) grid: &'static str,
+    /// The text after the call of the form over states.
+    pub(super) after: &'static str,
+    /// Declares columns, given their type, name and number of entries.
+    pub(super) columns: fn([&str; 3]) -> String,
     /// Whether a function has the form over states.
     pub(super) has_batch: fn(&Function<'_>) -> bool,
 }
 
 /// Calls in C itself.
-pub(super) const C_CALLS: Calls =
-    Calls { ending: "h", top: "", model: "&model, ", before: "", has_batch: c::has_batch };
+pub(super) const C_CALLS: Calls = Calls {
+    ending: "h",
+    top: "",
+    model: "&model, ",
+    before: "",
+    grid: "",
+    after: "",
+    columns: static_columns,
+    has_batch: c::has_batch,
+};
+
+/// Declares columns as a static array.
+pub(super) fn static_columns([real, name, count]: [&str; 3]) -> String {
+    format!("static {real} {name}[{count}];")
+}
 
 /// Prints a program that reads states, calls every function in both ways and writes the results.
 pub(super) fn program(work: &Work, tree: &Tree<'_>, way: &Calls) -> String {
@@ -148,9 +167,8 @@ fn block(
     for (array, length) in &arrays {
         text.push_str(&format!("        static {real} {array}[{length}];\n"));
         if has_batch {
-            text.push_str(&format!(
-                "        static {real} columns_{array}[{length} * {states}];\n"
-            ));
+            let columns = [real, &format!("columns_{array}"), &format!("{length} * {states}")];
+            text.push_str(&format!("        {}\n", (way.columns)(columns)));
         }
     }
     text.push_str(&format!("        (void)j;\n        for (i = 0; i < {states}; i++) {{\n"));
@@ -197,9 +215,8 @@ fn columns(
     let listed = listed.join(", ");
     let mut text = String::new();
     text.push_str(&format!(
-        "        {}{batch}({model}{states}, {states}, {});\n        for (i = 0; i < {states}; i++) {{\n",
-        way.before,
-        listed
+        "        {}{batch}{}({model}{states}, {states}, {listed});{}\n        for (i = 0; i < {states}; i++) {{\n",
+        way.before, way.grid, way.after
     ));
     for array in &function.outputs {
         let (array, length) = (&array.name, array.length);

@@ -1,15 +1,13 @@
-//! CUDA C++ without a device: it is run on the processor as C++, and compiled for a device by NVRTC.
+//! CUDA C++: it is run on the processor as C++, compiled for a device by NVRTC, and run on a device where one is at hand.
 
 use std::path::Path;
 
-use robot_build::Functions;
-use robot_build::languages::{Language, package};
+use robot_build::languages::Language;
 use robot_codegen::Scalar;
 use robot_codegen::backend::c;
 use robot_codegen::backend::flat::FlatOptions;
-use robot_model::functions::{Effects, FunctionKind};
 
-use super::c::{Calls, program};
+use super::c::{Calls, program, static_columns};
 use super::{Found, Runner, read, results, write_package};
 use crate::files;
 use crate::work::Work;
@@ -55,6 +53,9 @@ const CALLS: Calls = Calls {
     top: "#include \"shims.h\"\n",
     model: "model, ",
     before: GRID,
+    grid: "",
+    after: "",
+    columns: static_columns,
     has_batch: |function| !function.inputs.is_empty(),
 };
 
@@ -74,33 +75,117 @@ impl Runner for Cuda {
     /// Compiles without optimization, which takes a fifth of the time; the runner of g++ optimizes the same functions.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
         write_package(work, Language::Cuda, folder)?;
-        let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
-        let tree = c::cuda_tree(&work.programs.module, &options);
         files::write(folder, "shims.h", SHIMS.as_bytes())?;
-        files::write(folder, "main.cpp", program(work, &tree, &CALLS).as_bytes())?;
         let example = String::from_utf8_lossy(&read(folder, "example.cu")?).into_owned();
         // A grid of one thread computes all states.
         let example = example.replace("<<<1, 32>>>", "").replace("<<<1, 1>>>", "");
         let example = format!("#include \"shims.h\"\n{example}");
         files::write(folder, "example.cpp", example.as_bytes())?;
-        for source in ["main", "example"] {
-            let file = format!("{source}.cpp");
-            let mut arguments = vec!["-std=c++17", "-O0", "-ffp-contract=off", "-Wall", "-Wextra"];
-            arguments.extend(["-Werror", &file, "-o", source]);
-            files::run(folder, "g++", &arguments)?;
-            files::run(folder, &format!("./{source}"), &[])?;
+        let options = ["-std=c++17", "-O0", "-ffp-contract=off", "-Wall", "-Wextra", "-Werror"];
+        compiled_and_run(work, folder, &CALLS, ["g++", "cpp"], &options)
+    }
+}
+
+/// Compiles a program with all calls, and the example of the package, runs both, and returns the results of the calls.
+fn compiled_and_run(
+    work: &Work,
+    folder: &Path,
+    calls: &Calls,
+    [compiler, ending]: [&str; 2],
+    options: &[&str],
+) -> Result<Vec<Found>, String> {
+    let tree_options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
+    let tree = c::cuda_tree(&work.programs.module, &tree_options);
+    let text = program(work, &tree, calls);
+    files::write(folder, &format!("main.{ending}"), text.as_bytes())?;
+    for source in ["main", "example"] {
+        let file = format!("{source}.{ending}");
+        let arguments = [options, &[&file, "-o", source]].concat();
+        files::run(folder, compiler, &arguments)?;
+        files::run(folder, &format!("./{source}"), &[])?;
+    }
+    let has_batch = |index: usize| (calls.has_batch)(&tree.functions[index]);
+    Ok(vec![
+        Found { way: "single", results: results(work, &read(folder, "single.bin")?, |_| true)? },
+        Found { way: "kernel", results: results(work, &read(folder, "batch.bin")?, has_batch)? },
+    ])
+}
+
+/// The runner on a device, with the header compiled by nvcc: functions are called on the host, and kernels on the
+/// device.
+pub(super) struct Nvcc;
+
+/// Columns that host and device share, filled with NaN, and the wait for a kernel.
+const DEVICE: &str = "#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+static void succeed(cudaError_t error)
+{
+    if (error != cudaSuccess) {
+        std::fprintf(stderr, \"%s\\n\", cudaGetErrorString(error));
+        std::exit(4);
+    }
+}
+
+template <class T> static T *shared_columns(std::size_t count)
+{
+    T *memory = nullptr;
+    succeed(cudaMallocManaged(&memory, count * sizeof(T)));
+    std::memset(memory, 0xff, count * sizeof(T));
+    return memory;
+}
+
+static void finish()
+{
+    succeed(cudaGetLastError());
+    succeed(cudaDeviceSynchronize());
+}
+
+";
+
+/// Calls of kernels, with fewer threads than states.
+const DEVICE_CALLS: Calls = Calls {
+    top: DEVICE,
+    before: "",
+    grid: "<<<3, 7>>>",
+    after: " finish();",
+    columns: |[real, name, count]| format!("{real} *{name} = shared_columns<{real}>({count});"),
+    ..CALLS
+};
+
+impl Runner for Nvcc {
+    fn name(&self) -> &'static str {
+        "nvcc"
+    }
+
+    fn missing(&self) -> Option<String> {
+        if !files::is_there("nvcc", &["--version"]) {
+            return Some("nvcc is not installed".to_owned());
         }
-        let has_batch = |index: usize| (CALLS.has_batch)(&tree.functions[index]);
-        Ok(vec![
-            Found {
-                way: "single",
-                results: results(work, &read(folder, "single.bin")?, |_| true)?,
-            },
-            Found {
-                way: "kernel",
-                results: results(work, &read(folder, "batch.bin")?, has_batch)?,
-            },
-        ])
+        (!files::is_there("nvidia-smi", &["-L"])).then(|| "there is no device".to_owned())
+    }
+
+    fn has(&self, _: Scalar) -> bool {
+        true
+    }
+
+    fn has_standard_sines(&self) -> bool {
+        false
+    }
+
+    fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
+        write_package(work, Language::Cuda, folder)?;
+        let options = [
+            "-std=c++17",
+            "-arch=native",
+            "-fmad=false",
+            "-Werror",
+            "all-warnings",
+            "-Xcompiler",
+            "-ffp-contract=off,-Wall,-Wextra",
+        ];
+        compiled_and_run(work, folder, &DEVICE_CALLS, ["nvcc", "cu"], &options)
     }
 }
 
@@ -109,7 +194,7 @@ impl Runner for Cuda {
 pub(super) struct Nvrtc;
 
 /// Finds the library in the Python package.
-const LIBRARY: &str = "import importlib.util, pathlib
+const NVRTC: &str = "import importlib.util, pathlib
 folder = importlib.util.find_spec('nvidia.cuda_nvrtc').submodule_search_locations[0]
 library = next((pathlib.Path(folder) / 'lib').glob('libnvrtc.so*'))
 ";
@@ -144,7 +229,7 @@ impl Runner for Nvrtc {
     }
 
     fn missing(&self) -> Option<String> {
-        let is_there = files::is_there("python3", &["-c", LIBRARY]);
+        let is_there = files::is_there("python3", &["-c", NVRTC]);
         (!is_there).then(|| "the Python package nvidia-cuda-nvrtc-cu12 is not installed".to_owned())
     }
 
@@ -156,22 +241,14 @@ impl Runner for Nvrtc {
         false
     }
 
-    /// Compiles only three functions, because the compiler takes minutes for long ones.
     fn run(&self, work: &Work, folder: &Path) -> Result<Vec<Found>, String> {
-        let functions = vec![
-            FunctionKind::InverseDynamics(Effects::default()),
-            FunctionKind::ForwardDynamics(Effects::default()),
-            FunctionKind::Gravity,
-        ];
-        let mut options = work.options.clone();
-        options.functions = Functions::Chosen(functions);
-        options.bundles = vec![];
-        let found = package(&work.source, &options, Language::Cuda);
-        let found = found.map_err(|error| error.to_string())?;
-        let header = found.iter().find(|file| file.path.ends_with(".cuh"));
-        let header = header.ok_or("the package has no header")?.contents.text().unwrap_or_default();
+        write_package(work, Language::Cuda, folder)?;
+        let options = FlatOptions { scalar: work.options.scalar, ..FlatOptions::default() };
+        let name = c::cuda_tree(&work.programs.module, &options).name;
+        let header = read(folder, &format!("{name}.cuh"))?;
+        let header = String::from_utf8_lossy(&header).into_owned();
         files::write(folder, "robot.cuh", header.as_bytes())?;
-        files::write(folder, "compile.py", format!("{LIBRARY}{COMPILE}").as_bytes())?;
+        files::write(folder, "compile.py", format!("{NVRTC}{COMPILE}").as_bytes())?;
         files::run(folder, "python3", &["compile.py"])?;
         let ptx = String::from_utf8_lossy(&read(folder, "robot.ptx")?).into_owned();
         let kernels = header.matches("_KERNEL_ void ").count();

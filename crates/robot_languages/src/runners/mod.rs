@@ -65,6 +65,7 @@ pub fn all() -> Vec<Box<dyn Runner>> {
     runners.push(Box::new(flags::Flags));
     runners.push(Box::new(cuda::Cuda));
     runners.push(Box::new(cuda::Nvrtc));
+    runners.push(Box::new(cuda::Nvcc));
     runners.extend(scripts::all());
     runners.push(Box::new(wasm::Wasm));
     runners.push(Box::new(wgsl::Naga));
