@@ -3,6 +3,8 @@
 //
 //   casadi_source FOLDER ROBOT.txt...
 //
+// Also saves the function of inverse dynamics itself as FOLDER/ROBOT_inverse_dynamics.casadi.
+//
 // The wheels do not contain pinocchio.casadi for Python; this program does the same without Python. Rotations
 // within 1e-4 of exact ones are made exact, which yields the fastest code with CasADi.
 #include <pinocchio/autodiff/casadi.hpp>
@@ -92,6 +94,7 @@ static void write_source(const std::string &folder, const RobotData &robot) {
   casadi::CodeGenerator generator(robot.name + ".c");
   for (const auto &function : functions) generator.add(function);
   generator.generate(folder + "/");
+  functions.front().save(folder + "/" + robot.name + "_inverse_dynamics.casadi");
 }
 
 int main(int count, char **arguments) {

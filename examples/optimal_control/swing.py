@@ -8,6 +8,10 @@ accelerations. To run it:
     cc -std=c99 -O2 -ffp-contract=off -shared -fPIC ur5_c/ur5_casadi.c -o libur5_casadi.so -lm
     pip install casadi
     python examples/optimal_control/swing.py ./libur5_casadi.so
+
+Given the robot's URDF file, or a function that CasADi saved (benches/peers/run saves Pinocchio's as
+target/peers/c/ur5_inverse_dynamics.casadi), the problem is also solved with Pinocchio's inverse dynamics, and the
+optimal costs are compared.
 """
 
 import sys
@@ -76,7 +80,10 @@ def solve(name, inverse_dynamics):
 
 
 def pinocchio_dynamics(path):
-    """Returns the inverse dynamics of a URDF file as CasADi expressions by Pinocchio, if its build has them."""
+    """Returns Pinocchio's inverse dynamics as CasADi expressions: those that a file has, or those that Pinocchio makes
+    from a URDF file, if its build can."""
+    if path.endswith(".casadi"):
+        return casadi.Function.load(path)
     try:
         import pinocchio
         import pinocchio.casadi
@@ -90,10 +97,10 @@ def pinocchio_dynamics(path):
 
 def main():
     if len(sys.argv) < 2:
-        sys.exit("usage: swing.py LIBRARY [URDF for Pinocchio]")
+        sys.exit("usage: swing.py LIBRARY [ROBOT.urdf or FUNCTION.casadi]")
     generated = casadi.external("casadi_ur5_inverse_dynamics", sys.argv[1])
     cost = solve("generated", generated)
-    peer = pinocchio_dynamics(sys.argv[2] if len(sys.argv) > 2 else "")
+    peer = pinocchio_dynamics(sys.argv[2]) if len(sys.argv) > 2 else None
     if peer is not None:
         other = solve("Pinocchio", peer)
         print(f"the costs differ by {abs(other - cost) / cost:.1e} of one")

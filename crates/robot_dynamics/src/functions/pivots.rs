@@ -61,8 +61,13 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 /// configurations, and by descents from the worst of them.
 pub(super) fn may_be_small(robot: &Robot) -> bool {
     let matrix = SampledMassMatrix::new(robot);
-    let small = if matrix.order() < MANY { SMALL } else { SMALL_OF_MANY };
+    let small = small(matrix.order());
     !matrix.keeps_pivots_above(small) && Search::new(&matrix, small).finds_one()
+}
+
+/// The fraction of the diagonal below which pivots of a robot with this many coordinates are small.
+fn small(coordinates: usize) -> f64 {
+    if coordinates < MANY { SMALL } else { SMALL_OF_MANY }
 }
 
 /// A search for small pivots.
@@ -216,5 +221,10 @@ mod tests {
         for name in ["puma560", "scara", "planar_2r"] {
             assert!(!may_be_small(&robot(name)), "{name}");
         }
+    }
+
+    #[test]
+    fn nine_coordinates_are_many() {
+        assert_eq!([8, 9].map(small), [SMALL, SMALL_OF_MANY]);
     }
 }
