@@ -47,9 +47,10 @@ const GROWTH: f64 = 4.0;
 #[must_use]
 pub(crate) fn run(program: &Program, samples: &Samples, effort: Resubstitution) -> Program {
     let mut found = super::dead_code::run(program);
-    for _ in 0..ROUNDS {
+    let rounds = if effort == Resubstitution::Off { 0 } else { ROUNDS };
+    for _ in 0..rounds {
         let mut search = Search::new(&found, samples);
-        if effort == Resubstitution::Off || !search.sweep(effort) {
+        if !search.sweep(effort) {
             break;
         }
         found = search.program();

@@ -28,16 +28,16 @@ const PRODUCTS: usize = 8 * MONOMIALS;
 const DEGREE: usize = 8;
 
 /// A product of variables and their reciprocals, by their numbers in descending order; 0 for none.
-type Monomial = [u8; DEGREE];
+type Monomial = [u16; DEGREE];
 
 /// The product of no variables.
 const ONE: Monomial = [0; DEGREE];
 /// The number of the variable that stands for all values of functions.
-const CALL: u8 = 1 + VARIABLES as u8;
+const CALL: u16 = 1 + VARIABLES as u16;
 /// What is added to the number of a variable for its reciprocal.
-const INVERSE: u8 = CALL;
+const INVERSE: u16 = CALL;
 /// The number of the first variable that stands for the reciprocal of a sum.
-const OF_SUM: u8 = 2 * CALL + 1;
+const OF_SUM: u16 = 2 * CALL + 1;
 
 /// A coefficient at the points, with bounds on the rounding error of its evaluation.
 #[derive(Clone, Copy, Debug, Default)]
@@ -93,19 +93,19 @@ impl Polynomials {
         let width = variables.len().div_ceil(VARIABLES).max(1);
         let variable = |source: Source| {
             let index = variables.iter().position(|variable| *variable == source);
-            index.map_or(0, |index| 1 + (index / width) as u8)
+            index.map_or(0, |index| 1 + (index / width) as u16)
         };
         let mut divisors = vec![];
-        let mut reciprocal = |divisor: Value| -> u8 {
+        let mut reciprocal = |divisor: Value| -> u16 {
             if !divisors.contains(&divisor) {
                 divisors.push(divisor);
             }
             let index = divisors.iter().position(|known| *known == divisor).unwrap_or_default();
-            OF_SUM + (index % usize::from(u8::MAX - OF_SUM)) as u8
+            OF_SUM + (index % usize::from(u16::MAX - OF_SUM)) as u16
         };
         let mut found = Polynomials(Vec::with_capacity(program.operations().len()));
         for (value, operation) in program.values() {
-            let exact = |variable: u8| {
+            let exact = |variable: u16| {
                 let (values, errors) = (number(value, operation), [0.0; POINTS]);
                 Some(Polynomial::from([(of(variable), Coefficient { values, errors })]))
             };
@@ -163,7 +163,7 @@ impl Polynomials {
 }
 
 /// The reciprocals of sums in a polynomial. Two polynomials with different ones cannot be compared.
-fn reciprocals(polynomial: &Polynomial) -> BTreeSet<u8> {
+fn reciprocals(polynomial: &Polynomial) -> BTreeSet<u16> {
     let variables = polynomial.keys().flatten().copied();
     variables.filter(|variable| *variable >= OF_SUM).collect()
 }
@@ -218,7 +218,7 @@ fn product(a: Option<&Polynomial>, b: Option<&Polynomial>) -> Option<Polynomial>
 }
 
 /// The monomial of one variable, or of none.
-fn of(variable: u8) -> Monomial {
+fn of(variable: u16) -> Monomial {
     let mut monomial = ONE;
     monomial[0] = variable;
     monomial
@@ -238,7 +238,7 @@ fn times(a: &Monomial, b: &Monomial) -> Option<Monomial> {
 }
 
 /// The reciprocal of a variable that is not that of a sum.
-fn inverse(variable: u8) -> u8 {
+fn inverse(variable: u16) -> u16 {
     match variable {
         0 | OF_SUM.. => variable,
         1..=INVERSE => variable + INVERSE,
@@ -247,7 +247,7 @@ fn inverse(variable: u8) -> u8 {
 }
 
 /// The quotient by a polynomial. The reciprocal of a sum is the variable `of_sum`.
-fn quotient(a: Option<Polynomial>, b: Option<&Polynomial>, of_sum: u8) -> Option<Polynomial> {
+fn quotient(a: Option<Polynomial>, b: Option<&Polynomial>, of_sum: u16) -> Option<Polynomial> {
     let (a, b) = (a?, b?);
     let mut reciprocal = Coefficient::default();
     for point in 0..POINTS {
