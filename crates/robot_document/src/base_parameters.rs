@@ -7,10 +7,13 @@ use robot_model::functions::out_of_reach;
 use robot_model::robot::Robot;
 use robot_model::signs::Font;
 use robot_model::snap;
-use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
+use robot_symbolic::{
+    AngleSums, Expr, Graph, Id, Number, Polynomial, PolynomialOptions, Rational, walk,
+};
+use rustc_hash::FxHashMap;
 
 use crate::error::Error;
-use crate::forms::{Equation, Group, MAX_NODES};
+use crate::forms::{Equation, Group, MAX_NODES, with_values};
 use crate::latex;
 use crate::layout::{Order, SymbolTable, Trigonometry, has_longer, tidied, tidied_text};
 use crate::math::{Fence, Math};
@@ -21,7 +24,17 @@ const LIMITS: PolynomialOptions =
 
 /// The remedy for formulas of base parameters that are too long.
 const SHORTER: &str = "their formulas are too long to read, but the function `base_parameters` computes their values; if \
-    angles between frames are nearly multiples of π/2, snapping them (the option `snap`) makes the formulas shorter";
+    angles between frames are nearly multiples of π/2, snapping them (the option `snap`) makes the formulas shorter, and \
+    formulas in other frames (`base_frames = \"denavit_hartenberg\"`) can be shorter";
+
+/// The length of a coefficient, in operations and operands as printed, from which its constants are numbers.
+const LONG: u64 = 200;
+/// The length from which a coefficient is refused.
+const TOO_LONG: u64 = 100_000;
+/// The largest denominator of a number that is printed as a fraction, and its largest distance from the number's
+/// computed value. A number that is no such fraction comes this close to one with a probability of about 10⁻⁸.
+const DENOMINATOR: f64 = 1000.0;
+const DISTANCE: f64 = 1e-14;
 
 /// The explanation of the names of standard and base parameters.
 pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \
@@ -37,7 +50,8 @@ pub struct BaseSet {
     pub standard: Vec<String>,
     /// The base parameters, in the order of their columns.
     pub list: Vec<BaseEntry>,
-    /// Whether coefficients are rounded; see [`BaseParameters::rounded`].
+    /// Whether coefficients are rounded: because joints share a coordinate (see [`BaseParameters::rounded`]), or because
+    /// exact ones would be long expressions in sines and roots of numbers.
     pub rounded: bool,
 }
 
@@ -171,11 +185,58 @@ pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     Math::row(right)
 }
 
-/// Finds the base parameters, or returns the reason why they cannot be computed.
+/// Finds the base parameters, with coefficients that can be printed, or returns the reason why this is impossible.
 pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
-    base_parameters(derivation).ok_or_else(|| Error::Base {
+    let mut found = base_parameters(derivation).ok_or_else(|| Error::Base {
         reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
-    })
+    })?;
+    for (_, coefficient) in found.base.iter_mut().flat_map(|parameter| &mut parameter.terms) {
+        if length(*coefficient) > LONG {
+            *coefficient = with_numbers(*coefficient);
+            found.rounded = true;
+        }
+        if length(*coefficient) > TOO_LONG {
+            let reason = format!("a coefficient has more than {TOO_LONG} operations; {SHORTER}");
+            return Err(Error::Base { reason });
+        }
+    }
+    Ok(found)
+}
+
+/// The number of operations and operands of an expression as it is printed, in which common parts occur several times.
+fn length(root: Expr<'_>) -> u64 {
+    let mut known: FxHashMap<Id, u64> = FxHashMap::default();
+    for expr in walk::reachable(&[root]) {
+        let operands = expr.operands().into_iter();
+        let of_operands = operands.map(|operand| known.get(&operand.id()).copied().unwrap_or(0));
+        known.insert(expr.id(), of_operands.fold(1, u64::saturating_add));
+    }
+    known.get(&root.id()).copied().unwrap_or(0)
+}
+
+/// The expression with numbers for its long constants: fractions if they are near one, otherwise decimals.
+fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
+    let graph = coefficient.graph();
+    // Expansions of expressions as long as these take minutes.
+    let short = with_values(&[coefficient], graph, |_, value| value);
+    let short = short.first().copied().unwrap_or(coefficient);
+    let fraction = short.as_number().and_then(|number| fraction(number.to_f64()));
+    fraction.map_or(short, |fraction| graph.number(Number::Rational(fraction)))
+}
+
+/// The fraction with a small denominator that is as near to a value as rounding errors leave it, by continued fractions.
+fn fraction(value: f64) -> Option<Rational> {
+    let (mut rest, mut before, mut denominator) = (value.abs(), 0.0, 1.0);
+    while denominator <= DENOMINATOR {
+        let numerator = (value * denominator).round();
+        if (numerator / denominator - value).abs() <= DISTANCE * value.abs() {
+            let reciprocal = Rational::from_f64(denominator)?.recip()?;
+            return Some(&Rational::from_f64(numerator)? * &reciprocal);
+        }
+        rest = (rest - rest.floor()).recip();
+        (before, denominator) = (denominator, rest.floor() * denominator + before);
+    }
+    None
 }
 
 /// Expands coefficients or values.
@@ -328,4 +389,64 @@ fn product(factor: &Term, names: &[&Written]) -> Term {
     };
     let text = if is_one { text } else { format!("{}*{text}", written.text) };
     Term { negative: *negative, written: Written { text, math: Math::row(pieces) } }
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_testing::read;
+
+    use super::*;
+
+    /// Two links with skew axes; the first is turned and displaced as `origin` says.
+    fn skew(origin: &str) -> Robot {
+        let rest = "mass = 1\ncenter_of_mass = [0.1, 0.2, 0.3]\ninertia = { xx = 0.05, yy = 0.055, zz = 0.045 }\n";
+        let link = |name: &str, axis: &str, origin: &str| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = {axis} }}\n{origin}\n{rest}"
+            )
+        };
+        let second = link(
+            "b",
+            "[0.3, -0.2, 0.7]",
+            "origin = { xyz = [0.3, 0.1, 0.2], rpy = [1.1, 0.4, 0.2] }",
+        );
+        let first = link("a", "[1, 2, 3]", origin);
+        read("skew", &format!("format = 1\n[robot]\nname = \"skew\"\n{first}{second}"))
+    }
+
+    /// Exact coefficients are quotients of thousands of terms here, most of which cancel.
+    #[test]
+    fn coefficients_of_skew_axes_are_numbers() {
+        let robot = skew("origin = { xyz = [0, 0, 1], rpy = [0.1, 0.2, 0.3] }");
+        let set = base(&robot, None).unwrap();
+        assert!(set.rounded);
+        let first = set.list.iter().find(|entry| entry.name == "MXR_1").unwrap();
+        assert!(first.formula.text.starts_with("MX_1 - 1/3*MZ_1 "), "{}", first.formula.text);
+        // The values are those of the exact coefficients.
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::EXACT, None);
+        let exact = base_parameters(&derivation).unwrap().nominal();
+        for (entry, exact) in set.list.iter().zip(exact) {
+            let (value, exact): (f64, f64) =
+                (entry.value.text.parse().unwrap(), exact.evaluate(|_| f64::NAN));
+            assert!((value - exact).abs() < 1e-12, "{}: {value}, {exact}", entry.name);
+        }
+    }
+
+    #[test]
+    fn fractions_have_small_denominators() {
+        let found = |value: f64| fraction(value).map(|fraction| fraction.to_string());
+        for (value, text) in [
+            (-1.0 / 3.0, Some("-1/3")),
+            (1.0 - 2.0 / 3.0, Some("1/3")),
+            (0.0, Some("0")),
+            (355.0 / 113.0, Some("355/113")),
+            (2.0_f64.sqrt(), None),
+            (1.0 / 3.0 + 1e-12, None),
+            (f64::NAN, None),
+            (f64::INFINITY, None),
+        ] {
+            assert_eq!(found(value).as_deref(), text, "{value}");
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! Pinned plans next to robot files: `panda.plan` next to `panda.toml`.
 
 use std::ffi::OsStr;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use robot_dynamics::economical::mechanics;
@@ -99,7 +100,12 @@ impl RobotFile {
 
 /// Reads the pinned plan in a file; the error is the reason why it cannot be read.
 fn read_pin(path: &Path) -> Result<Pin, String> {
-    let found = std::fs::metadata(path).map_err(|error| system_reason(&error))?;
+    let found = std::fs::metadata(path).map_err(|error| match std::fs::read_link(path) {
+        Ok(target) if error.kind() == ErrorKind::NotFound => {
+            format!("the pinned plan is a link to `{}`, which does not exist", target.display())
+        }
+        _ => system_reason(&error),
+    })?;
     if !found.is_file() {
         return Err("a pinned plan must be a regular file, and this is not".to_owned());
     }

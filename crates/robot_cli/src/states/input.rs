@@ -1,7 +1,7 @@
 //! The source of states: a file, or a stream that can be read only once.
 
 use std::cell::Cell;
-use std::io::{BufRead, BufReader, Error, Read, Result, Seek, SeekFrom};
+use std::io::{BufRead, BufReader, Error, Read, Result, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use robot_build::system_reason;
@@ -180,7 +180,7 @@ impl<'t> Rest<'t> {
     fn keep(&mut self) -> Result<()> {
         if let Rest::Stream(reader) = self {
             let mut kept = tempfile::SpooledTempFile::new(KEPT);
-            std::io::copy(reader, &mut kept)?;
+            copy(reader, &mut kept)?;
             *self = Rest::again(kept, 0);
         }
         Ok(())
@@ -192,6 +192,30 @@ impl<'t> Rest<'t> {
             Rest::Stream(_) => Ok(()),
             Rest::Again(reader, start) => reader.seek(SeekFrom::Start(*start)).map(drop),
         }
+    }
+}
+
+/// Copies a stream to a temporary file.
+///
+/// # Errors
+///
+/// The stream cannot be read, or the temporary file cannot be written; the message then names its folder.
+fn copy(stream: &mut dyn BufRead, kept: &mut tempfile::SpooledTempFile) -> Result<()> {
+    loop {
+        let block = stream.fill_buf()?;
+        if block.is_empty() {
+            return Ok(());
+        }
+        kept.write_all(block).map_err(|error| {
+            let (folder, reason) = (std::env::temp_dir(), system_reason(&error));
+            Error::other(format!(
+                "it cannot be kept in a temporary file in {}: {reason}; store it in a file, or name another folder in \
+                 TMPDIR",
+                folder.display()
+            ))
+        })?;
+        let length = block.len();
+        stream.consume(length);
     }
 }
 

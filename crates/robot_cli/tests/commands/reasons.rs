@@ -191,3 +191,57 @@ fn names_do_not_control_a_terminal_on_standard_output_either() {
     let found = output(&["check", turned.to_str().unwrap()], "");
     assert!(found.contains("RTL\\u{202e}.toml: no errors"), "{found}");
 }
+
+#[test]
+fn an_error_that_is_not_hidden_is_noted() {
+    let (folder, file) = arm("reasons_allowed");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let wrong = folder.join("wrong.toml");
+    std::fs::write(&wrong, format!("{text}\nweight = 1\n")).unwrap();
+    let found = run(&["check", wrong.to_str().unwrap(), "--allow", "R0101"]);
+    assert_eq!(found.code, 1);
+    let note = "note: --allow R0101: errors with this code are not hidden, only warnings and notes";
+    assert!(found.errors.contains(note), "{}", found.errors);
+    assert!(!run(&["check", &file, "--allow", "R0101"]).errors.contains("note: --allow"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_plan_that_is_a_link_to_nothing_says_so() {
+    let (folder, file) = arm("reasons_plan_link");
+    let plan = folder.join("arm.plan");
+    let _ = std::fs::remove_file(&plan);
+    std::os::unix::fs::symlink("nowhere", &plan).unwrap();
+    let found = complaint(1, &["generate", &file], "");
+    let reason = "the pinned plan is a link to `nowhere`, which does not exist; move it away";
+    assert!(found.contains(reason), "{found}");
+}
+
+/// States of more than a mebibyte that are read twice are stored in a temporary file.
+#[cfg(unix)]
+#[test]
+fn a_folder_for_temporary_files_that_is_not_there_is_named() {
+    let (folder, file) = arm("reasons_temporary");
+    let states = "q1,q2,fx,fy,fz,mx,my,mz\n".to_owned() + &"0,0,0,0,0,0,0,0\n".repeat(100_000);
+    std::fs::write(folder.join("states.csv"), states).unwrap();
+    let states = std::fs::File::open(folder.join("states.csv")).unwrap();
+    let done = std::process::Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
+        .args(["eval", &file, "--function", "gravity", "--states", "-"])
+        .env("TMPDIR", folder.join("missing"))
+        .stdin(states)
+        .output()
+        .unwrap();
+    let errors = String::from_utf8(done.stderr).unwrap();
+    assert!(errors.contains("it cannot be kept in a temporary file in "), "{errors}");
+    assert!(
+        errors.contains("missing: there is no such file or folder; store it in a file"),
+        "{errors}"
+    );
+}
+
+#[test]
+fn an_option_of_rust_in_another_language_is_an_error_of_the_command_line() {
+    let (_, file) = arm("reasons_rust");
+    let found = complaint(2, &["generate", &file, "--language", "c", "--generic"], "");
+    assert!(found.contains("applies to Rust and not to `c`; leave it out"), "{found}");
+}

@@ -14,6 +14,9 @@ use super::Writer;
 /// ones.
 const MOST_DIGITS: usize = 6;
 
+/// The largest relative difference of an expanded constant from one that is computed as it stands.
+const LOST: f64 = 1e-13;
+
 /// A part of an expression that contains no symbol.
 #[derive(Clone, Copy)]
 struct Constant {
@@ -47,6 +50,24 @@ pub(super) fn rounded<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Ex
 }
 
 fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
+    with_values(roots, graph, expanded)
+}
+
+/// The value of a constant, given that of its expression as it stands. The same constant in two forms has the same value,
+/// unless terms of the expansion cancel each other and leave fewer digits.
+fn expanded(constant: Expr<'_>, value: f64) -> f64 {
+    let expanded = Polynomial::of(constant, &PolynomialOptions::default()).ok();
+    let found = expanded.map(|expanded| expanded.evaluate(|_| f64::NAN));
+    found.filter(|found| (found - value).abs() <= LOST * value.abs()).unwrap_or(value)
+}
+
+/// The expressions with decimals for all parts that are long sums with functions of numbers; `value` returns that of a
+/// part, given that of its expression as it stands.
+pub(crate) fn with_values<'g>(
+    roots: &[Expr<'g>],
+    graph: &'g Graph,
+    value: impl Fn(Expr<'g>, f64) -> f64,
+) -> Vec<Expr<'g>> {
     let mut constants: FxHashMap<Id, Constant> = FxHashMap::default();
     for expr in walk::reachable(roots) {
         if let Some(constant) = constant(expr, &constants) {
@@ -58,10 +79,7 @@ fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     }
     walk::rebuild_above(roots, graph, |part| {
         let constant = constants.get(&part.id()).filter(|constant| constant.is_decimal())?;
-        // The same constant in two forms has the same decimal.
-        let exact = Polynomial::of(part, &PolynomialOptions::default()).ok();
-        let value = exact.map_or(constant.value, |exact| exact.evaluate(|_| f64::NAN));
-        Some(graph.number(decimal(value)?))
+        Some(graph.number(decimal(value(part, constant.value))?))
     })
 }
 
@@ -196,6 +214,14 @@ mod tests {
             .find_map(|word| word.parse().ok())
             .unwrap();
         assert!((shown.abs() - value.abs()).abs() < 1e-15, "{shown}, {value}");
+    }
+
+    /// (√2 − 1)¹⁸ is 10⁻⁷, and the terms of its expansion are 10⁶.
+    #[test]
+    fn an_expansion_whose_terms_cancel_is_not_evaluated() {
+        let value: f64 = decimals(&["(sqrt(2) - 1)"; 18].join("*")).parse().unwrap();
+        let small = (2.0_f64.sqrt() - 1.0).powi(18);
+        assert!((value - small).abs() < 1e-14 * small, "{value}, {small}");
     }
 
     #[test]

@@ -120,7 +120,7 @@ fn about(reader: &mut Reader<'_>, table: &mut Table<'_>, turned: bool) -> bool {
     let origin = reader.word(entry.value, "a point of the link", POINTS) == Some("origin");
     if origin && turned {
         reader.report(
-            Diagnostic::error(code::CONFLICT, "an inertia about the origin must be in link axes")
+            Diagnostic::error(code::CONFLICT, "an inertia about the origin cannot have `rpy`")
                 .at(&entry.value.span(), "about the origin of the link frame")
                 .help("leave out `rpy`, or give the tensor about the center of mass"),
         );

@@ -5,6 +5,8 @@ use robot_build::RobotFile;
 use robot_check::doctor::{self, Examination};
 use robot_model::diagnostic::{Diagnostic, Diagnostics, Severity, Source, code};
 
+use super::Report;
+use crate::Terminal;
 use crate::failure::{Failure, in_command_words};
 use crate::function::check_once;
 use crate::plan::is_of_pin;
@@ -30,6 +32,23 @@ impl ExaminationArguments {
         let unknown_codes = self.allow.iter().filter(|code| code::page(code).is_none());
         let wrong: Vec<String> = unknown_codes.map(|code| unknown(code)).collect();
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
+    }
+
+    /// Prints a note for each of the codes with which errors are left, since only warnings and notes can be hidden.
+    pub(super) fn note_kept(
+        &self,
+        reports: &[Report],
+        terminal: &mut Terminal<'_>,
+    ) -> Result<(), Failure> {
+        for code in &self.allow {
+            if reports.iter().any(|report| report.has_error(code)) {
+                writeln!(
+                    terminal.errors,
+                    "note: --allow {code}: errors with this code are not hidden, only warnings and notes"
+                )?;
+            }
+        }
+        Ok(())
     }
 
     /// Examines a text that is not a file, or that has no pinned plan.

@@ -79,6 +79,7 @@ impl Arguments {
             }
             Format::Json => answered(&format!("{:#}\n", json::document(&reports)), terminal)?,
         }
+        self.examination.note_kept(&reports, terminal)?;
         let count = |severity| reports.iter().map(|report| report.count(severity)).sum::<usize>();
         let denied = self.deny == Some(Deny::Warnings) && count(Severity::Warning) > 0;
         if denied || count(Severity::Error) > 0 { Err(Failure::Shown) } else { Ok(()) }
@@ -103,6 +104,15 @@ impl Arguments {
 }
 
 impl Report {
+    fn has_error(&self, code: &str) -> bool {
+        match self {
+            Report::Examined(Examination { found, .. }) => {
+                found.iter().any(|one| one.severity == Severity::Error && one.code == code)
+            }
+            Report::Unread { .. } => false,
+        }
+    }
+
     fn count(&self, severity: Severity) -> usize {
         match self {
             Report::Examined(Examination { found, choices }) => {

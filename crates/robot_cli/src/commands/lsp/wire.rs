@@ -22,8 +22,10 @@ pub(super) fn read(stream: &mut dyn BufRead) -> Result<Option<Value>, String> {
     if (found as u64) < length {
         return Err(format!("it ends after {found} of {length} bytes"));
     }
-    let message: Value =
-        serde_json::from_slice(&bytes).map_err(|error| format!("it is not JSON: {error}"))?;
+    let message: Value = serde_json::from_slice(&bytes).map_err(|error| {
+        let (line, column) = (error.line(), error.column());
+        format!("its content is not JSON that can be read: line {line}, column {column}")
+    })?;
     if message.is_object() { Ok(Some(message)) } else { Err("it is not a JSON object".to_owned()) }
 }
 
@@ -122,9 +124,9 @@ mod tests {
             (b"Host: here\r\n\r\n{}", "its header has no `Content-Length`"),
             (b"\r\n{}", "its header has no `Content-Length`"),
             (b"Content-Length: 9\r\n\r\n{}", "it ends after 2 of 9 bytes"),
-            (b"Content-Length: 2\r\n\r\n{]", "it is not JSON: "),
-            (b"Content-Length: 1\r\n\r\n\xff", "it is not JSON: "),
-            (b"Content-Length: 0\r\n\r\n", "it is not JSON: "),
+            (b"Content-Length: 2\r\n\r\n{]", "its content is not JSON that can be read: line "),
+            (b"Content-Length: 1\r\n\r\n\xff", "its content is not JSON that can be read: line "),
+            (b"Content-Length: 0\r\n\r\n", "its content is not JSON that can be read: line "),
             (b"Content-Length: 4\r\n\r\n[{}]", "it is not a JSON object"),
         ] {
             let found = all(bytes);
