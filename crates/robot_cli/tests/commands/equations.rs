@@ -182,6 +182,14 @@ fn typst_is_a_notation_of_equations_and_documents() {
     assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q>"));
 }
 
+/// In two columns as well, a matrix is printed if its entries have room beside the number of the equation.
+#[test]
+fn matrices_take_the_whole_width_of_a_column() {
+    let shown = super::run(&["document", &robot("trttr1"), "--columns", "2"]);
+    let matrix = r"H\left(q\right) &= \begin{bmatrix} H_{11} & H_{12} & 0 & H_{14} & 0 \\ ";
+    assert!(shown.output.contains(matrix), "{}", shown.output);
+}
+
 /// The part of a document between two marks.
 fn between<'d>(document: &'d str, start: &str, end: &str) -> &'d str {
     let (_, rest) = document.split_once(start).unwrap_or_else(|| panic!("{start}: {document}"));

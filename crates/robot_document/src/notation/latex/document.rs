@@ -46,7 +46,8 @@ impl Page {
 ///
 /// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
-    let mut writer = Writer { page, latex: String::new(), tables: 0 };
+    let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
+    let mut writer = Writer { page, layout, latex: String::new(), tables: 0 };
     writer.head(document);
     for block in &document.blocks {
         writer.block(block)?;
@@ -57,6 +58,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
 
 struct Writer {
     page: Page,
+    layout: Layout,
     latex: String,
     tables: usize,
 }
@@ -109,27 +111,22 @@ impl Writer {
             }
             Block::Table(table) => self.table(table),
             Block::Figure(figure) => {
-                let available = Layout::of_centimeters(self.page.width).width;
-                self.latex.push_str(&super::figure::figure(figure, available));
+                self.latex.push_str(&super::figure::figure(figure, self.layout.width));
             }
-            Block::Equations(list) => {
-                let layout = Layout::of_centimeters(self.page.width);
-                self.latex.push_str(&equations(list, layout)?);
-            }
+            Block::Equations(list) => self.latex.push_str(&equations(list, self.layout)?),
         }
         Ok(())
     }
 
     /// A line of a paragraph, in which formulas wider than a column are broken.
     fn inlines(&self, inlines: &[Inline]) -> String {
-        wrapped(inlines, Layout::of_centimeters(self.page.width).width - 20.0)
+        wrapped(inlines, self.layout.width - 20.0)
     }
 
     /// A table that does not float, in parts that are never broken across pages.
     fn table(&mut self, table: &Table) {
         self.tables += 1;
-        let available = Layout::of_centimeters(self.page.width).width;
-        for part in parts(table, available, COLUMN_GAP) {
+        for part in parts(table, self.layout.width, COLUMN_GAP) {
             self.part(&part);
         }
     }

@@ -9,8 +9,6 @@ use crate::latex::{Layout, Page};
 use crate::notation::tabular::{Part, SIZES, parts};
 use crate::width::width;
 
-/// The width of the number of an equation and of its distance from the equation, in pt.
-const NUMBER: f64 = 44.0;
 /// An upper bound for the error of estimated widths, in pt.
 const MARGIN: f64 = 4.0;
 /// The gap between the columns of a table, including the padding of the cells, in pt.
@@ -30,11 +28,11 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let is_numbered = list.iter().any(|one| one.label.is_some());
     let numbering = if is_numbered { "\"(1)\"" } else { "none" };
     let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
-    for NumberedEquation { label, number: own, equation } in list {
-        let number = if label.is_some() { NUMBER } else { 0.0 };
+    for numbered in list {
+        let NumberedEquation { label, number: own, equation } = numbered;
         let available = layout.width - width(&equation.left) - MARGIN;
         let left = formula(&equation.left);
-        let lines = right_side(equation, available, number)?;
+        let lines = right_side(equation, available, layout.number(numbered))?;
         let last = lines.len().saturating_sub(1) / LINES;
         for (part, lines) in lines.chunks(LINES).enumerate() {
             let mut shown = vec![];
@@ -73,6 +71,7 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
 /// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let mut typst = head(document, page);
+    let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
     let mut tables = 0;
     for block in &document.blocks {
         match block {
@@ -87,12 +86,9 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
                 typst.push_str(&self::table(table, tables, page));
             }
             Block::Figure(figure) => {
-                let available = Layout::of_centimeters(page.width).width;
-                typst.push_str(&super::figure::figure(figure, available));
+                typst.push_str(&super::figure::figure(figure, layout.width));
             }
-            Block::Equations(list) => {
-                typst.push_str(&equations(list, Layout::of_centimeters(page.width))?);
-            }
+            Block::Equations(list) => typst.push_str(&equations(list, layout)?),
         }
     }
     Ok(typst)
