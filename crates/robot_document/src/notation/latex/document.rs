@@ -5,7 +5,7 @@ use super::{formula, text};
 use crate::breaking::broken;
 use crate::document::{Block, Cell, Document, Inline, Table};
 use crate::error::Error;
-use crate::notation::tabular::{Part, SIZES, parts};
+use crate::notation::tabular::{Part, SIZES, placed};
 use crate::width::width;
 
 /// The layout of a document.
@@ -123,11 +123,22 @@ impl Writer {
         wrapped(inlines, self.layout.width - 20.0)
     }
 
-    /// A table that does not float, in parts that are never broken across pages.
+    /// A table in parts that are never broken across pages. They only float if they span columns, to the top of a page.
     fn table(&mut self, table: &Table) {
         self.tables += 1;
-        for part in parts(table, self.layout.width, COLUMN_GAP) {
-            self.part(&part);
+        let page = Layout::of_centimeters(self.page.text_width()).width;
+        let placed = placed(table, self.layout.width, page, COLUMN_GAP);
+        for part in &placed.parts {
+            let [begin, end] = match placed.spans {
+                true => ["\n\\begin{table*}[tp!]\\raggedright", "\\end{table*}"],
+                false => [
+                    "\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright",
+                    "\\end{minipage}\\par\\medskip",
+                ],
+            };
+            self.line(begin);
+            self.part(part);
+            self.line(end);
         }
     }
 
@@ -149,7 +160,6 @@ impl Writer {
             false => "\\\\",
         };
         let [below, above] = STRUTS;
-        self.line("\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright");
         self.line(&format!("{caption}\\par\\smallskip"));
         self.line(&format!("\\{size}\n\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n\\hline"));
         self.line(&format!("{below}{}{above} {end}\n\\hline", cells(&part.table.head)));
@@ -159,7 +169,7 @@ impl Writer {
             let strut = if place == last { above } else { "" };
             self.line(&format!("{start}{}{strut} {end}", cells(row)));
         }
-        self.line("\\hline\n\\end{tabular}\n\\end{minipage}\\par\\medskip");
+        self.line("\\hline\n\\end{tabular}");
     }
 }
 

@@ -6,7 +6,7 @@ use crate::breaking::right_side;
 use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
-use crate::notation::tabular::{Part, SIZES, parts};
+use crate::notation::tabular::{Part, SIZES, placed};
 use crate::width::width;
 
 /// An upper bound for the error of estimated widths, in pt.
@@ -94,9 +94,14 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     Ok(typst)
 }
 
-fn head(document: &Document, page: Page) -> String {
+/// The width of all columns of a page with their gaps, in cm.
+fn text_width(page: Page) -> f64 {
     let columns = f64::from(page.columns);
-    let width = columns * page.width + (columns - 1.0) * GAP;
+    columns * page.width + (columns - 1.0) * GAP
+}
+
+fn head(document: &Document, page: Page) -> String {
+    let width = text_width(page);
     let paper = (width + 2.0).max(21.0);
     let margin = (paper - width) / 2.0;
     let title = text(&document.title);
@@ -115,10 +120,18 @@ fn head(document: &Document, page: Page) -> String {
     )
 }
 
-/// A table that does not float, in parts that are never broken across pages.
+/// A table in parts that are never broken across pages. They only float if they span columns, to the top of a page.
 fn table(table: &Table, number: usize, page: Page) -> String {
-    let available = Layout::of_centimeters(page.width).width;
-    parts(table, available, CELL_GAP).iter().map(|part| self::part(part, number)).collect()
+    let [column, all] =
+        [page.width, text_width(page)].map(|width| Layout::of_centimeters(width).width);
+    let placed = placed(table, column, all, CELL_GAP);
+    let part = |part: &Part| match placed.spans {
+        true => {
+            format!("#place(top, scope: \"parent\", float: true)[\n{}]\n", self::part(part, number))
+        }
+        false => self::part(part, number),
+    };
+    placed.parts.iter().map(part).collect()
 }
 
 fn part(part: &Part, number: usize) -> String {
