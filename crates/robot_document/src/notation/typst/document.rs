@@ -120,14 +120,18 @@ fn head(document: &Document, page: Page) -> String {
     )
 }
 
-/// A table in parts that are never broken across pages. They only float if they span columns, to the top of a page.
+/// A table in parts that are never broken across pages. They only float if they span columns, to the bottom of a page:
+/// at the top of the first one is the title.
 fn table(table: &Table, number: usize, page: Page) -> String {
     let [column, all] =
         [page.width, text_width(page)].map(|width| Layout::of_centimeters(width).width);
     let placed = placed(table, column, all, CELL_GAP);
     let part = |part: &Part| match placed.spans {
         true => {
-            format!("#place(top, scope: \"parent\", float: true)[\n{}]\n", self::part(part, number))
+            format!(
+                "#place(bottom, scope: \"parent\", float: true)[\n{}]\n",
+                self::part(part, number)
+            )
         }
         false => self::part(part, number),
     };
