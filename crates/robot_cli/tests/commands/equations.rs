@@ -359,7 +359,7 @@ fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
     assert!(narrow.contains(r"\begin{bmatrix} M_{11} & m_2 r_2"), "{narrow}");
     assert!(narrow.contains("\n  M_{11} &= "), "{narrow}");
     let file = robot("trttr1");
-    let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width", "6.5"];
+    let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width", "6"];
     let list = output(&command, "");
     assert!(list.contains("\n  H_{12} &= ") && list.contains("\n  H_{55} &= "), "{list}");
     assert!(!list.contains(r"H\left(q\right) &= "), "{list}");
