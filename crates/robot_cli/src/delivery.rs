@@ -248,8 +248,8 @@ fn warn_of_remaining(
     Ok(())
 }
 
-/// Checks that files have the expected contents; reports all that do not, with the remedy, which `writer` knows for files
-/// that it would not replace.
+/// Checks that files have the expected contents; reports all that do not, with the remedy, which `writer` knows for
+/// files that it would not replace.
 fn up_to_date<'a>(
     files: impl IntoIterator<Item = (PathBuf, &'a [u8])>,
     ownership: Ownership,

@@ -120,7 +120,8 @@ impl FunctionCounts {
         FunctionCounts { call, constructor: constructor_counts }
     }
 
-    /// Sets `temporaries` to the number of named values that the function's arithmetic has if it is printed within these limits.
+    /// Sets `temporaries` to the number of named values that the function's arithmetic has if it is printed within
+    /// these limits.
     #[must_use]
     pub fn laid_out(mut self, function: &Function, limits: &Limits) -> FunctionCounts {
         self.call.temporaries = Statements::new(&function.core, limits).count();

@@ -13,6 +13,18 @@ pub struct Document {
     pub blocks: Vec<Block>,
 }
 
+impl Document {
+    /// The number of equations with a label, which is the largest number of an equation.
+    #[must_use]
+    pub fn numbers(&self) -> usize {
+        let lists = self.blocks.iter().filter_map(|block| match block {
+            Block::Equations(list) => Some(list),
+            _ => None,
+        });
+        lists.flatten().filter(|equation| equation.label.is_some()).count()
+    }
+}
+
 /// A part of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Block {

@@ -60,8 +60,8 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// A letter that was chosen for the torques, the mass matrix, the Coriolis and centrifugal terms or the gravity terms is a symbol of
-    /// the robot.
+    /// A letter that was chosen for the torques, the mass matrix, the Coriolis and centrifugal terms or the gravity
+    /// terms is a symbol of the robot.
     #[error(
         "the letter {letter} is a symbol of this robot; choose another letter for the equations"
     )]

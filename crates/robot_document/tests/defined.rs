@@ -29,21 +29,10 @@ fn robots() -> Vec<Robot> {
 
 /// The symbols within a formula.
 fn symbols(math: &Math) -> Vec<&Symbol> {
-    let parts: Vec<&Math> = match math {
-        Math::Symbol(symbol) => return vec![symbol],
-        Math::Row(all) | Math::Lines(all) => all.iter().collect(),
-        Math::Script(script) => {
-            std::iter::once(&script.base).chain(&script.lower).chain(&script.upper).collect()
-        }
-        Math::Accent(_, inside)
-        | Math::Styled(_, inside)
-        | Math::Root(inside)
-        | Math::Fenced(_, inside) => vec![inside],
-        Math::Fraction(parts) => parts.iter().collect(),
-        Math::Matrix(rows) => rows.iter().flatten().collect(),
-        _ => vec![],
-    };
-    parts.into_iter().flat_map(symbols).collect()
+    match math {
+        Math::Symbol(symbol) => vec![symbol],
+        other => other.parts().into_iter().flat_map(symbols).collect(),
+    }
 }
 
 /// The layout of a left side or of an entry of a matrix.

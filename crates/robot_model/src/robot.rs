@@ -32,8 +32,8 @@ pub struct Robot {
     pub links: Vec<Link>,
     /// Named frames fixed to links or to the base: tips, flanges, merged links.
     pub frames: Vec<Frame>,
-    /// The Denavit–Hartenberg parameters of the file, in the order of its links; empty if it places no link by them. The
-    /// placements already contain them.
+    /// The Denavit–Hartenberg parameters of the file, in the order of its links; empty if it places no link by them.
+    /// The placements already contain them.
     pub dh: Vec<DhRow>,
     /// The body that the robot may carry, if the file has one. It is also one of the bodies of the link that carries
     /// it.

@@ -30,8 +30,8 @@ struct Resistance<T: Number> {
 }
 
 /// Computes the joint accelerations by the articulated-body algorithm for any kind of numbers (R. Featherstone, "Rigid
-/// Body Dynamics Algorithms", 2008, Table 7.1). Each slice has one entry per coordinate, and each coordinate drives only
-/// one joint. `None` if a joint has no inertia.
+/// Body Dynamics Algorithms", 2008, Table 7.1). Each slice has one entry per coordinate, and each coordinate drives
+/// only one joint. `None` if a joint has no inertia.
 pub(super) fn articulated_body<T: Number>(
     mechanism: &Mechanism,
     q: &[T],

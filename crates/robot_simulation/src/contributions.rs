@@ -159,8 +159,8 @@ impl Motion<'_> {
         Ok(handle.states(self.trajectory.t.len(), inputs)?)
     }
 
-    /// The contributions at all times. Each difference is one of the same function, at rest or without a wrench, so that
-    /// it is exactly 0 where nothing acts; only that of friction is one of two functions.
+    /// The contributions at all times. Each difference is one of the same function, at rest or without a wrench, so
+    /// that it is exactly 0 where nothing acts; only that of friction is one of two functions.
     fn contributions(&self, friction: bool) -> Result<TorqueContributions, Error> {
         use FunctionKind as Kind;
         let Trajectory { t, q, qd, qdd, wrenches } = self.trajectory;

@@ -6,8 +6,8 @@ use robot_model::diagnostic::Source;
 use crate::driver::programs::Programs;
 use crate::error::Errors;
 
-/// Entries of inputs, used in turn: short decimals of either sign. No sum of up to five successive ones with any signs is
-/// near a multiple of π/2, so that no sine or cosine of a sum of joint angles is 0 or 1 at the stated state.
+/// Entries of inputs, used in turn: short decimals of either sign. No sum of up to five successive ones with any signs
+/// is near a multiple of π/2, so that no sine or cosine of a sum of joint angles is 0 or 1 at the stated state.
 const ENTRIES: [f64; 8] = [0.53, 0.31, 0.78, -0.64, -0.21, 1.05, -1.19, 0.79];
 /// Values for parameters without nominal values, used in turn.
 const PARAMETERS: [f64; 5] = [1.5, 0.8, 1.2, 0.6, 1.1];

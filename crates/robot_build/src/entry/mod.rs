@@ -1,5 +1,5 @@
-//! All code that accesses files or the environment: the builder for build scripts, and the robot files, pinned plans and output
-//! files that all entry points read and write.
+//! All code that accesses files or the environment: the builder for build scripts, and the robot files, pinned plans
+//! and output files that all entry points read and write.
 
 pub(crate) mod builder;
 mod cargo;

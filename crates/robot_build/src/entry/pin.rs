@@ -60,8 +60,8 @@ impl RobotFile {
     ///
     /// # Errors
     ///
-    /// [`Error::Pin`] if a pinned plan is stale, that is, made for [mechanics](mechanics()) other than those of the file, was
-    /// edited, or cannot be read. If there is a pinned plan, also all errors in the robot file.
+    /// [`Error::Pin`] if a pinned plan is stale, that is, made for [mechanics](mechanics()) other than those of the
+    /// file, was edited, or cannot be read. If there is a pinned plan, also all errors in the robot file.
     pub fn with_pin(&self, options: &Options) -> Result<Options, Errors> {
         let path = pin_path(&self.path);
         // A symbolic link to a missing file counts as existing.

@@ -85,15 +85,17 @@ impl Arguments {
             Some("md") => Some(Format::Markdown),
             _ => None,
         };
-        match (self.format, named, extension.as_deref()) {
-            (Some(format), Some(named), Some(extension)) if format != named => {
-                Err(Failure::Usage(vec![format!(
-                    "--format contradicts the name of a file .{extension}; leave it out, or name the file otherwise"
-                )]))
-            }
-            (Some(format), ..) | (None, Some(format), _) => Ok(format),
-            (None, None, None) => Ok(Format::Latex),
-            (None, None, Some(other)) => Err(Failure::Usage(vec![format!(
+        if let (Some(format), Some(named), Some(extension)) = (self.format, named, &extension)
+            && format != named
+        {
+            return Err(Failure::Usage(vec![format!(
+                "--format contradicts the name of a file .{extension}; leave it out, or name the file otherwise"
+            )]));
+        }
+        match (self.format.or(named), extension.as_deref()) {
+            (Some(format), _) => Ok(format),
+            (None, None) => Ok(Format::Latex),
+            (None, Some(other)) => Err(Failure::Usage(vec![format!(
                 "a document is not written as .{}; name the file NAME.tex, NAME.typ or NAME.md, or choose its notation with \
                  --format",
                 robot_build::shown(std::path::Path::new(other))

@@ -100,8 +100,8 @@ impl Columns {
         }
     }
 
-    /// Adds the cells of a line that are numbers to the state, and reports the others as errors; returns whether the number of
-    /// cells is that of the columns.
+    /// Adds the cells of a line that are numbers to the state, and reports the others as errors; returns whether the
+    /// number of cells is that of the columns.
     fn set_cells<'l>(&self, line: &str, state: &mut State<'l>, sink: &mut dyn Sink<'l>) -> bool {
         let cells = cells(line);
         let (place, entries, expected) = (state.place, cells.len(), self.names.len());

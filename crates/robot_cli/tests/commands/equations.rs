@@ -182,6 +182,14 @@ fn typst_is_a_notation_of_equations_and_documents() {
     assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q>"));
 }
 
+/// In two columns as well, a matrix is printed if its entries have room beside the number of the equation.
+#[test]
+fn matrices_take_the_whole_width_of_a_column() {
+    let shown = super::run(&["document", &robot("trttr1"), "--columns", "2"]);
+    let matrix = r"H\left(q\right) &= \begin{bmatrix} H_{11} & H_{12} & 0 & H_{14} & 0 \\ ";
+    assert!(shown.output.contains(matrix), "{}", shown.output);
+}
+
 /// The part of a document between two marks.
 fn between<'d>(document: &'d str, start: &str, end: &str) -> &'d str {
     let (_, rest) = document.split_once(start).unwrap_or_else(|| panic!("{start}: {document}"));
@@ -351,7 +359,7 @@ fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
     assert!(narrow.contains(r"\begin{bmatrix} M_{11} & m_2 r_2"), "{narrow}");
     assert!(narrow.contains("\n  M_{11} &= "), "{narrow}");
     let file = robot("trttr1");
-    let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width", "6.5"];
+    let command = ["equations", &file, "--form", "grouped", "--format", "latex", "--width", "6"];
     let list = output(&command, "");
     assert!(list.contains("\n  H_{12} &= ") && list.contains("\n  H_{55} &= "), "{list}");
     assert!(!list.contains(r"H\left(q\right) &= "), "{list}");

@@ -49,10 +49,10 @@ pub enum Room {
     Characters(usize),
 }
 
-/// The width of an equals sign with its spaces, and of the error of estimates, in pt.
+/// The width of an equals sign with its spaces, and the error of estimates, in pt.
 const EQUALS: f64 = 18.0;
 /// The width of the brackets of a column with the spaces inside them, in pt.
-const BRACKETS: f64 = 20.0;
+const BRACKETS: f64 = 14.0;
 /// The spaces around the sign at the beginning of a line, in pt.
 const SIGN: f64 = 4.5;
 /// The largest number of columns of a `bmatrix`.
@@ -77,6 +77,12 @@ impl Equations {
 }
 
 impl Group {
+    /// A bound for the number of equations with matrices and columns.
+    pub(crate) fn most(&self) -> usize {
+        let arrays = self.arrays.as_ref().map_or(0, Vec::len);
+        self.equations.len() + arrays + self.relations.len() + usize::from(self.vector.is_some())
+    }
+
     fn arranged(&self, room: Room) -> Group {
         let mut group = self.clone();
         group.arrays = None;
@@ -292,7 +298,7 @@ fn column(rows: &[Vec<Math>], available: f64) -> Option<Math> {
     let mut column = vec![];
     let mut all = 0;
     for entry in rows.iter().flatten() {
-        let mut lines = broken(entry, available - SIGN, available - SIGN).ok()?;
+        let mut lines = broken(entry, available, available - SIGN).ok()?;
         all += lines.len();
         if lines.len() > MAX_ENTRY || all > MAX_LINES {
             return None;

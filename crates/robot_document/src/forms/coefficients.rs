@@ -78,8 +78,8 @@ pub(super) enum Shown<'g> {
 }
 
 impl<'g> Shown<'g> {
-    /// The value of a printed coefficient if it is long enough to be compared with others. One with a long number, such as
-    /// 0.01713647315 cos q₅, is long, because a reader would compare it digit by digit.
+    /// The value of a printed coefficient if it is long enough to be compared with others. One with a long number, such
+    /// as 0.01713647315 cos q₅, is long, because a reader would compare it digit by digit.
     pub(super) fn comparable(&self) -> Option<&Polynomial<'g>> {
         match self {
             Shown::Short { value, terms } => {

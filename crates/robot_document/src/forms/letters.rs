@@ -37,7 +37,8 @@ pub struct Letters {
     pub torque: Option<String>,
     /// Of the entries of the mass matrix.
     pub mass: Option<String>,
-    /// Of the Coriolis and centrifugal terms: their column, their matrix, and the coefficients of products of velocities.
+    /// Of the Coriolis and centrifugal terms: their column, their matrix, and the coefficients of products of
+    /// velocities.
     pub velocity: Option<String>,
     /// Of the gravity terms.
     pub gravity: Option<String>,

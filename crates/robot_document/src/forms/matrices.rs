@@ -193,8 +193,8 @@ fn masses<'g>(
     Ok((Array { name: name.clone(), left, rows }, product))
 }
 
-/// The matrix of the Coriolis and centrifugal terms and its product with the joint velocities. Its entries Cᵢⱼ = Σ cᵢⱼₖ q̇ₖ are half of
-/// the derivatives of these terms with respect to the velocities, so Ṁ − 2C is skew-symmetric.
+/// The matrix of the Coriolis and centrifugal terms and its product with the joint velocities. Its entries Cᵢⱼ = Σ cᵢⱼₖ
+/// q̇ₖ are half of the derivatives of these terms with respect to the velocities, so Ṁ − 2C is skew-symmetric.
 fn christoffel<'g>(
     writer: &mut Writer<'_, 'g>,
     section: &Section<'g>,

@@ -40,8 +40,8 @@ impl Constant {
     }
 }
 
-/// The expressions as they are printed: the parts that are long sums with functions of numbers are the nearest doubles if
-/// [`rounds_roots`](super::EquationOptions::rounds_roots) is set.
+/// The expressions as they are printed: the parts that are long sums with functions of numbers are the nearest doubles
+/// if [`rounds_roots`](super::EquationOptions::rounds_roots) is set.
 pub(super) fn rounded<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
     match writer.options.rounds_roots {
         true => with_decimals(roots, writer.graph),
@@ -83,7 +83,8 @@ pub(crate) fn with_values<'g>(
     })
 }
 
-/// Replaces the long numbers with functions in the masses, centers of mass and inertia tensors of links in the same way.
+/// Replaces the long numbers with functions in the masses, centers of mass and inertia tensors of links in the same
+/// way.
 pub(super) fn round_links<'g>(writer: &Writer<'_, 'g>, mechanism: &mut Mechanism<'g>) {
     for link in &mut mechanism.links {
         let own = std::iter::once(&mut link.mass).chain(&mut link.center_of_mass.0);

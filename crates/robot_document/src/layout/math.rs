@@ -179,8 +179,9 @@ impl Math {
         }
     }
 
-    /// The pieces directly within this one; none for a symbol.
-    fn parts(&self) -> Vec<&Math> {
+    /// The pieces directly within this one; none for a symbol, whose layout is a formula of its own.
+    #[must_use]
+    pub fn parts(&self) -> Vec<&Math> {
         match self {
             Math::Row(pieces) => pieces.iter().collect(),
             Math::Script(script) => {

@@ -146,12 +146,14 @@ fn measure(math: &Math, size: Size) -> f64 {
                 row.get(column).map_or(0.0, |entry| measure(entry, Size::Text))
             };
             let widest = |column| rows.iter().map(|row| cell(row, column)).fold(0.0, f64::max);
-            (0..columns).map(|column| widest(column) + points).sum::<f64>() + points
+            // The columns have a gap of 10 pt between them, and each bracket is less than 7 pt wide.
+            (0..columns).map(|column| widest(column) + points).sum::<f64>() + 0.4 * points
         }
         Math::Lines(lines) => {
-            // A sign at the start of a line has the same spaces as one within a sum.
-            let line = |line| measure(line, Size::Text) + 2.0 * SPACES[1];
-            lines.iter().map(line).fold(0.0, f64::max)
+            // A sign at the start of a further line has the same spaces as one within a sum.
+            let before = |place| if place > 0 { 2.0 * SPACES[1] } else { 0.0 };
+            let lines = lines.iter().enumerate();
+            lines.map(|(place, line)| measure(line, Size::Text) + before(place)).fold(0.0, f64::max)
         }
     }
 }
@@ -168,28 +170,31 @@ fn is_tall(math: &Math) -> bool {
 }
 
 fn row(pieces: &[Math], size: Size) -> f64 {
-    let mut sum = 0.0;
-    for (place, piece) in pieces.iter().enumerate() {
-        sum += measure(piece, size);
-        sum += match piece {
-            Math::Sign('=') => 2.0 * size.space(2),
-            Math::Sign('+' | '-' | '·' | '×' | '*') if place > 0 => 2.0 * size.space(1),
-            Math::Sign(',') | Math::Function(_) => size.space(0),
-            // The space before and after fences and fractions, or between a function's exponent and its argument.
-            Math::Fenced(..) | Math::Fraction(_) => 2.0 * size.space(0),
-            Math::Script(_) if piece.is_function() => size.space(0),
-            _ => 0.0,
-        };
-        let before = place.checked_sub(1).and_then(|place| pieces.get(place));
-        if before.is_some_and(|before| piece.is_apart_from(before)) {
-            sum += size.space(0);
-        }
-        // There is a space before a function.
-        if place > 0 && piece.is_function() {
-            sum += size.space(0);
-        }
-    }
-    sum
+    (0..pieces.len()).map(|place| with_spaces(pieces, place, size)).sum()
+}
+
+/// The width of a piece of a displayed row with its spaces, in pt.
+pub(super) fn in_row(pieces: &[Math], place: usize) -> f64 {
+    with_spaces(pieces, place, Size::Display)
+}
+
+fn with_spaces(pieces: &[Math], place: usize, size: Size) -> f64 {
+    let Some(piece) = pieces.get(place) else { return 0.0 };
+    let spaces = match piece {
+        Math::Sign('=') => 2.0 * size.space(2),
+        Math::Sign('+' | '-' | '·' | '×' | '*') if place > 0 => 2.0 * size.space(1),
+        Math::Sign(',') | Math::Function(_) => size.space(0),
+        // The space before and after fences and fractions, or between a function's exponent and its argument.
+        Math::Fenced(..) | Math::Fraction(_) => 2.0 * size.space(0),
+        Math::Script(_) if piece.is_function() => size.space(0),
+        _ => 0.0,
+    };
+    let before = place.checked_sub(1).and_then(|place| pieces.get(place));
+    let is_apart = before.is_some_and(|before| piece.is_apart_from(before));
+    // There is a space before a function.
+    let is_function = place > 0 && piece.is_function();
+    let before = [is_apart, is_function].into_iter().filter(|is_apart| *is_apart).count();
+    measure(piece, size) + spaces + before as f64 * size.space(0)
 }
 
 fn script_width(script: &Script, size: Size) -> f64 {

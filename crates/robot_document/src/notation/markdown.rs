@@ -194,7 +194,7 @@ mod tests {
         let equation =
             crate::forms::Equation { name: "Q1".to_owned(), text: String::new(), left, right };
         let one = NumberedEquation { label: None, number: None, equation };
-        let shown = display(&one, Layout { width: 75.0 }, None).unwrap();
+        let shown = display(&one, Layout { width: 75.0, numbers: 9 }, None).unwrap();
         assert!(shown.contains("\\quad {}- c_3"), "{shown}");
     }
 

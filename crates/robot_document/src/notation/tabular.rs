@@ -1,5 +1,5 @@
-//! Tables that fit a column of text: in smaller type, with cells of several lines, in two halves side by side, or in
-//! parts.
+//! Tables that fit a column of text: in smaller type, with cells of several lines, in two halves side by side, across
+//! all columns of the page, or in parts.
 
 use crate::document::{Cell, Inline, Table};
 use crate::width::{text_width, width};
@@ -29,8 +29,28 @@ const LONGEST_WORD: usize = 12;
 /// The smallest width of a column with broken cells, in pt, unless there is no other way.
 const NARROW: f64 = 70.0;
 
+/// The parts of a table and whether each is as wide as the page, not one of its columns.
+pub(super) struct Placed {
+    pub(super) parts: Vec<Part>,
+    pub(super) spans: bool,
+}
+
+/// Splits a table into parts for columns of `column` points on a page of `page` points. A table whose own columns would
+/// be divided among parts spans the page if it then has fewer; rows can be, because columns of text follow one another.
+pub(super) fn placed(table: &Table, column: f64, page: f64, gap: f64) -> Placed {
+    let narrow = parts(table, column, gap);
+    let is_divided = narrow.iter().any(|part| part.table.head.len() < table.head.len());
+    if page > column && is_divided {
+        let wide = parts(table, page, gap);
+        if wide.len() < narrow.len() {
+            return Placed { parts: wide, spans: true };
+        }
+    }
+    Placed { parts: narrow, spans: false }
+}
+
 /// Splits a table into parts for lines of `available` points, of which each column needs `gap` for its distance.
-pub(super) fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
+fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
     let folded = folded(table);
     let columns = |table: &Table| 0..table.head.len();
     if table.rows.len() >= LONG
@@ -268,6 +288,19 @@ mod tests {
         let columns: usize = wide.iter().map(|part| part.table.head.len() - 1).sum();
         assert_eq!(columns, 8);
         assert!(!wide[0].is_continued && wide[1].is_continued);
+    }
+
+    #[test]
+    fn wide_tables_span_the_page_if_they_are_cut_less_often() {
+        let spans = |columns, rows, page| {
+            let placed = placed(&table(columns, rows, "onelongword"), 200.0, page, 10.0);
+            (placed.spans, placed.parts.len())
+        };
+        assert_eq!(spans(3, 2, 600.0), (false, 1));
+        assert_eq!(spans(9, 2, 200.0), (false, 4));
+        assert_eq!(spans(9, 2, 600.0), (true, 1));
+        // Two parts of rows fill a column each.
+        assert_eq!(spans(3, 40, 300.0), (false, 2));
     }
 
     #[test]

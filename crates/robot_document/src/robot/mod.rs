@@ -14,10 +14,11 @@ use robot_dynamics::mechanism::Snap;
 use robot_model::robot::Robot;
 use robot_model::snap;
 
+use crate::breaking::number_width;
 use crate::document::{Block, Document, Inline};
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::forms::{EquationOptions, Form, Room, equations};
+use crate::forms::{EquationOptions, Form, Group, Room, equations};
 use crate::math::Math;
 pub use check_value::CheckValue;
 
@@ -37,9 +38,6 @@ pub struct Extras<'e> {
     pub arrays: Option<f64>,
 }
 
-/// The space for the number of an equation, including the distance from the equation, in pt.
-const NUMBER: f64 = 44.0;
-
 /// Makes the document of a robot with its equations in several forms.
 ///
 /// # Errors
@@ -53,14 +51,13 @@ pub fn document(
 ) -> Result<Document, Error> {
     let mut parts = vec![];
     for form in forms {
-        let part = equations(robot, &EquationOptions { form: *form, ..options.clone() })?;
-        parts.push((
-            *form,
-            match extras.arrays {
-                Some(width) => part.arranged(Room::Points(width - NUMBER)),
-                None => part,
-            },
-        ));
+        parts.push((*form, equations(robot, &EquationOptions { form: *form, ..options.clone() })?));
+    }
+    if let Some(width) = extras.arrays {
+        let groups = parts.iter().flat_map(|(_, part)| &part.groups);
+        let numbers: usize = groups.map(Group::most).sum();
+        let room = Room::Points(width - number_width(numbers));
+        parts.iter_mut().for_each(|(_, part)| *part = part.arranged(room));
     }
     let title = match extras.title {
         Some(title) => title.to_owned(),

@@ -7,9 +7,9 @@ use super::{Derivation, Effects, Function, FunctionKind, Output, inverse_dynamic
 use crate::economical::Solver;
 use crate::matrix::Pivots;
 
-/// Up to this number of coordinates, only the decomposition of M is used, unless pivots may be small. The articulated-body
-/// algorithm needs fewer operations only from about ten joints on, and it shares no expressions with other functions of
-/// a bundle.
+/// Up to this number of coordinates, only the decomposition of M is used, unless pivots may be small. The
+/// articulated-body algorithm needs fewer operations only from about ten joints on, and it shares no expressions with
+/// other functions of a bundle.
 const FEW: usize = 8;
 /// Above this number of coordinates, the decomposition of M is not tried, because its operations grow with the third
 /// power of the number.

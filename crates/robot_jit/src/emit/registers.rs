@@ -14,7 +14,8 @@ const SOON: u32 = 30;
 
 /// The uses of values that are still to come while the list is emitted.
 struct Uses {
-    /// The positions of the steps that use the first value, in ascending order, then those that use the second, and so on.
+    /// The positions of the steps that use the first value, in ascending order, then those that use the second, and so
+    /// on.
     steps: Vec<u32>,
     /// For each value, the place in `steps` of its next use, and the place after its last use. They are equal if no use
     /// is to come.
@@ -58,8 +59,8 @@ impl Uses {
         if at < end { self.steps[end as usize - 1] } else { NEVER }
     }
 
-    /// The position of the step that uses a value once more after its next use, or [`NEVER`]. While a step is emitted, the
-    /// next use of its operands is this step itself.
+    /// The position of the step that uses a value once more after its next use, or [`NEVER`]. While a step is emitted,
+    /// the next use of its operands is this step itself.
     fn after(&self, value: Id) -> u32 {
         let (at, end) = self.next[value.index()];
         if at + 1 < end { self.steps[at as usize + 1] } else { NEVER }
@@ -280,8 +281,8 @@ impl Body<'_> {
         freed
     }
 
-    /// Puts two values side by side in a register that suits `result`. Returns the register, which has no value yet, and
-    /// the slots of operands that are not needed any more.
+    /// Puts two values side by side in a register that suits `result`. Returns the register, which has no value yet,
+    /// and the slots of operands that are not needed any more.
     fn paired(&mut self, result: Id, a: Id, b: Id) -> (u8, [Option<Freed>; 3]) {
         let kept = [a, b];
         let first = self.loaded(a, &kept);

@@ -120,8 +120,8 @@ impl Instruction {
 pub(crate) enum Step {
     /// Computes the value whose [`Id`] is the position of this step.
     Value(Instruction),
-    /// Stores a value in the outputs, in the entry with this index. A wide value takes this entry and those that follow it.
-    /// The step computes nothing, so no instruction refers to its position.
+    /// Stores a value in the outputs, in the entry with this index. A wide value takes this entry and those that follow
+    /// it. The step computes nothing, so no instruction refers to its position.
     Store(Id, u32),
     /// Stores two values, which are not wide, in the outputs: the first in the entry with this index, the second in the
     /// entry after it.
@@ -142,8 +142,8 @@ pub(crate) const WIDE: usize = 4;
 #[derive(Debug, Default)]
 pub(crate) struct List {
     pub(crate) steps: Vec<Step>,
-    /// For each step, whether the value that it computes or stores is wide: in code for one state, it consists of [`WIDE`]
-    /// numbers in lanes.
+    /// For each step, whether the value that it computes or stores is wide: in code for one state, it consists of
+    /// [`WIDE`] numbers in lanes.
     pub(crate) wide: Vec<bool>,
     homes: FxHashMap<(Home, bool), Id>,
 }

@@ -1,8 +1,9 @@
 //! The stores of a function's results: each as soon as its value is known, or two neighboring entries at once.
 //!
 //! Storing two entries at once halves the stores, but the first value waits for the second. That is faster only if the
-//! stores, and not the operations, take the time: if most results become known at the end, as the poses of several frames
-//! on the last link do, or if there are very many, as in regressors. For other functions it is up to 28 % slower.
+//! stores, and not the operations, take the time: if most results become known at the end, as the poses of several
+//! frames on the last link do, or if there are very many, as in regressors. For other functions it is up to 28 %
+//! slower.
 
 use rustc_hash::FxHashMap;
 

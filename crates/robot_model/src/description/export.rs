@@ -43,8 +43,8 @@ fn line(text: &mut String, line: &str) {
     text.push('\n');
 }
 
-/// Writes a link. `before` is the link that was written before it; `is_on_base` is whether the link is fixed to the base,
-/// so that its mass has no effect.
+/// Writes a link. `before` is the link that was written before it; `is_on_base` is whether the link is fixed to the
+/// base, so that its mass has no effect.
 fn push_link(
     text: &mut String,
     draft: &Draft,

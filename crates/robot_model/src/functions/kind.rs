@@ -217,8 +217,8 @@ impl FunctionKind {
         self.declaration().inputs
     }
 
-    /// What the function computes, with its shape, where n is the number of coordinates: `M (n × n)`. The tables of functions in the
-    /// book and the README are made of it.
+    /// What the function computes, with its shape, where n is the number of coordinates: `M (n × n)`. The tables of
+    /// functions in the book and the README are made of it.
     #[must_use]
     pub const fn result(self) -> &'static str {
         self.declaration().result

@@ -97,8 +97,8 @@ fn singular(robot: &Robot, settings: &[(&str, f64)], state: &State<'_>) -> Optio
 mod tests {
     use super::*;
 
-    /// The first entry that is not finite, counted from 1: of an array over the joints with the joint, of a matrix by its
-    /// row and column.
+    /// The first entry that is not finite, counted from 1: of an array over the joints with the joint, of a matrix by
+    /// its row and column.
     #[test]
     fn the_first_entry_without_a_value_is_named() {
         let robot = robot_testing::robot("planar_2r");

@@ -241,8 +241,9 @@ fn title(number: usize, from: Option<usize>, settings: &Settings<'_>) -> String 
     format!("\n{}{time}{from}:\n", name(number))
 }
 
-/// Chooses the plans under which two robots are compared: their own, if both have one. A pinned plan becomes stale with each
-/// change of the mechanics; a comparison with the default plan would then show a difference of plans, not of robots.
+/// Chooses the plans under which two robots are compared: their own, if both have one. A pinned plan becomes stale with
+/// each change of the mechanics; a comparison with the default plan would then show a difference of plans, not of
+/// robots.
 fn compared(before: &ValidRobot, now: &ValidRobot, settings: &Settings<'_>) -> DifferenceOptions {
     let own = before.plan.is_some() == now.plan.is_some() || before.source == now.source;
     let code = [before, now].map(|one| Options {

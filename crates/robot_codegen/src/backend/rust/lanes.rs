@@ -282,7 +282,8 @@ impl Methods<'_, '_> {
         statements
     }
 
-    /// Makes the statements that store the results, `State::set_lane(result, &mut tau, lane);`, in a group for each loop.
+    /// Makes the statements that store the results, `State::set_lane(result, &mut tau, lane);`, in a group for each
+    /// loop.
     fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Vec<Stmt>> {
         if layout == Layout::Lanes && self.has_matrices() {
             return self.entries(slices);
@@ -301,7 +302,8 @@ impl Methods<'_, '_> {
     }
 }
 
-/// Prints a loop over the states of a block for each group of stores: the statements that compute `result`, then the stores.
+/// Prints a loop over the states of a block for each group of stores: the statements that compute `result`, then the
+/// stores.
 fn loop_each(lanes: &Literal, computes: &[Stmt], stores: &[Vec<Stmt>]) -> Vec<Stmt> {
     let over_lanes =
         |stores: &Vec<Stmt>| parse_quote!(for lane in 0..#lanes { #(#computes)* #(#stores)* });

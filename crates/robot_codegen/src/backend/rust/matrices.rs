@@ -2,8 +2,8 @@
 //!
 //! LLVM vectorizes such a loop only if it can prove that no result is an input of another state, and if it tracks
 //! every entry separately, which it does for up to about 250 of them. Otherwise a state takes five to ten times as
-//! long. Therefore inputs are copied before the loop, entries are stored one by one, except those that are always 0, and
-//! several loops store more entries than one can.
+//! long. Therefore inputs are copied before the loop, entries are stored one by one, except those that are always 0,
+//! and several loops store more entries than one can.
 
 use proc_macro2::Ident;
 use syn::{Pat, Stmt, parse_quote};
@@ -14,8 +14,8 @@ use super::outputs;
 use super::syntax;
 use crate::program::Operation;
 
-/// The most entries that a loop stores. LLVM joins the sets of memory that may overlap once it has 250 of them, and then no
-/// longer knows that the stores are independent.
+/// The most entries that a loop stores. LLVM joins the sets of memory that may overlap once it has 250 of them, and
+/// then no longer knows that the stores are independent.
 const MAX_ENTRIES: usize = 240;
 
 /// The most loops for one function: each computes again what the entries of several loops have in common.

@@ -1,9 +1,9 @@
 //! The parts of values that grow alike with what a program loads.
 //!
-//! At a sample point, a term far below the rounding error of the sum that it is in is not noticed, but it counts at other
-//! inputs: in 9.81 sin q + 10⁻¹² q̇², the second term is the larger one at 10⁷ rad/s. Each value is therefore also
-//! regarded as a polynomial in the inputs, and in the inputs and parameters, and the coefficients of its monomials are
-//! compared one by one. Sines and cosines are numbers here.
+//! At a sample point, a term far below the rounding error of the sum that it is in is not noticed, but it counts at
+//! other inputs: in 9.81 sin q + 10⁻¹² q̇², the second term is the larger one at 10⁷ rad/s. Each value is therefore
+//! also regarded as a polynomial in the inputs, and in the inputs and parameters, and the coefficients of its monomials
+//! are compared one by one. Sines and cosines are numbers here.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,8 +52,8 @@ type Polynomial = BTreeMap<Monomial, Coefficient>;
 /// The values of a program as polynomials.
 pub(super) struct Parts(Vec<Polynomials>);
 
-/// The values of a program as polynomials in the same variables; `None` for what is not a polynomial, or one of too many
-/// terms.
+/// The values of a program as polynomials in the same variables; `None` for what is not a polynomial, or one of too
+/// many terms.
 struct Polynomials(Vec<Option<Polynomial>>);
 
 impl Parts {

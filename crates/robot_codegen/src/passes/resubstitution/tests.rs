@@ -149,8 +149,8 @@ fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
     Counts::of(&found).operations() == Counts::of(&program).operations()
 }
 
-/// Of 9.81 sin q + c q̇², the second term counts at high speeds, also in what is computed from the sum: its product with
-/// another value, its quotient by a sum, and the difference of the torque.
+/// Of 9.81 sin q + c q̇², the second term counts at high speeds, also in what is computed from the sum: its product
+/// with another value, its quotient by a sum, and the difference of the torque.
 #[test]
 fn a_term_of_other_inputs_stays_however_small_it_is() {
     for constant in [1.5, 1e-9, 1e-17, 1e-30, 1e-100] {

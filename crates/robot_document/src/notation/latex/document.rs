@@ -5,7 +5,7 @@ use super::{formula, text};
 use crate::breaking::broken;
 use crate::document::{Block, Cell, Document, Inline, Table};
 use crate::error::Error;
-use crate::notation::tabular::{Part, SIZES, parts};
+use crate::notation::tabular::{Part, SIZES, placed};
 use crate::width::width;
 
 /// The layout of a document.
@@ -46,7 +46,8 @@ impl Page {
 ///
 /// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
-    let mut writer = Writer { page, latex: String::new(), tables: 0 };
+    let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
+    let mut writer = Writer { page, layout, latex: String::new(), tables: 0 };
     writer.head(document);
     for block in &document.blocks {
         writer.block(block)?;
@@ -57,6 +58,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
 
 struct Writer {
     page: Page,
+    layout: Layout,
     latex: String,
     tables: usize,
 }
@@ -109,28 +111,34 @@ impl Writer {
             }
             Block::Table(table) => self.table(table),
             Block::Figure(figure) => {
-                let available = Layout::of_centimeters(self.page.width).width;
-                self.latex.push_str(&super::figure::figure(figure, available));
+                self.latex.push_str(&super::figure::figure(figure, self.layout.width));
             }
-            Block::Equations(list) => {
-                let layout = Layout::of_centimeters(self.page.width);
-                self.latex.push_str(&equations(list, layout)?);
-            }
+            Block::Equations(list) => self.latex.push_str(&equations(list, self.layout)?),
         }
         Ok(())
     }
 
     /// A line of a paragraph, in which formulas wider than a column are broken.
     fn inlines(&self, inlines: &[Inline]) -> String {
-        wrapped(inlines, Layout::of_centimeters(self.page.width).width - 20.0)
+        wrapped(inlines, self.layout.width - 20.0)
     }
 
-    /// A table that does not float, in parts that are never broken across pages.
+    /// A table in parts that are never broken across pages. They only float if they span columns, to the top of a page.
     fn table(&mut self, table: &Table) {
         self.tables += 1;
-        let available = Layout::of_centimeters(self.page.width).width;
-        for part in parts(table, available, COLUMN_GAP) {
-            self.part(&part);
+        let page = Layout::of_centimeters(self.page.text_width()).width;
+        let placed = placed(table, self.layout.width, page, COLUMN_GAP);
+        for part in &placed.parts {
+            let [begin, end] = match placed.spans {
+                true => ["\n\\begin{table*}[tp!]\\raggedright", "\\end{table*}"],
+                false => [
+                    "\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright",
+                    "\\end{minipage}\\par\\medskip",
+                ],
+            };
+            self.line(begin);
+            self.part(part);
+            self.line(end);
         }
     }
 
@@ -152,7 +160,6 @@ impl Writer {
             false => "\\\\",
         };
         let [below, above] = STRUTS;
-        self.line("\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright");
         self.line(&format!("{caption}\\par\\smallskip"));
         self.line(&format!("\\{size}\n\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n\\hline"));
         self.line(&format!("{below}{}{above} {end}\n\\hline", cells(&part.table.head)));
@@ -162,7 +169,7 @@ impl Writer {
             let strut = if place == last { above } else { "" };
             self.line(&format!("{start}{}{strut} {end}", cells(row)));
         }
-        self.line("\\hline\n\\end{tabular}\n\\end{minipage}\\par\\medskip");
+        self.line("\\hline\n\\end{tabular}");
     }
 }
 

@@ -1,24 +1,24 @@
 //! Displayed equations in an environment of amsmath, broken into lines.
 
-use crate::breaking::{is_within_product, right_side};
+use crate::breaking::{is_within_product, number_width, right_side};
 use crate::document::NumberedEquation;
 use crate::error::Error;
 use crate::latex::formula;
 use crate::math::Math;
-use crate::width::width;
+use crate::width::{text_width, width};
 
 /// The lines on which equations must fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// The width of a line in printer's points, 72.27 per inch.
     pub width: f64,
+    /// The largest number of an equation, for which lines leave room.
+    pub numbers: usize,
 }
 
 /// The largest number of lines in one environment. Longer ones are split, because TeX sets an environment as a whole,
 /// and its time grows with the square of the length.
 const LONGEST: usize = 40;
-/// The width of the number of an equation, in pt.
-const NUMBER: f64 = 36.0;
 /// An upper bound for the error of estimated widths, in pt.
 const MARGIN: f64 = 2.0;
 
@@ -26,7 +26,24 @@ impl Layout {
     /// A line of this width in centimeters.
     #[must_use]
     pub fn of_centimeters(width: f64) -> Layout {
-        Layout { width: width / 2.54 * 72.27 }
+        Layout { width: width / 2.54 * 72.27, numbers: 9999 }
+    }
+
+    /// The same line for equations with these numbers at most.
+    #[must_use]
+    pub fn numbered(self, numbers: usize) -> Layout {
+        Layout { numbers, ..self }
+    }
+
+    /// The width of the number of an equation with its distance from the equation, in pt.
+    pub(in crate::notation) fn number(self, equation: &NumberedEquation) -> f64 {
+        match (&equation.label, &equation.number) {
+            (Some(_), Some(own)) => {
+                number_width(self.numbers).max(number_width(1) + text_width(own))
+            }
+            (Some(_), None) => number_width(self.numbers),
+            (None, _) => 0.0,
+        }
     }
 }
 
@@ -41,7 +58,7 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let available = layout.width - left - MARGIN;
     let mut writer = Writer { numbered, latex: String::new(), rows: vec![], is_within: false };
     for equation in list {
-        writer.add(equation, available)?;
+        writer.add(equation, available, layout.number(equation))?;
     }
     writer.end(Cut::Between);
     Ok(writer.latex)
@@ -57,9 +74,9 @@ struct Writer {
 }
 
 impl Writer {
-    fn add(&mut self, numbered: &NumberedEquation, available: f64) -> Result<(), Error> {
+    fn add(&mut self, numbered: &NumberedEquation, available: f64, room: f64) -> Result<(), Error> {
         let NumberedEquation { label, number, equation } = numbered;
-        let lines = right_side(equation, available, if label.is_some() { NUMBER } else { 0.0 })?;
+        let lines = right_side(equation, available, room)?;
         let left = formula(&equation.left);
         let last = lines.len().saturating_sub(1);
         // An equation is kept in one environment if possible.

@@ -6,11 +6,9 @@ use crate::breaking::right_side;
 use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
-use crate::notation::tabular::{Part, SIZES, parts};
+use crate::notation::tabular::{Part, SIZES, placed};
 use crate::width::width;
 
-/// The width of the number of an equation and of its distance from the equation, in pt.
-const NUMBER: f64 = 44.0;
 /// An upper bound for the error of estimated widths, in pt.
 const MARGIN: f64 = 4.0;
 /// The gap between the columns of a table, including the padding of the cells, in pt.
@@ -30,11 +28,11 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let is_numbered = list.iter().any(|one| one.label.is_some());
     let numbering = if is_numbered { "\"(1)\"" } else { "none" };
     let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
-    for NumberedEquation { label, number: own, equation } in list {
-        let number = if label.is_some() { NUMBER } else { 0.0 };
+    for numbered in list {
+        let NumberedEquation { label, number: own, equation } = numbered;
         let available = layout.width - width(&equation.left) - MARGIN;
         let left = formula(&equation.left);
-        let lines = right_side(equation, available, number)?;
+        let lines = right_side(equation, available, layout.number(numbered))?;
         let last = lines.len().saturating_sub(1) / LINES;
         for (part, lines) in lines.chunks(LINES).enumerate() {
             let mut shown = vec![];
@@ -73,6 +71,7 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
 /// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let mut typst = head(document, page);
+    let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
     let mut tables = 0;
     for block in &document.blocks {
         match block {
@@ -87,20 +86,22 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
                 typst.push_str(&self::table(table, tables, page));
             }
             Block::Figure(figure) => {
-                let available = Layout::of_centimeters(page.width).width;
-                typst.push_str(&super::figure::figure(figure, available));
+                typst.push_str(&super::figure::figure(figure, layout.width));
             }
-            Block::Equations(list) => {
-                typst.push_str(&equations(list, Layout::of_centimeters(page.width))?);
-            }
+            Block::Equations(list) => typst.push_str(&equations(list, layout)?),
         }
     }
     Ok(typst)
 }
 
-fn head(document: &Document, page: Page) -> String {
+/// The width of all columns of a page with their gaps, in cm.
+fn text_width(page: Page) -> f64 {
     let columns = f64::from(page.columns);
-    let width = columns * page.width + (columns - 1.0) * GAP;
+    columns * page.width + (columns - 1.0) * GAP
+}
+
+fn head(document: &Document, page: Page) -> String {
+    let width = text_width(page);
     let paper = (width + 2.0).max(21.0);
     let margin = (paper - width) / 2.0;
     let title = text(&document.title);
@@ -119,10 +120,22 @@ fn head(document: &Document, page: Page) -> String {
     )
 }
 
-/// A table that does not float, in parts that are never broken across pages.
+/// A table in parts that are never broken across pages. They only float if they span columns, to the bottom of a page:
+/// at the top of the first one is the title.
 fn table(table: &Table, number: usize, page: Page) -> String {
-    let available = Layout::of_centimeters(page.width).width;
-    parts(table, available, CELL_GAP).iter().map(|part| self::part(part, number)).collect()
+    let [column, all] =
+        [page.width, text_width(page)].map(|width| Layout::of_centimeters(width).width);
+    let placed = placed(table, column, all, CELL_GAP);
+    let part = |part: &Part| match placed.spans {
+        true => {
+            format!(
+                "#place(bottom, scope: \"parent\", float: true)[\n{}]\n",
+                self::part(part, number)
+            )
+        }
+        false => self::part(part, number),
+    };
+    placed.parts.iter().map(part).collect()
 }
 
 fn part(part: &Part, number: usize) -> String {

@@ -1,4 +1,5 @@
-//! The properties of a robot on which a plan depends, as text; the hash of this text is the fingerprint of a pinned plan.
+//! The properties of a robot on which a plan depends, as text; the hash of this text is the fingerprint of a pinned
+//! plan.
 //!
 //! A [search](crate::economical::search) derives inverse dynamics without wrench and friction for each candidate,
 //! counts its operations, and compares its torques with those of the paper's iterations. The robot's parameters remain

@@ -96,8 +96,8 @@ enum Use {
     Check,
 }
 
-/// The values that loads read at the points: parameters and inputs of either sign and of a size near 1, and the sines and
-/// cosines of a function's angles, which can depend on each other.
+/// The values that loads read at the points: parameters and inputs of either sign and of a size near 1, and the sines
+/// and cosines of a function's angles, which can depend on each other.
 struct Points {
     used: Use,
     angles: Option<Vec<[DoubleDouble; POINTS]>>,

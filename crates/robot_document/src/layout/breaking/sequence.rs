@@ -1,0 +1,269 @@
+//! The places where lines can start, what a line costs from one to another, and the lines with the least cost.
+
+use super::{Limits, TooWide, starts_term};
+use crate::layout::math::{Fence, Math};
+use crate::layout::width::{in_row, width};
+
+/// The additional indent of lines within a product, in pt.
+const DEEPER: f64 = 10.0;
+/// The width of a `·` that is added at the beginning of a line, in pt.
+const DOT: f64 = 2.78;
+/// The spaces around a sign, which the indent of a line contains, in pt.
+const SPACES: f64 = 4.44;
+
+/// The cost of a line.
+const LINE: u32 = 100;
+/// The additional cost of a line that starts within parentheses around a sum that is longer than a line, by the depth
+/// of these, and that of each sum that is shorter and of each that is less than [`SHORT`].
+const LONG_SUM: [u32; 3] = [20, 15, 10];
+const WHOLE_SUM: u32 = 70;
+const SHORT_SUM: u32 = 250;
+/// The largest width of a short sum, as a fraction of the line.
+const SHORT: f64 = 0.5;
+/// The cost of a line that starts at a factor.
+const FACTOR: u32 = 60;
+/// The additional cost if its product does not start on a line of its own.
+const WITHIN: u32 = 150;
+/// The additional cost if a number ends the line before it.
+const BEHIND_NUMBER: u32 = 60;
+/// The additional cost if it is shorter than this fraction of a line.
+const TAIL: u32 = 35;
+const TAIL_WIDTH: f64 = 0.25;
+
+/// A formula as a sequence of pieces, in which the parentheses of sums are pieces of their own.
+#[derive(Default)]
+pub(super) struct Sequence<'m> {
+    tokens: Vec<Token<'m>>,
+    /// The widths of the tokens before each place, in pt.
+    before: Vec<f64>,
+    starts: Vec<Start>,
+    /// The width of a line.
+    line: f64,
+    /// The parentheses around the current place, and what a start within these costs.
+    depth: usize,
+    nesting: u32,
+}
+
+#[derive(Clone, Copy)]
+enum Token<'m> {
+    Piece(&'m Math),
+    /// The parenthesis that opens a sum, and the place of the one that closes it.
+    Open(&'m Math, usize),
+    Close,
+}
+
+/// A place where a line can start.
+#[derive(Clone, Copy)]
+struct Start {
+    token: usize,
+    cost: u32,
+    joint: Joint,
+    /// The first token of the term.
+    term: usize,
+}
+
+/// The way in which a line is joined to the preceding one.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Joint {
+    /// By the sign at its beginning.
+    Sign,
+    /// As a factor that starts with a `·`.
+    Dot,
+    /// As a factor to which a `·` is added.
+    Factor,
+}
+
+impl Start {
+    /// The cost of starting a line here if the line before it starts at `last`.
+    fn cost_after(self, last: Start) -> u32 {
+        let is_within = self.joint != Joint::Sign && last.token < self.term;
+        self.cost + if is_within { WITHIN } else { 0 }
+    }
+}
+
+impl<'m> Sequence<'m> {
+    pub(super) fn new(math: &'m Math, line: f64) -> Sequence<'m> {
+        let mut sequence = Sequence { before: vec![0.0], line, ..Sequence::default() };
+        sequence.starts.push(Start { token: 0, cost: 0, joint: Joint::Sign, term: 0 });
+        sequence.row(math.pieces(), 0);
+        sequence
+    }
+
+    /// The lines with the least cost.
+    pub(super) fn lines(&self, limits: Limits) -> Result<Vec<Math>, TooWide> {
+        let costs = self.costs(limits);
+        let (mut lines, mut place) = (vec![], 0);
+        while let Some(start) = self.starts.get(place) {
+            let best = costs.get(place).copied().flatten();
+            let (_, next) = best.ok_or_else(|| TooWide { needed: self.widest() })?;
+            lines.push(self.line(*start, self.starts.get(next)));
+            place = next;
+        }
+        Ok(lines)
+    }
+
+    fn push(&mut self, token: Token<'m>, width: f64) {
+        self.before.push(self.before.last().copied().unwrap_or_default() + width);
+        self.tokens.push(token);
+    }
+
+    /// Adds the pieces of a row; `term` is where the first term starts.
+    fn row(&mut self, pieces: &'m [Math], mut term: usize) {
+        for (place, piece) in pieces.iter().enumerate() {
+            let last = place.checked_sub(1).and_then(|last| pieces.get(last));
+            if let Some(last) = last
+                && let Some(joint) = joint(last, piece, pieces.get(place + 1))
+            {
+                self.start(joint, last, &mut term);
+            }
+            match piece {
+                Math::Fenced(Fence::Parentheses, inside) if !last.is_some_and(is_applied) => {
+                    self.fenced(piece, inside, in_row(pieces, place), term);
+                }
+                _ => self.push(Token::Piece(piece), in_row(pieces, place)),
+            }
+        }
+    }
+
+    fn start(&mut self, joint: Joint, last: &Math, term: &mut usize) {
+        let token = self.tokens.len();
+        let cost = match (joint, last) {
+            (Joint::Sign, _) => 0,
+            (_, Math::Number(_)) => FACTOR + BEHIND_NUMBER,
+            _ => FACTOR,
+        };
+        if joint == Joint::Sign {
+            *term = token;
+        }
+        self.starts.push(Start { token, cost: LINE + self.nesting + cost, joint, term: *term });
+    }
+
+    /// Adds a sum in parentheses, which is `whole` points wide with these, of the term that starts at `term`.
+    fn fenced(&mut self, piece: &'m Math, inside: &'m Math, whole: f64, term: usize) {
+        let around = whole - width(inside);
+        let open = self.tokens.len();
+        let (depth, nesting) = (self.depth, self.nesting);
+        self.push(Token::Open(piece, open), around / 2.0);
+        self.depth += 1;
+        self.nesting += match () {
+            () if whole <= SHORT * self.line => SHORT_SUM,
+            () if whole <= self.line => WHOLE_SUM,
+            () => LONG_SUM.get(depth).copied().unwrap_or_default(),
+        };
+        let is_first = !self.tokens.iter().skip(term).any(|one| matches!(one, Token::Close));
+        self.row(inside.pieces(), if is_first { term } else { open + 1 });
+        (self.depth, self.nesting) = (depth, nesting);
+        let close = self.tokens.len();
+        if let Some(token) = self.tokens.get_mut(open) {
+            *token = Token::Open(piece, close);
+        }
+        self.push(Token::Close, around / 2.0);
+    }
+
+    /// The width of the line from one start to the next, or to the end.
+    fn width(&self, start: Start, next: Option<&Start>) -> f64 {
+        let end = next.map_or(self.tokens.len(), |next| next.token);
+        let at = |place: usize| self.before.get(place).copied().unwrap_or_default();
+        let width = at(end) - at(start.token);
+        match start.joint {
+            Joint::Factor => width + DOT,
+            // The row's first piece has no spaces.
+            _ if start.token == 0 => width,
+            _ => width - SPACES,
+        }
+    }
+
+    /// The cost of all that follows each start, and the start of the line after it. Of equal costs, the fullest first
+    /// line is taken.
+    fn costs(&self, limits: Limits) -> Vec<Option<(u32, usize)>> {
+        let end = self.starts.len();
+        let mut costs: Vec<Option<(u32, usize)>> = vec![None; end];
+        costs.push(Some((0, end)));
+        for (place, start) in self.starts.iter().enumerate().rev() {
+            let limit = match (place, start.joint) {
+                (0, _) => limits.first,
+                (_, Joint::Sign) => limits.rest,
+                _ => limits.rest - DEEPER,
+            };
+            let mut best: Option<(u32, usize)> = None;
+            for next in place + 1..=end {
+                let following = self.starts.get(next);
+                let width = self.width(*start, following);
+                if width > limit {
+                    break;
+                }
+                let fits = following.is_some() || width <= limit - limits.number;
+                let rest = costs.get(next).copied().flatten().filter(|_| fits);
+                let Some((rest, _)) = rest else { continue };
+                let is_tail = start.joint != Joint::Sign && width < TAIL_WIDTH * self.line;
+                let tail = if is_tail { TAIL } else { 0 };
+                let cost = rest + tail + following.map_or(0, |next| next.cost_after(*start));
+                if best.is_none_or(|(least, _)| cost <= least) {
+                    best = Some((cost, next));
+                }
+            }
+            if let Some(slot) = costs.get_mut(place) {
+                *slot = best;
+            }
+        }
+        costs
+    }
+
+    /// The width of the widest piece without a place where a line can start.
+    fn widest(&self) -> f64 {
+        let nexts = self.starts.iter().skip(1).map(Some).chain([None]);
+        let widths = self.starts.iter().zip(nexts).map(|(start, next)| self.width(*start, next));
+        widths.fold(0.0, f64::max)
+    }
+
+    fn line(&self, start: Start, next: Option<&Start>) -> Math {
+        let end = next.map_or(self.tokens.len(), |next| next.token);
+        let mut pieces = vec![];
+        if start.joint == Joint::Factor {
+            pieces.push(Math::Sign('·'));
+        }
+        let mut place = start.token;
+        while let Some(token) = self.tokens.get(place).filter(|_| place < end) {
+            match token {
+                Token::Open(whole, close) if *close < end => {
+                    pieces.push((*whole).clone());
+                    place = *close;
+                }
+                Token::Open(..) => pieces.push(Math::Sign('(')),
+                Token::Close => pieces.push(Math::Sign(')')),
+                Token::Piece(piece) => pieces.push((*piece).clone()),
+            }
+            place += 1;
+        }
+        Math::row(pieces)
+    }
+}
+
+/// How a line that starts at `piece` is joined to the one that ends with `last`; `None` if no line starts there. A sign
+/// stays with the factor after it, a function with its argument, a power of ten with its number, and a `×` with both of
+/// its operands.
+fn joint(last: &Math, piece: &Math, next: Option<&Math>) -> Option<Joint> {
+    match piece {
+        _ if starts_term(last, piece) => Some(Joint::Sign),
+        Math::Sign('·') if !next.is_some_and(is_power_of_ten) => Some(Joint::Dot),
+        Math::Sign(_) => None,
+        _ => (!stays_with_next(last)).then_some(Joint::Factor),
+    }
+}
+
+fn is_power_of_ten(piece: &Math) -> bool {
+    matches!(piece, Math::Script(script) if matches!(&script.base, Math::Number(ten) if ten == "10"))
+}
+
+fn stays_with_next(piece: &Math) -> bool {
+    matches!(piece, Math::Sign(_)) || is_applied(piece)
+}
+
+/// Whether the piece is a function whose argument follows.
+fn is_applied(piece: &Math) -> bool {
+    match piece {
+        Math::Function(_) | Math::Letter('s' | 'c') => true,
+        Math::Script(script) => is_applied(&script.base) && script.lower.is_none(),
+        _ => false,
+    }
+}
