@@ -167,3 +167,25 @@ fn wrong_bundles_of_the_caller_are_errors() {
     let error = programs(&arm, &Options { bundles, ..Options::default() }).unwrap_err();
     assert!(error.to_string().contains("has no function `inverse_dynamics_friction`"), "{error}");
 }
+
+/// A module states the places of the entries of `mass_matrix_lower` if it computes them, in a function or in a bundle.
+#[test]
+fn places_of_the_lower_half_are_stated_with_its_entries() {
+    use FunctionKind::{Bias, MassMatrix, MassMatrixLower};
+    let cases: [(&[FunctionKind], &[FunctionKind], bool); 6] = [
+        (&[MassMatrix, Bias], &[], false),
+        (&[MassMatrixLower], &[], true),
+        (&[MassMatrix], &[MassMatrix, Bias], false),
+        (&[MassMatrixLower], &[MassMatrix, Bias], true),
+        (&[MassMatrix], &[MassMatrixLower], true),
+        (&[MassMatrix], &[Bias, MassMatrixLower], true),
+    ];
+    for (functions, bundled, are_stated) in cases {
+        let bundles = if bundled.is_empty() { vec![] } else { vec![bundle("together", bundled)] };
+        let functions = Functions::Chosen(functions.to_vec());
+        let options = Options { functions, bundles, ..Options::default() };
+        let code = generate(&source(""), &options).unwrap().code;
+        let found = code.contains("pub const MASS_MATRIX_LOWER:");
+        assert_eq!(found, are_stated, "{:?}, {bundled:?}", options.functions);
+    }
+}

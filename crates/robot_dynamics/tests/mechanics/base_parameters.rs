@@ -67,6 +67,41 @@ fn base_parameters_are_as_many_as_known() {
     }
 }
 
+/// Standard parameters for which one base parameter is 1 have 0 for all others, and each of their coefficients is needed.
+#[test]
+fn a_unit_of_a_base_parameter_is_no_other() {
+    for name in ["puma560", "stanford", "panda"] {
+        for base_frames in BaseFrames::ALL {
+            let robot = Robot { base_frames, ..robot(name) };
+            let graph = Graph::new();
+            let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+            let base = base_parameters(&derivation).unwrap().base;
+            let mut random = Random::new(3);
+            let solver = robot_numeric::Mechanism::nominal(&robot).unwrap();
+            let state = state(&mut random, &solver, &robot);
+            let numbers = |terms: &[(usize, Expr<'_>)]| -> Vec<(usize, f64)> {
+                let (places, values): (Vec<usize>, Vec<Expr<'_>>) = terms.iter().copied().unzip();
+                places.into_iter().zip(evaluate(&robot, &values, &state)).collect()
+            };
+            let rows: Vec<_> = base.iter().map(|one| numbers(&one.terms)).collect();
+            for (number, parameter) in base.iter().enumerate() {
+                let unit = numbers(&parameter.unit);
+                assert!(unit.iter().all(|(_, value)| *value != 0.0), "{name}: {unit:?}");
+                for (other, row) in rows.iter().enumerate() {
+                    let products = row.iter().map(|(place, coefficient)| {
+                        let given = unit.iter().find(|(of_unit, _)| of_unit == place);
+                        given.map_or(0.0, |(_, value)| coefficient * value)
+                    });
+                    let (found, expected): (f64, _) =
+                        (products.sum(), if other == number { 1.0 } else { 0.0 });
+                    let names = [&base[other], parameter].map(BaseParameter::name);
+                    assert!((found - expected).abs() < 1e-9, "{name}: {names:?} {found}");
+                }
+            }
+        }
+    }
+}
+
 /// Only parameters to which others are added have an R in their names.
 #[test]
 fn regrouped_parameters_are_marked() {

@@ -137,6 +137,20 @@ fn forward_dynamics_of_many_joints_is_linear_in_them() {
     assert!(many < 32 * 700, "{many}");
 }
 
+/// The pivots of more than sixteen joints are those of this elimination, with as many operations for each joint.
+#[test]
+fn pivots_of_many_joints_are_linear_in_them() {
+    let cost = |joints: usize| {
+        let robot = robots::robot(&mut Random::new(7), &Recipe::serial(joints));
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        operations(&derivation.pivots().outputs[0].values, |_| false).flops()
+    };
+    let [some, many] = [17, 34].map(cost);
+    println!("{some} {many}");
+    assert!(many < 5 * some / 2, "{some} {many}");
+}
+
 /// The product of the pivots of M = Lᵀ D L is the determinant of M, and the outermost pivot is the last entry of the
 /// diagonal.
 #[test]

@@ -465,6 +465,25 @@ fn each_option_has_its_setter() {
         if let Some(value) = option.value(option.example) {
             option.set(&mut expected, value);
         }
-        assert_eq!(set(Builder::new()).options, expected, "{}", option.name);
+        let builder = set(Builder::new().out_dir("out"));
+        assert_eq!(builder.options, expected, "{}", option.name);
+        assert_eq!(builder.out_dir, Some("out".into()), "{} resets others", option.name);
     }
+}
+
+/// The setters of what is not in the table of options keep what was set before.
+#[test]
+fn other_setters_set_a_field_each() {
+    let plan = Plan { links: vec![], unit_length: None };
+    let builder = Builder::new().parallel(true).plan(plan.clone()).out_dir("out");
+    let builder = builder.package_dir("package").emit_directives(false);
+    #[cfg(feature = "languages")]
+    let builder = builder.language(Language::C);
+    let expected = Options { parallel: true, plan: Some(plan), ..Options::default() };
+    assert_eq!(builder.options, expected);
+    assert_eq!(builder.out_dir, Some("out".into()));
+    assert_eq!(builder.package_dir, Some("package".into()));
+    assert!(builder.silent);
+    #[cfg(feature = "languages")]
+    assert_eq!(builder.language, Language::C);
 }

@@ -159,3 +159,42 @@ fn drive<'g>(link: &ChainLink<'g>) -> Expr<'g> {
     };
     link.reflected_inertia - own_coupling
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_numeric::random::{Random, Recipe};
+    use robot_numeric::robots;
+    use robot_symbolic::Graph;
+
+    use super::*;
+    use crate::economical::{Plan, Recursion};
+    use crate::mechanism::{Mechanism, MechanismOptions};
+
+    /// Of fewer than nine coordinates, the mass matrix has the form of the plan. Of more, it has the cheapest form, which is
+    /// another for chains about arbitrary axes.
+    #[test]
+    fn other_forms_are_tried_from_nine_coordinates_on() {
+        for joints in 6..=11 {
+            let robot = robots::robot(&mut Random::new(7), &Recipe::serial(joints));
+            let graph = Graph::new();
+            let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
+            let plan = Plan::uniform(joints, &LinkPlan::BASIC);
+            let chain = Recursion::new(&mechanism, &plan).unwrap().chain;
+            let cost = |matrix: &SymmetricMatrix<'_>| {
+                let rows = matrix.rows();
+                operations(&rows, |symbol| !graph.symbol_name(symbol).starts_with('q')).flops()
+            };
+            let planned = mass_matrix(&chain, &plan.links);
+            let others =
+                [Arms::InLinks, Arms::InCommonAxes].map(|arms| in_common_axes(&chain, arms));
+            let found = cheapest(&chain, &plan.links);
+            let least = others.iter().map(cost).min().unwrap();
+            if joints < 9 {
+                assert_eq!(found.rows(), planned.rows(), "{joints}");
+            } else {
+                assert_eq!(cost(&found), least, "{joints}");
+                assert!(least < cost(&planned), "{joints}");
+            }
+        }
+    }
+}

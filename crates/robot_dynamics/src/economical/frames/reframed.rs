@@ -63,3 +63,49 @@ fn in_frames<'g>(mechanism: &Mechanism<'g>, frames: &[WorkingFrame<'g>]) -> Mech
     }
     moved
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_numeric::random::{Random, Recipe};
+    use robot_numeric::robots;
+    use robot_symbolic::Graph;
+
+    use super::*;
+    use crate::mechanism::MechanismOptions;
+
+    /// The origin of a frame is the point of its axis that is closest to the axis of the parent's joint, and the normal of
+    /// parallel axes is that through the parent's origin.
+    #[test]
+    fn origins_are_the_feet_of_common_normals() {
+        let random = (0..8).map(|seed| robots::robot(&mut Random::new(seed), &Recipe::serial(6)));
+        let arms = ["planar_2r", "puma560", "panda"].map(robot_testing::robot);
+        let (mut skew, mut parallel) = (0, 0);
+        for robot in random.chain(arms) {
+            let graph = Graph::new();
+            let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::ROUNDED);
+            let reframed = Reframed::denavit_hartenberg(&mechanism).unwrap();
+            for (link, frame) in reframed.mechanism.links.iter().zip(&reframed.frames) {
+                let value = |name: &str| robot.nominal_value(name);
+                let numbers = |Vector(entries): Vector<'_>| {
+                    entries.map(|one| one.evaluate(|id| value(&graph.symbol_name(id))))
+                };
+                let (origin, axis) = (numbers(link.translation), numbers(link.rotation.column(2)));
+                let is_moved = numbers(frame.origin) != [0.0; 3];
+                if link.parent.is_none() || link.kind == JointKind::Prismatic {
+                    assert!(!is_moved, "{}", robot.name);
+                    continue;
+                }
+                // The derivative of the squared distance from the parent's axis z along the link's axis.
+                let slope = origin[0] * axis[0] + origin[1] * axis[1];
+                if axis[0].hypot(axis[1]) > 1e-2 && is_moved {
+                    assert!(slope.abs() < 1e-9, "{}: {origin:?} {axis:?}", robot.name);
+                    skew += 1;
+                } else if axis[0].hypot(axis[1]) < 1e-12 {
+                    assert!(origin[2].abs() < 1e-9, "{}: {origin:?} {axis:?}", robot.name);
+                    parallel += 1;
+                }
+            }
+        }
+        assert!(skew > 10 && parallel > 1, "{skew} {parallel}");
+    }
+}
