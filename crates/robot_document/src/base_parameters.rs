@@ -393,7 +393,7 @@ fn product(factor: &Term, names: &[&Written]) -> Term {
 
 #[cfg(test)]
 mod tests {
-    use robot_testing::read;
+    use robot_model::description::read_toml;
 
     use super::*;
 
@@ -411,7 +411,8 @@ mod tests {
             "origin = { xyz = [0.3, 0.1, 0.2], rpy = [1.1, 0.4, 0.2] }",
         );
         let first = link("a", "[1, 2, 3]", origin);
-        read("skew", &format!("format = 1\n[robot]\nname = \"skew\"\n{first}{second}"))
+        let text = format!("format = 1\n[robot]\nname = \"skew\"\n{first}{second}");
+        read_toml("skew.toml", &text).unwrap().robot
     }
 
     /// Exact coefficients are quotients of thousands of terms here, most of which cancel.
@@ -427,8 +428,8 @@ mod tests {
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::EXACT, None);
         let exact = base_parameters(&derivation).unwrap().nominal();
         for (entry, exact) in set.list.iter().zip(exact) {
-            let (value, exact): (f64, f64) =
-                (entry.value.text.parse().unwrap(), exact.evaluate(|_| f64::NAN));
+            let value = graph.parse(&entry.value.text).unwrap().evaluate(|_| f64::NAN);
+            let exact = exact.evaluate(|_| f64::NAN);
             assert!((value - exact).abs() < 1e-12, "{}: {value}, {exact}", entry.name);
         }
     }

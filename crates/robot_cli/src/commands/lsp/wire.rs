@@ -24,7 +24,12 @@ pub(super) fn read(stream: &mut dyn BufRead) -> Result<Option<Value>, String> {
     }
     let message: Value = serde_json::from_slice(&bytes).map_err(|error| {
         let (line, column) = (error.line(), error.column());
-        format!("its content is not JSON that can be read: line {line}, column {column}")
+        // The library has no other sign of it.
+        let why = match error.to_string().starts_with("recursion limit") {
+            true => "its brackets are nested too deeply",
+            false => "its content is not JSON that can be read",
+        };
+        format!("{why}: line {line}, column {column}")
     })?;
     if message.is_object() { Ok(Some(message)) } else { Err("it is not a JSON object".to_owned()) }
 }
@@ -138,7 +143,9 @@ mod tests {
         }
         let deep = "[".repeat(1 << 20);
         let deep = format!("Content-Length: {}\r\n\r\n{deep}", deep.len());
-        assert!(all(deep.as_bytes())[0].as_ref().unwrap_err().contains("recursion limit"));
+        assert!(
+            all(deep.as_bytes())[0].as_ref().unwrap_err().contains("nested too deeply: line 1")
+        );
         assert!(all(&[b'a'; 1 << 20])[0].as_ref().unwrap_err().contains("not complete"));
     }
 }
