@@ -1,8 +1,9 @@
-"""Times the kernels of CUDA packages on a device, and compares bits with the Python package of the same robot.
+"""Times the kernels of CUDA packages on a device, and compares the results with those of the Python
+package of the same robot.
 
     python3 measure.py FOLDER ROBOT...
 
-FOLDER has the packages ROBOT_f32, ROBOT_f64 and ROBOT_python, with the same functions.
+FOLDER contains the packages ROBOT_f32, ROBOT_f64 and ROBOT_python, with the same functions.
 """
 
 import json
@@ -21,7 +22,7 @@ ROUNDS = 15
 
 
 def median_time(work):
-    """The median time of a call, s, by events of the device, after three calls that are not counted."""
+    """The median time of a call, s, measured with CUDA events, after three calls that are not counted."""
     for _ in range(3):
         work()
     times = []
@@ -54,36 +55,37 @@ def touched(text, arrays):
     return len(set(re.findall(rf"\b(?:{names})\[(?:\d+ \* )?(?:stride \+ )?i\]", text)))
 
 
-def columns(arrays, number, make):
+def columns(arrays, dtype, make):
     lengths = [len(array["entries"]) if "entries" in array else math.prod(array["shape"]) for array in arrays]
-    return [make((length, STATES), number) for length in lengths]
+    return [make((length, STATES), dtype) for length in lengths]
 
 
-def uniform(shape, number):
-    return cupy.random.uniform(-3.0, 3.0, shape, dtype=number)
+def uniform(shape, dtype):
+    return cupy.random.uniform(-3.0, 3.0, shape, dtype=dtype)
 
 
-def poisoned(shape, number):
-    return cupy.full(shape, cupy.nan, dtype=number)
+def filled_with_nan(shape, dtype):
+    return cupy.full(shape, cupy.nan, dtype=dtype)
 
 
 def differences(host, function, inputs, outputs):
-    """The number of results with other bits than on the host, among the first states, and the largest difference, in
-    units of the function's largest output."""
+    """The number of results at the first states with other bits than on the host, and the largest difference, relative to
+    the function's largest output."""
     taken = [numpy.asarray(array[:, :COMPARED].get(), dtype=numpy.float64) for array in inputs]
     stated = getattr(host, function["name"])(*taken)
     stated = list(stated.values()) if isinstance(stated, dict) else [stated]
     found = [numpy.asarray(array[:, :COMPARED].get(), dtype=numpy.float64) for array in outputs]
     stated = numpy.concatenate([numpy.asarray(array).reshape(-1, COMPARED) for array in stated])
     found = numpy.concatenate(found)
-    return int((stated != found).sum()), float(abs(stated - found).max() / abs(stated).max())
+    return int((stated.view("uint64") != found.view("uint64")).sum()), float(abs(stated - found).max() / abs(stated).max())
 
 
 def measured(folder, robot, scalar, bandwidth):
-    """Times every kernel of a package, and prints a row for each; returns whether bits are those of the host."""
+    """Times every kernel of a package, with and without fused operations, and prints a row for each; returns whether the
+    results in double precision without fused operations have the bits of the host."""
     package = folder / f"{robot}_{scalar}"
     header = (package / f"{robot}.cuh").read_text()
-    number = {"f32": "float32", "f64": "float64"}[scalar]
+    dtype = {"f32": "float32", "f64": "float64"}[scalar]
     described = json.loads((package / "robot.json").read_text())
     sys.path.insert(0, str(folder / f"{robot}_python"))
     host = __import__(robot)
@@ -95,26 +97,26 @@ def measured(folder, robot, scalar, bandwidth):
             kernel = module.get_function(f"{robot}_{function['name']}_kernel")
             text = kernel_text(header, f"{robot}_{function['name']}")
             entries = touched(text, function["inputs"] + function["outputs"])
-            inputs = columns(function["inputs"], number, uniform)
-            outputs = columns(function["outputs"], number, poisoned)
+            inputs = columns(function["inputs"], dtype, uniform)
+            outputs = columns(function["outputs"], dtype, filled_with_nan)
             times = []
             for threads in THREADS:
                 arguments = (numpy.uint64(STATES), numpy.uint64(STATES), *inputs, *outputs)
                 grid = ((STATES + threads - 1) // threads,)
                 times.append(median_time(lambda: kernel(grid, (threads,), arguments)))
             assert not any(bool(cupy.isnan(array).any()) for array in outputs), "an output was not written"
-            others, far = differences(host, function, inputs, outputs)
+            others, largest = differences(host, function, inputs, outputs)
             if scalar == "f64" and not fused:
                 same &= others == 0
             # The host computes in double precision.
             others = others if scalar == "f64" else "-"
             seconds = times[THREADS.index(128)]
-            bytes_of_state = entries * numpy.dtype(number).itemsize
+            bytes_of_state = entries * numpy.dtype(dtype).itemsize
             print(
                 f"| {robot} | {function['name']} | {scalar} | {'yes' if fused else 'no'} | {STATES / seconds:.2e} | "
                 f"{STATES / min(times):.2e} ({THREADS[times.index(min(times))]}) | {bytes_of_state} | "
                 f"{bytes_of_state * STATES / seconds / bandwidth:.0%} | {kernel.num_regs} | "
-                f"{kernel.local_size_bytes} | {others} | {far:.1e} |",
+                f"{kernel.local_size_bytes} | {others} | {largest:.1e} |",
                 flush=True,
             )
             del inputs, outputs, arguments

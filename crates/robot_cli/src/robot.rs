@@ -10,6 +10,7 @@ use robot_build::{
     Value, robot_inputs,
 };
 use robot_document::Form;
+use robot_dynamics::limbs::like_limbs;
 use robot_dynamics::mechanism::{Snap, snapped};
 use robot_model::description::Described;
 use robot_model::robot::Robot;
@@ -287,13 +288,14 @@ impl CodeArguments {
             text::lacking(robot, &options, terminal)?;
         }
         file.check_base_frames_of(wanted, bundles, terminal)?;
-        self.check_effects(&options, language, terminal)?;
+        self.check_effects(robot, &options, language, terminal)?;
         Ok(options)
     }
 
     /// Prints a note for each option without effect on code in this language.
     fn check_effects(
         &self,
+        robot: &Robot,
         options: &Options,
         language: Language,
         terminal: &mut Terminal<'_>,
@@ -309,6 +311,9 @@ impl CodeArguments {
         let why = match language {
             Language::Rust if standard && options.limbs == Limbs::SideBySide => {
                 "with --trigonometry standard; limbs are apart"
+            }
+            Language::Rust if like_limbs(robot).is_none() => {
+                "on this robot: it has parameters, or no limbs that are alike"
             }
             Language::Rust => return Ok(()),
             _ => "outside Rust; limbs are apart",

@@ -27,12 +27,13 @@ const SHORTER: &str = "their formulas are too long to read, but the function `ba
     angles between frames are nearly multiples of π/2, snapping them (the option `snap`) makes the formulas shorter, and \
     formulas in other frames (`base_frames = \"denavit_hartenberg\"`) can be shorter";
 
-/// The length of a coefficient, in operations and operands as printed, from which its constants are numbers.
+/// The length of a coefficient, in operations and operands as printed, above which its long constants are printed as
+/// numbers.
 const LONG: u64 = 200;
-/// The length from which a coefficient is refused.
+/// The length above which a coefficient is refused.
 const TOO_LONG: u64 = 100_000;
-/// The largest denominator of a number that is printed as a fraction, and its largest distance from the number's
-/// computed value. A number that is no such fraction comes this close to one with a probability of about 10⁻⁸.
+/// The largest denominator of a number that is printed as a fraction, and its largest relative distance from the
+/// computed value. A number that is not such a fraction comes this close to one with a probability of about 10⁻⁸.
 const DENOMINATOR: f64 = 1000.0;
 const DISTANCE: f64 = 1e-14;
 
@@ -196,14 +197,16 @@ pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameter
             found.rounded = true;
         }
         if length(*coefficient) > TOO_LONG {
-            let reason = format!("a coefficient has more than {TOO_LONG} operations; {SHORTER}");
+            let reason = format!(
+                "a coefficient is longer than {TOO_LONG} operations and operands; {SHORTER}"
+            );
             return Err(Error::Base { reason });
         }
     }
     Ok(found)
 }
 
-/// The number of operations and operands of an expression as it is printed, in which common parts occur several times.
+/// The number of operations and operands of an expression as it is printed, with common parts counted each time.
 fn length(root: Expr<'_>) -> u64 {
     let mut known: FxHashMap<Id, u64> = FxHashMap::default();
     for expr in walk::reachable(&[root]) {
@@ -214,7 +217,7 @@ fn length(root: Expr<'_>) -> u64 {
     known.get(&root.id()).copied().unwrap_or(0)
 }
 
-/// The expression with numbers for its long constants: fractions if they are near one, otherwise decimals.
+/// Replaces long constants with decimals, or the whole coefficient with a fraction if it is near a simple one.
 fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
     let graph = coefficient.graph();
     // Expansions of expressions as long as these take minutes.
@@ -224,7 +227,8 @@ fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
     fraction.map_or(short, |fraction| graph.number(Number::Rational(fraction)))
 }
 
-/// The fraction with a small denominator that is as near to a value as rounding errors leave it, by continued fractions.
+/// The fraction with a denominator of at most [`DENOMINATOR`] that equals a value up to rounding errors, by continued
+/// fractions.
 fn fraction(value: f64) -> Option<Rational> {
     let (mut rest, mut before, mut denominator) = (value.abs(), 0.0, 1.0);
     while denominator <= DENOMINATOR {

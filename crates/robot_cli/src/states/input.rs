@@ -195,7 +195,7 @@ impl<'t> Rest<'t> {
     }
 }
 
-/// Copies a stream to a temporary file.
+/// Copies a stream to memory or, beyond [`KEPT`] bytes, to a temporary file.
 ///
 /// # Errors
 ///
@@ -209,8 +209,8 @@ fn copy(stream: &mut dyn BufRead, kept: &mut tempfile::SpooledTempFile) -> Resul
         kept.write_all(block).map_err(|error| {
             let (folder, reason) = (std::env::temp_dir(), system_reason(&error));
             Error::other(format!(
-                "it cannot be kept in a temporary file in {}: {reason}; store it in a file, or name another folder in \
-                 TMPDIR",
+                "it cannot be stored in a temporary file in {}: {reason}; write it to a file, or set another folder for \
+                 temporary files (TMPDIR, on Windows TMP)",
                 folder.display()
             ))
         })?;

@@ -200,7 +200,7 @@ fn an_error_that_is_not_hidden_is_noted() {
     std::fs::write(&wrong, format!("{text}\nweight = 1\n")).unwrap();
     let found = run(&["check", wrong.to_str().unwrap(), "--allow", "R0101"]);
     assert_eq!(found.code, 1);
-    let note = "note: --allow R0101: errors with this code are not hidden, only warnings and notes";
+    let note = "note: --allow R0101 hides warnings and notes, but not errors";
     assert!(found.errors.contains(note), "{}", found.errors);
     assert!(!run(&["check", &file, "--allow", "R0101"]).errors.contains("note: --allow"));
 }
@@ -232,9 +232,9 @@ fn a_folder_for_temporary_files_that_is_not_there_is_named() {
         .output()
         .unwrap();
     let errors = String::from_utf8(done.stderr).unwrap();
-    assert!(errors.contains("it cannot be kept in a temporary file in "), "{errors}");
+    assert!(errors.contains("it cannot be stored in a temporary file in "), "{errors}");
     assert!(
-        errors.contains("missing: there is no such file or folder; store it in a file"),
+        errors.contains("missing: there is no such file or folder; write it to a file"),
         "{errors}"
     );
 }

@@ -69,7 +69,7 @@ fn base_parameters_are_as_many_as_known() {
 
 /// Standard parameters for which one base parameter is 1 have 0 for all others, and each of their coefficients is needed.
 #[test]
-fn a_unit_of_a_base_parameter_is_no_other() {
+fn a_unit_of_a_base_parameter_is_not_another() {
     for name in ["puma560", "stanford", "panda"] {
         for base_frames in BaseFrames::ALL {
             let robot = Robot { base_frames, ..robot(name) };

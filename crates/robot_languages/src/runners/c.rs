@@ -85,17 +85,17 @@ pub(super) struct Calls {
     pub(super) ending: &'static str,
     /// Lines at the top of the program.
     pub(super) top: &'static str,
-    /// The model as an argument of the form over states.
+    /// The model as an argument of a batch.
     pub(super) model: &'static str,
-    /// The text before the call of the form over states.
+    /// The text before the call of a batch.
     pub(super) before: &'static str,
-    /// The text between the name of the form over states and its arguments.
+    /// The text between the name of a batch and its arguments.
     pub(super) grid: &'static str,
-    /// The text after the call of the form over states.
+    /// The text after the call of a batch.
     pub(super) after: &'static str,
     /// Declares columns, given their type, name and number of entries.
     pub(super) columns: fn([&str; 3]) -> String,
-    /// Whether a function has the form over states.
+    /// Whether a function has a batch.
     pub(super) has_batch: fn(&Function<'_>) -> bool,
 }
 
@@ -200,7 +200,7 @@ fn block(
     text
 }
 
-/// Prints the call of the form over states, and the writing of its results.
+/// Prints the call of a batch, and the writing of its results.
 fn columns(
     tree: &Tree<'_>,
     function: &Function<'_>,

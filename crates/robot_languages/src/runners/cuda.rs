@@ -120,7 +120,7 @@ const DEVICE: &str = "#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 
-static void succeed(cudaError_t error)
+static void check(cudaError_t error)
 {
     if (error != cudaSuccess) {
         std::fprintf(stderr, \"%s\\n\", cudaGetErrorString(error));
@@ -131,15 +131,15 @@ static void succeed(cudaError_t error)
 template <class T> static T *shared_columns(std::size_t count)
 {
     T *memory = nullptr;
-    succeed(cudaMallocManaged(&memory, count * sizeof(T)));
+    check(cudaMallocManaged(&memory, count * sizeof(T)));
     std::memset(memory, 0xff, count * sizeof(T));
     return memory;
 }
 
 static void finish()
 {
-    succeed(cudaGetLastError());
-    succeed(cudaDeviceSynchronize());
+    check(cudaGetLastError());
+    check(cudaDeviceSynchronize());
 }
 
 ";
@@ -163,7 +163,7 @@ impl Runner for Nvcc {
         if !files::is_there("nvcc", &["--version"]) {
             return Some("nvcc is not installed".to_owned());
         }
-        (!files::is_there("nvidia-smi", &["-L"])).then(|| "there is no device".to_owned())
+        (!files::is_there("nvidia-smi", &["-L"])).then(|| "`nvidia-smi` finds no device".to_owned())
     }
 
     fn has(&self, _: Scalar) -> bool {

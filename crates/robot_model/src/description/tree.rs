@@ -137,7 +137,7 @@ fn report_cycles(
             continue;
         };
         let names: Vec<String> =
-            on_cycle.iter().chain([first]).map(|link| format!("`{}`", link.name.name)).collect();
+            on_cycle.iter().chain([first]).map(|link| written(reader.text, link)).collect();
         let place = |link: &DraftLink| link.places.parent.clone().unwrap_or(link.name.span.clone());
         let message = format!("the parents of the links form a cycle: {}", names.join(" on "));
         let mut diagnostic = Diagnostic::error(code::CYCLE, message)
@@ -148,6 +148,18 @@ fn report_cycles(
             diagnostic = diagnostic.and_at(&place(link), "and this one");
         }
         reader.report(diagnostic);
+    }
+}
+
+/// The name of a link, with that of the file if it was renamed.
+fn written(text: &str, link: &DraftLink) -> String {
+    let name = &link.name.name;
+    let found = text.get(link.name.span.clone()).unwrap_or_default().trim_matches(['"', '\'']);
+    // A name that the file does not have has the place of something else.
+    let is_name = !found.is_empty() && !found.contains(['[', '{', '=', '\n']);
+    match !is_name || found == name {
+        true => format!("`{name}`"),
+        false => format!("`{}`, renamed `{name}`,", quote(found)),
     }
 }
 

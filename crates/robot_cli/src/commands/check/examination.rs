@@ -34,7 +34,7 @@ impl ExaminationArguments {
         if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
     }
 
-    /// Prints a note for each of the codes with which errors are left, since only warnings and notes can be hidden.
+    /// Prints a note for each allowed code with which errors remain, because only warnings and notes can be hidden.
     pub(super) fn note_kept(
         &self,
         reports: &[Report],
@@ -44,7 +44,7 @@ impl ExaminationArguments {
             if reports.iter().any(|report| report.has_error(code)) {
                 writeln!(
                     terminal.errors,
-                    "note: --allow {code}: errors with this code are not hidden, only warnings and notes"
+                    "note: --allow {code} hides warnings and notes, but not errors"
                 )?;
             }
         }

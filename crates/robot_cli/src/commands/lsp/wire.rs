@@ -24,10 +24,10 @@ pub(super) fn read(stream: &mut dyn BufRead) -> Result<Option<Value>, String> {
     }
     let message: Value = serde_json::from_slice(&bytes).map_err(|error| {
         let (line, column) = (error.line(), error.column());
-        // The library has no other sign of it.
+        // serde_json reports this limit only in its text.
         let why = match error.to_string().starts_with("recursion limit") {
             true => "its brackets are nested too deeply",
-            false => "its content is not JSON that can be read",
+            false => "its content cannot be read as JSON",
         };
         format!("{why}: line {line}, column {column}")
     })?;
@@ -129,9 +129,9 @@ mod tests {
             (b"Host: here\r\n\r\n{}", "its header has no `Content-Length`"),
             (b"\r\n{}", "its header has no `Content-Length`"),
             (b"Content-Length: 9\r\n\r\n{}", "it ends after 2 of 9 bytes"),
-            (b"Content-Length: 2\r\n\r\n{]", "its content is not JSON that can be read: line "),
-            (b"Content-Length: 1\r\n\r\n\xff", "its content is not JSON that can be read: line "),
-            (b"Content-Length: 0\r\n\r\n", "its content is not JSON that can be read: line "),
+            (b"Content-Length: 2\r\n\r\n{]", "its content cannot be read as JSON: line "),
+            (b"Content-Length: 1\r\n\r\n\xff", "its content cannot be read as JSON: line "),
+            (b"Content-Length: 0\r\n\r\n", "its content cannot be read as JSON: line "),
             (b"Content-Length: 4\r\n\r\n[{}]", "it is not a JSON object"),
         ] {
             let found = all(bytes);

@@ -1,9 +1,9 @@
 //! Line breaking of long formulas.
 //!
-//! A line can start at a `+` or `-`, or within a product at a factor, after a `·`, both also within parentheses. Of all
-//! ways to break a formula, the one with the least cost is taken: each line has a cost, and so has each break, which is
-//! higher within parentheses, the shorter their sum is, and for a product. A product that takes several lines starts on
-//! a line of its own if that has room, and its further lines are indented more.
+//! A line can start at a `+` or `-`, or within a product at a factor, after a `·`, both also within parentheses. Each
+//! line and each break has a cost; the lines with the lowest total cost are used. A break costs more within a product,
+//! and within parentheses the more, the shorter their sum is. A product that takes several lines preferably starts on a
+//! line of its own, and its further lines are indented more.
 
 mod sequence;
 
@@ -14,7 +14,7 @@ use super::width::text_width;
 use crate::error::{Centimeters, Error};
 use crate::forms::Equation;
 
-/// A piece that cannot be broken further is wider than a line.
+/// The error for a piece that cannot be broken and is wider than a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TooWide {
     /// The width of the piece, in pt.
@@ -152,7 +152,7 @@ mod tests {
         }
     }
 
-    /// A parenthesis at the end of a line belongs to a sum within a sum as well.
+    /// This also holds for a sum within a sum.
     #[test]
     fn a_line_never_ends_with_a_parenthesis() {
         let product = r"\left(\left(c_1 c_2 c_3 + c_4\right) d_1 - d_2 d_3\right) e_1";
@@ -206,7 +206,7 @@ mod tests {
         }
     }
 
-    /// The number of an equation stands beside its last line alone.
+    /// The number of an equation stands beside its last line only.
     #[test]
     fn lines_before_the_last_one_take_the_room_of_the_number() {
         let right = math("a_1 + a_2 + a_3 + a_4 + a_5 + a_6 + a_7");

@@ -1,4 +1,4 @@
-//! The places where lines can start, what a line costs from one to another, and the lines with the least cost.
+//! The places where lines can start, the cost of a line between two of them, and the lines with the lowest cost.
 
 use super::{Limits, TooWide, starts_term};
 use crate::layout::math::{Fence, Math};
@@ -13,24 +13,25 @@ const SPACES: f64 = 4.44;
 
 /// The cost of a line.
 const LINE: u32 = 100;
-/// The additional cost of a line that starts within parentheses around a sum that is longer than a line, by the depth
-/// of these, and that of each sum that is shorter and of each that is less than [`SHORT`].
+/// The additional cost of a line that starts within a sum in parentheses that is wider than a line, by depth.
 const LONG_SUM: [u32; 3] = [20, 15, 10];
+/// The same for a sum that fits on a line.
 const WHOLE_SUM: u32 = 70;
+/// The same for a sum that is narrower than [`SHORT`] of a line.
 const SHORT_SUM: u32 = 250;
 /// The largest width of a short sum, as a fraction of the line.
 const SHORT: f64 = 0.5;
 /// The cost of a line that starts at a factor.
 const FACTOR: u32 = 60;
-/// The additional cost if its product does not start on a line of its own.
+/// The additional cost of a line that starts at a factor, if the product does not start on a line of its own.
 const WITHIN: u32 = 150;
-/// The additional cost if a number ends the line before it.
-const BEHIND_NUMBER: u32 = 60;
-/// The additional cost if it is shorter than this fraction of a line.
+/// The additional cost of such a line if the line before it ends with a number.
+const AFTER_NUMBER: u32 = 60;
+/// The additional cost of such a line if it is shorter than [`TAIL_WIDTH`] of a line.
 const TAIL: u32 = 35;
 const TAIL_WIDTH: f64 = 0.25;
 
-/// A formula as a sequence of pieces, in which the parentheses of sums are pieces of their own.
+/// A formula as a sequence of tokens: its pieces and the parentheses of its sums.
 #[derive(Default)]
 pub(super) struct Sequence<'m> {
     tokens: Vec<Token<'m>>,
@@ -39,7 +40,7 @@ pub(super) struct Sequence<'m> {
     starts: Vec<Start>,
     /// The width of a line.
     line: f64,
-    /// The parentheses around the current place, and what a start within these costs.
+    /// The number of parentheses around the current place, and the cost that they add to a start.
     depth: usize,
     nesting: u32,
 }
@@ -57,14 +58,14 @@ enum Token<'m> {
 struct Start {
     token: usize,
     cost: u32,
-    joint: Joint,
+    connection: Connection,
     /// The first token of the term.
     term: usize,
 }
 
 /// The way in which a line is joined to the preceding one.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Joint {
+enum Connection {
     /// By the sign at its beginning.
     Sign,
     /// As a factor that starts with a `·`.
@@ -76,7 +77,7 @@ enum Joint {
 impl Start {
     /// The cost of starting a line here if the line before it starts at `last`.
     fn cost_after(self, last: Start) -> u32 {
-        let is_within = self.joint != Joint::Sign && last.token < self.term;
+        let is_within = self.connection != Connection::Sign && last.token < self.term;
         self.cost + if is_within { WITHIN } else { 0 }
     }
 }
@@ -84,12 +85,12 @@ impl Start {
 impl<'m> Sequence<'m> {
     pub(super) fn new(math: &'m Math, line: f64) -> Sequence<'m> {
         let mut sequence = Sequence { before: vec![0.0], line, ..Sequence::default() };
-        sequence.starts.push(Start { token: 0, cost: 0, joint: Joint::Sign, term: 0 });
+        sequence.starts.push(Start { token: 0, cost: 0, connection: Connection::Sign, term: 0 });
         sequence.row(math.pieces(), 0);
         sequence
     }
 
-    /// The lines with the least cost.
+    /// The lines with the lowest cost.
     pub(super) fn lines(&self, limits: Limits) -> Result<Vec<Math>, TooWide> {
         let costs = self.costs(limits);
         let (mut lines, mut place) = (vec![], 0);
@@ -112,9 +113,9 @@ impl<'m> Sequence<'m> {
         for (place, piece) in pieces.iter().enumerate() {
             let last = place.checked_sub(1).and_then(|last| pieces.get(last));
             if let Some(last) = last
-                && let Some(joint) = joint(last, piece, pieces.get(place + 1))
+                && let Some(connection) = connection(last, piece, pieces.get(place + 1))
             {
-                self.start(joint, last, &mut term);
+                self.start(connection, last, &mut term);
             }
             match piece {
                 Math::Fenced(Fence::Parentheses, inside) if !last.is_some_and(is_applied) => {
@@ -125,20 +126,25 @@ impl<'m> Sequence<'m> {
         }
     }
 
-    fn start(&mut self, joint: Joint, last: &Math, term: &mut usize) {
+    fn start(&mut self, connection: Connection, last: &Math, term: &mut usize) {
         let token = self.tokens.len();
-        let cost = match (joint, last) {
-            (Joint::Sign, _) => 0,
-            (_, Math::Number(_)) => FACTOR + BEHIND_NUMBER,
+        let cost = match (connection, last) {
+            (Connection::Sign, _) => 0,
+            (_, Math::Number(_)) => FACTOR + AFTER_NUMBER,
             _ => FACTOR,
         };
-        if joint == Joint::Sign {
+        if connection == Connection::Sign {
             *term = token;
         }
-        self.starts.push(Start { token, cost: LINE + self.nesting + cost, joint, term: *term });
+        self.starts.push(Start {
+            token,
+            cost: LINE + self.nesting + cost,
+            connection,
+            term: *term,
+        });
     }
 
-    /// Adds a sum in parentheses, which is `whole` points wide with these, of the term that starts at `term`.
+    /// Adds a sum in parentheses to the term that starts at `term`; `whole` is its width with the parentheses, in pt.
     fn fenced(&mut self, piece: &'m Math, inside: &'m Math, whole: f64, term: usize) {
         let around = whole - width(inside);
         let open = self.tokens.len();
@@ -165,24 +171,24 @@ impl<'m> Sequence<'m> {
         let end = next.map_or(self.tokens.len(), |next| next.token);
         let at = |place: usize| self.before.get(place).copied().unwrap_or_default();
         let width = at(end) - at(start.token);
-        match start.joint {
-            Joint::Factor => width + DOT,
+        match start.connection {
+            Connection::Factor => width + DOT,
             // The row's first piece has no spaces.
             _ if start.token == 0 => width,
             _ => width - SPACES,
         }
     }
 
-    /// The cost of all that follows each start, and the start of the line after it. Of equal costs, the fullest first
+    /// For each start, the cost of the rest of the formula and the start of the next line. Of equal costs, the fullest first
     /// line is taken.
     fn costs(&self, limits: Limits) -> Vec<Option<(u32, usize)>> {
         let end = self.starts.len();
         let mut costs: Vec<Option<(u32, usize)>> = vec![None; end];
         costs.push(Some((0, end)));
         for (place, start) in self.starts.iter().enumerate().rev() {
-            let limit = match (place, start.joint) {
+            let limit = match (place, start.connection) {
                 (0, _) => limits.first,
-                (_, Joint::Sign) => limits.rest,
+                (_, Connection::Sign) => limits.rest,
                 _ => limits.rest - DEEPER,
             };
             let mut best: Option<(u32, usize)> = None;
@@ -195,7 +201,8 @@ impl<'m> Sequence<'m> {
                 let fits = following.is_some() || width <= limit - limits.number;
                 let rest = costs.get(next).copied().flatten().filter(|_| fits);
                 let Some((rest, _)) = rest else { continue };
-                let is_tail = start.joint != Joint::Sign && width < TAIL_WIDTH * self.line;
+                let is_tail =
+                    start.connection != Connection::Sign && width < TAIL_WIDTH * self.line;
                 let tail = if is_tail { TAIL } else { 0 };
                 let cost = rest + tail + following.map_or(0, |next| next.cost_after(*start));
                 if best.is_none_or(|(least, _)| cost <= least) {
@@ -219,7 +226,7 @@ impl<'m> Sequence<'m> {
     fn line(&self, start: Start, next: Option<&Start>) -> Math {
         let end = next.map_or(self.tokens.len(), |next| next.token);
         let mut pieces = vec![];
-        if start.joint == Joint::Factor {
+        if start.connection == Connection::Factor {
             pieces.push(Math::Sign('·'));
         }
         let mut place = start.token;
@@ -242,12 +249,12 @@ impl<'m> Sequence<'m> {
 /// How a line that starts at `piece` is joined to the one that ends with `last`; `None` if no line starts there. A sign
 /// stays with the factor after it, a function with its argument, a power of ten with its number, and a `×` with both of
 /// its operands.
-fn joint(last: &Math, piece: &Math, next: Option<&Math>) -> Option<Joint> {
+fn connection(last: &Math, piece: &Math, next: Option<&Math>) -> Option<Connection> {
     match piece {
-        _ if starts_term(last, piece) => Some(Joint::Sign),
-        Math::Sign('·') if !next.is_some_and(is_power_of_ten) => Some(Joint::Dot),
+        _ if starts_term(last, piece) => Some(Connection::Sign),
+        Math::Sign('·') if !next.is_some_and(is_power_of_ten) => Some(Connection::Dot),
         Math::Sign(_) => None,
-        _ => (!stays_with_next(last)).then_some(Joint::Factor),
+        _ => (!stays_with_next(last)).then_some(Connection::Factor),
     }
 }
 
