@@ -307,6 +307,9 @@ impl CodeArguments {
                 "note: --fused: `{name}` has no instruction that multiplies and adds, so products and sums are apart"
             )?;
         }
+        if !self.target.is_given("limbs") {
+            return Ok(());
+        }
         let standard = options.trigonometry == Trigonometry::Standard;
         let why = match language {
             Language::Rust if standard && options.limbs == Limbs::SideBySide => {
@@ -318,9 +321,7 @@ impl CodeArguments {
             Language::Rust => return Ok(()),
             _ => "outside Rust; limbs are apart",
         };
-        if self.target.is_given("limbs") {
-            writeln!(terminal.errors, "note: --limbs has no effect {why}")?;
-        }
+        writeln!(terminal.errors, "note: --limbs has no effect {why}")?;
         Ok(())
     }
 }

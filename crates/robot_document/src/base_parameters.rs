@@ -192,10 +192,11 @@ pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameter
         reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
     })?;
     for (_, coefficient) in found.base.iter_mut().flat_map(|parameter| &mut parameter.terms) {
-        if length(*coefficient) > LONG {
-            *coefficient = with_numbers(*coefficient);
-            found.rounded = true;
+        if length(*coefficient) <= LONG {
+            continue;
         }
+        *coefficient = with_numbers(*coefficient);
+        found.rounded = true;
         if length(*coefficient) > TOO_LONG {
             let reason = format!(
                 "a coefficient is longer than {TOO_LONG} operations and operands; {SHORTER}"
