@@ -37,7 +37,7 @@ fn main() {
         // All quantities of the paper for TRTTR1, which are usually printed; only the joint torques for other
         // robots.
         let kinds =
-            if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::GeneralizedForce] };
+            if source.name == "trttr1" { Kind::ALL.to_vec() } else { vec![Kind::JointTorque] };
         let options = EquationOptions { kinds, ..EquationOptions::default() };
         let read = || robot_build::read(&source).unwrap().robot;
         let printed = median(|| equations(&read(), &options).unwrap().groups.len());

@@ -44,7 +44,7 @@ pub fn follow(text: &str, described: &Described) {
     let graph = Graph::new();
     let mechanism = Mechanism::new(robot, &graph, &MechanismOptions::EXACT);
     let effects = Effects { wrench: true, friction: true };
-    let equations = newton_euler(&mechanism, effects).generalized_forces;
+    let equations = newton_euler(&mechanism, effects).joint_torques;
     assert_eq!(equations.len(), robot.degrees_of_freedom());
     let table = SymbolTable::spelled(Trigonometry::Named);
     for equation in equations {

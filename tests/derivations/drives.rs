@@ -100,8 +100,7 @@ fn check(robot: &Robot, name: &str) {
     // The working frames are in the file's axes, so that no sines of additional angles occur.
     let link = LinkPlan { turn: Turn::File, ..LinkPlan::BASIC };
     let recursion = Recursion::new(&mechanism, &Plan::uniform(robot.links.len(), &link)).unwrap();
-    let forces =
-        [newton_euler(&mechanism, PLAIN).generalized_forces, recursion.inverse_dynamics(false)];
+    let forces = [newton_euler(&mechanism, PLAIN).joint_torques, recursion.inverse_dynamics(false)];
     let explicit = with_rotors_as_links(robot);
     let explicit = Mechanism::new(&explicit, &graph, &MechanismOptions::EXACT);
     let motion = Motion::new(&explicit);
@@ -163,7 +162,7 @@ fn a_rotor_about_its_carriers_axis_in_closed_form() {
     let robot = arm(["z", "z", "z"], ["revolute"; 3]);
     let graph = Graph::new();
     let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
-    let forces = newton_euler(&mechanism, PLAIN).generalized_forces;
+    let forces = newton_euler(&mechanism, PLAIN).joint_torques;
     // Link 2, which turns with q1 + q2, carries the rotor of joint 3.
     let expected = [
         "J2*N2*qdd2 + J3*N3*qdd3",
@@ -223,7 +222,7 @@ fn a_rotor_on_the_base_is_its_reflected_inertia() {
     let forces = |text: &str| {
         let robot = robot_testing::read("a.toml", text);
         let mechanism = Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
-        newton_euler(&mechanism, PLAIN).generalized_forces
+        newton_euler(&mechanism, PLAIN).joint_torques
     };
     let force = forces(&text(true));
     assert_eq!(force, forces(&text(false)));

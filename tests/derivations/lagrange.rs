@@ -21,7 +21,7 @@ fn check(robot: &Robot, name: &str) -> usize {
     let (kinetic, potential) = energies(&mechanism, &motion);
     let lagrangian = kinetic - potential;
     let effects = Effects { wrench: false, friction: false };
-    let mut torques = vec![("iterations", newton_euler(&mechanism, effects).generalized_forces)];
+    let mut torques = vec![("iterations", newton_euler(&mechanism, effects).joint_torques)];
     // With a skew axis whose exact components are irrational, there are no working frames; the numeric tests cover this
     // case.
     if let Some(recursion) = Recursion::new(&mechanism, &Plan::default_for(robot)) {

@@ -84,10 +84,8 @@ fn check(robot: &Robot, seed: u64, name: &str) -> f64 {
             worst = worst.max(off.error);
         }
     };
-    assert_agrees("the paper's Q", &plain.generalized_forces, |reference| &reference.torques);
-    assert_agrees("the paper's Q with loads", &loaded.generalized_forces, |r| {
-        &r.torques_with_loads
-    });
+    assert_agrees("the paper's Q", &plain.joint_torques, |reference| &reference.torques);
+    assert_agrees("the paper's Q with loads", &loaded.joint_torques, |r| &r.torques_with_loads);
     assert_agrees("F_l and M_l", &components, |reference| &reference.link_wrenches);
     let recursion = Recursion::new(&mechanism, &Plan::default_for(robot)).unwrap();
     assert_agrees("the economical Q", &recursion.inverse_dynamics(false), |r| &r.torques);
@@ -136,7 +134,7 @@ fn quantities_carry_the_papers_names() {
     let names = |kind| -> Vec<String> {
         solution.quantities(kind).iter().map(|quantity| quantity.symbol.to_string()).collect()
     };
-    assert_eq!(names(Kind::GeneralizedForce), ["Q1", "Q2", "Q3", "Q4", "Q5"]);
+    assert_eq!(names(Kind::JointTorque), ["Q1", "Q2", "Q3", "Q4", "Q5"]);
     assert_eq!(names(Kind::LinkForce)[..4], ["F_l1.x", "F_l1.y", "F_l1.z", "F_l2.x"]);
     assert_eq!(names(Kind::CenterOfMassAcceleration).len(), 15);
 }

@@ -55,7 +55,7 @@ fn sines(last: &Last) -> usize {
     let recursion = Recursion::new(&mechanism, &Plan::uniform(3, &link)).unwrap();
     let paper = newton_euler(&mechanism, Effects { wrench: false, friction: false });
     for (joint, (force, expected)) in
-        recursion.inverse_dynamics(false).into_iter().zip(paper.generalized_forces).enumerate()
+        recursion.inverse_dynamics(false).into_iter().zip(paper.joint_torques).enumerate()
     {
         assert!(expands_to_zero(force - expected).unwrap(), "joint {joint} of {text}");
     }

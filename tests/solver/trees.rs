@@ -97,7 +97,7 @@ fn check(seed: u64) -> f64 {
     let at_states = |roots: &[_]| -> Vec<Vec<f64>> {
         states.iter().map(|state| evaluate(&robot, roots, state)).collect()
     };
-    let paper = at_states(&newton_euler(&mechanism, effects).generalized_forces);
+    let paper = at_states(&newton_euler(&mechanism, effects).joint_torques);
     let economical = at_states(&recursion.inverse_dynamics(true));
     [
         assert_agrees(&robot, "the paper's Q", seed, &paper, &expected),

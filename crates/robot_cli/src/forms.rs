@@ -211,7 +211,7 @@ impl EquationArguments {
         }
         let only_torques =
             |form: &Form| matches!(form, Form::Grouped | Form::Regrouped | Form::Recursive);
-        let torque = Kind::GeneralizedForce.name();
+        let torque = Kind::JointTorque.name();
         let has_torques = self.quantities.iter().any(|name| name == torque || name == "all");
         if self.quantities.iter().any(|name| name != torque) && forms.iter().all(only_torques) {
             let names = self.quantities.join(",");

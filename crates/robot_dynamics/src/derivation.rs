@@ -70,7 +70,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
     /// if it cannot be set up.
     pub(crate) fn paper_torques(&self, wrench: bool, zero: &[JointVariable]) -> Vec<Expr<'g>> {
         let effects = Effects { wrench, friction: false };
-        let torques = newton_euler::newton_euler(&self.mechanism, effects).generalized_forces;
+        let torques = newton_euler::newton_euler(&self.mechanism, effects).joint_torques;
         let graph = self.mechanism.graph;
         walk::rebuild(&torques, graph, |name| {
             let variable = JointVariable::parse(name).map(|(variable, _)| variable);

@@ -55,7 +55,7 @@ pub struct NewtonEuler<'g> {
     /// The wrench of each link, from the inward iterations.
     pub wrenches: Vec<LinkWrench<'g>>,
     /// The joint torque or force of each coordinate, equation (3), N m or N.
-    pub generalized_forces: Vec<Expr<'g>>,
+    pub joint_torques: Vec<Expr<'g>>,
     kinds: Vec<JointKind>,
 }
 
@@ -64,7 +64,7 @@ pub struct NewtonEuler<'g> {
 pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEuler<'g> {
     let motions = outward(mechanism);
     let wrenches = inward(mechanism, &motions, effects);
-    let mut generalized_forces = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
+    let mut joint_torques = vec![mechanism.graph.zero(); mechanism.degrees_of_freedom];
     let mut kinds = vec![JointKind::Revolute; mechanism.degrees_of_freedom];
     for (link, wrench) in mechanism.links.iter().zip(&wrenches) {
         // (2): the wrench projected on the joint axis, plus the inertia of the drive itself.
@@ -78,10 +78,10 @@ pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEu
         if effects.friction {
             force += friction(&link.friction, link.kind, link.axis, wrench.force, link.velocity);
         }
-        generalized_forces[link.coordinate] += force * link.ratio;
+        joint_torques[link.coordinate] += force * link.ratio;
         kinds[link.coordinate] = link.kind;
     }
-    NewtonEuler { motions, wrenches, generalized_forces, kinds }
+    NewtonEuler { motions, wrenches, joint_torques, kinds }
 }
 
 /// The outward iterations, from the base to the tips.
@@ -232,7 +232,7 @@ impl<'g> NewtonEuler<'g> {
             Kind::Moment => self.motions.iter().map(|motion| motion.moment).collect(),
             Kind::LinkForce => self.wrenches.iter().map(|wrench| wrench.force).collect(),
             Kind::LinkMoment => self.wrenches.iter().map(|wrench| wrench.moment).collect(),
-            Kind::GeneralizedForce => return self.generalized_force_quantities(),
+            Kind::JointTorque => return self.joint_torque_quantities(),
         };
         let dimension = match kind {
             Kind::CenterOfMassAcceleration => Dimension::ACCELERATION,
@@ -249,10 +249,10 @@ impl<'g> NewtonEuler<'g> {
         quantities
     }
 
-    fn generalized_force_quantities(&self) -> Vec<Quantity<'g>> {
-        let forces = self.generalized_forces.iter().zip(&self.kinds).enumerate();
+    fn joint_torque_quantities(&self) -> Vec<Quantity<'g>> {
+        let forces = self.joint_torques.iter().zip(&self.kinds).enumerate();
         let quantity = |(index, (value, kind)): (usize, (&Expr<'g>, &JointKind))| Quantity {
-            symbol: Symbol { kind: Kind::GeneralizedForce, number: index + 1, component: None },
+            symbol: Symbol { kind: Kind::JointTorque, number: index + 1, component: None },
             value: *value,
             dimension: match kind {
                 JointKind::Revolute => Dimension::MOMENT,

@@ -29,7 +29,7 @@ pub enum Kind {
     /// M_l: the moment that the joint transmits, about the origin of the frame, equation (36).
     LinkMoment,
     /// Q: the joint torque or force, equation (3).
-    GeneralizedForce,
+    JointTorque,
 }
 
 impl Kind {
@@ -40,7 +40,7 @@ impl Kind {
         Kind::Moment,
         Kind::LinkForce,
         Kind::LinkMoment,
-        Kind::GeneralizedForce,
+        Kind::JointTorque,
     ];
 
     /// The name in text: `a_c`, `F`, `M_c`, `F_l`, `M_l`, `Q`.
@@ -52,7 +52,7 @@ impl Kind {
             Kind::Moment => "M_c",
             Kind::LinkForce => "F_l",
             Kind::LinkMoment => "M_l",
-            Kind::GeneralizedForce => "Q",
+            Kind::JointTorque => "Q",
         }
     }
 
@@ -65,7 +65,7 @@ impl Kind {
     /// Whether the quantity is a vector of three components in its link's frame.
     #[must_use]
     pub const fn is_vector(self) -> bool {
-        !matches!(self, Kind::GeneralizedForce)
+        !matches!(self, Kind::JointTorque)
     }
 }
 

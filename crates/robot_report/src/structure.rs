@@ -47,7 +47,7 @@ impl Structure {
         let exact = MechanismOptions::EXACT.with_snap(None, robot);
         let mechanism = Mechanism::new(robot, &graph, &exact);
         let effects = Effects { wrench: false, friction: false };
-        let forces = newton_euler(&mechanism, effects).generalized_forces;
+        let forces = newton_euler(&mechanism, effects).joint_torques;
         let count = forces.len();
         let symbol = |variable: JointVariable, index: usize| graph.symbol(&variable.symbol(index));
         let slopes = |variable| -> Vec<Expr<'_>> {

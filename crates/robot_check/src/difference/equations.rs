@@ -66,7 +66,7 @@ pub(crate) fn differing(a: &Robot, b: &Robot, options: &Options) -> Vec<Equation
         if terms.as_ref().is_ok_and(Vec::is_empty) {
             continue;
         }
-        let name = format!("{}{}", Kind::GeneralizedForce.name(), place + 1);
+        let name = format!("{}{}", Kind::JointTorque.name(), place + 1);
         equations.push(Equation { name, terms });
     }
     equations.reverse();
@@ -77,7 +77,7 @@ fn forces<'g>(robot: &Robot, graph: &'g Graph, snap: Option<f64>) -> Vec<Expr<'g
     let exact = MechanismOptions::EXACT.with_snap(snap, robot);
     let mechanism = Mechanism::new(robot, graph, &exact);
     let solution = newton_euler(&mechanism, Effects { wrench: true, friction: false });
-    solution.quantities(Kind::GeneralizedForce).into_iter().map(|quantity| quantity.value).collect()
+    solution.quantities(Kind::JointTorque).into_iter().map(|quantity| quantity.value).collect()
 }
 
 /// The reason why the terms of an equation cannot be compared.

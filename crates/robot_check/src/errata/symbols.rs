@@ -67,7 +67,7 @@ impl Symbols {
             let (letter, index) = lower.split_once('_').unwrap_or((lower, ""));
             self.quantities.insert(format!("{letter}^{upper}_{index}"), name.clone());
         }
-        if symbol.kind == Kind::GeneralizedForce {
+        if symbol.kind == Kind::JointTorque {
             let others = [format!("Q_m^{number}"), format!(r"\tau_{number}")];
             self.quantities.extend(others.map(|key| (key, name.clone())));
         }

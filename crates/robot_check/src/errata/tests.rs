@@ -233,7 +233,7 @@ fn a_byte_order_mark_is_no_part_of_the_equations() {
 
 /// `Q_2`, `Q_m^2` and `\tau_2` denote the joint torque of the second joint.
 #[test]
-fn a_generalized_force_is_known_by_its_usual_letters() {
+fn a_joint_torque_is_known_by_its_usual_letters() {
     let right = r"(m_2 r_2^2 + I_2) (\ddot q_1 + \ddot q_2) + m_2 l_1 r_2 \cos q_2 \ddot q_1
         + m_2 l_1 r_2 \sin q_2 \dot q_1^2 + m_2 g r_2 \cos(q_1 + q_2)";
     for left in ["Q_{2}", "Q_m^2", r"\tau_2"] {

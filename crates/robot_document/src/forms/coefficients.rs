@@ -8,9 +8,7 @@ use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 use super::compact::definitions;
 use super::definitions::Root;
 use super::naming::named_length;
-use super::{
-    Equation, Group, Writer, aliases, generalized_force, letters, numbers, references, shapes,
-};
+use super::{Equation, Group, Writer, aliases, joint_torque, letters, numbers, references, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -176,7 +174,7 @@ pub(super) fn by_name<'g>(
     if writer.options.references {
         references::refer(writer, sections, &mut shown);
     }
-    let forces = generalized_forces(writer, sums, zeros)?;
+    let forces = joint_torques(writer, sums, zeros)?;
     let mut groups = vec![Group::of_quantities(title, introduction, forces)];
     groups.extend(definitions_of(writer, sections, &shown)?);
     Ok(groups)
@@ -202,7 +200,7 @@ pub(super) fn define_all(
 /// The summands of a joint torque: the names of coefficients and their factors.
 pub(super) type Sum<'g> = Vec<(String, Expr<'g>)>;
 
-fn generalized_forces<'g>(
+fn joint_torques<'g>(
     writer: &Writer<'_, 'g>,
     sums: Vec<Sum<'g>>,
     zeros: &[String],
@@ -211,7 +209,7 @@ fn generalized_forces<'g>(
     for (index, sum) in sums.into_iter().enumerate() {
         let kept = sum.into_iter().filter(|(name, _)| !zeros.contains(name));
         let terms = aliases::terms(writer, &kept.collect::<Vec<_>>())?;
-        let symbol = generalized_force(index);
+        let symbol = joint_torque(index);
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));
         equations.push(writer.of_terms(name, left, &terms)?);
     }

@@ -8,9 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
 use super::naming::{Named, is_leaf};
-use super::{
-    Equation, Group, Writer, angle_sums, arranged, numbers, of_generalized_force, vectors,
-};
+use super::{Equation, Group, Writer, angle_sums, arranged, numbers, of_joint_torque, vectors};
 use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
 use crate::math::Math;
@@ -22,7 +20,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         forces = angle_sums::joined(&forces, writer.graph);
     }
     for quantity in &mut quantities {
-        quantity.value = of_generalized_force(quantity, &forces).unwrap_or(quantity.value);
+        quantity.value = of_joint_torque(quantity, &forces).unwrap_or(quantity.value);
     }
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let values = with_short_parameters(writer, &values);

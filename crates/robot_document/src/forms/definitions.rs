@@ -106,7 +106,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             let (value, symbol) = (quantity.value, quantity.symbol);
             let part = positive(value);
             let is_worthy = self.worthy.iter().any(|one| one.expr == part);
-            if symbol.kind != Kind::GeneralizedForce || !is_worthy {
+            if symbol.kind != Kind::JointTorque || !is_worthy {
                 continue;
             }
             let name = format!("{}{}", writer.options.letters.torque(), symbol.number);
@@ -147,7 +147,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         let is_placed = |symbol| place_of(symbol).and_then(|place| self.named_torques.get(place));
         let (torques, others): (Vec<_>, Vec<_>) = all
             .filter(|(symbol, _)| !is_placed(*symbol).is_some_and(|torque| torque.is_placed))
-            .partition(|(symbol, _)| symbol.kind == Kind::GeneralizedForce);
+            .partition(|(symbol, _)| symbol.kind == Kind::JointTorque);
         let order = |symbol| {
             let place = place_of(symbol)
                 .and_then(|place| self.defined.iter().position(|one| *one == place));
@@ -155,7 +155,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         };
         let mut torques = torques;
         torques.sort_by_key(|(symbol, _)| order(*symbol));
-        let is_torque = |symbol: &Symbol| symbol.kind == Kind::GeneralizedForce;
+        let is_torque = |symbol: &Symbol| symbol.kind == Kind::JointTorque;
         let (mut first, mut last) = (torques, others);
         if !symbols.first().is_some_and(is_torque) {
             std::mem::swap(&mut first, &mut last);

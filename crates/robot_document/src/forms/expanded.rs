@@ -6,7 +6,7 @@ use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
 use super::loads::{friction_contributions, whole};
-use super::{Equation, Form, Group, Writer, of_generalized_force, paper, vectors};
+use super::{Equation, Form, Group, Writer, of_joint_torque, paper, vectors};
 use crate::error::Error;
 
 /// The limits of an expansion: it takes less than a second, and nobody could read more terms.
@@ -87,13 +87,13 @@ fn with_friction<'g>(
     writer: &mut Writer<'_, 'g>,
     quantities: &mut [Quantity<'g>],
 ) -> Result<Vec<Coefficient<'g>>, Error> {
-    let of_forces = |quantity: &Quantity<'_>| quantity.symbol.kind == Kind::GeneralizedForce;
+    let of_forces = |quantity: &Quantity<'_>| quantity.symbol.kind == Kind::JointTorque;
     if !writer.options.friction || !quantities.iter().any(of_forces) {
         return Ok(vec![]);
     }
     let (joints, contributions) = friction_contributions(writer, whole);
     for quantity in quantities {
-        if let Some(contribution) = of_generalized_force(quantity, &contributions) {
+        if let Some(contribution) = of_joint_torque(quantity, &contributions) {
             quantity.value += contribution;
         }
     }

@@ -91,7 +91,7 @@ impl Letters {
 
     /// The letter of the joint torques in text.
     pub(crate) fn torque(&self) -> &str {
-        self.torque.as_deref().unwrap_or(Kind::GeneralizedForce.name())
+        self.torque.as_deref().unwrap_or(Kind::JointTorque.name())
     }
 
     /// The sign of the joint torques.
@@ -140,7 +140,7 @@ impl Writer<'_, '_> {
 
     /// Gives the joint torques their letter.
     pub(super) fn name_torque(&self, equation: &mut Equation) {
-        let usual = Kind::GeneralizedForce.name();
+        let usual = Kind::JointTorque.name();
         let Some(letter) = &self.options.letters.torque else { return };
         let Some(number) = equation.name.strip_prefix(usual) else { return };
         equation.name = format!("{letter}{number}");

@@ -153,7 +153,7 @@ pub(super) fn attach<'g>(
         group.arrays = Some(vec![array]);
     }
     if let Some(sums) = groups.first_mut() {
-        let name = Kind::GeneralizedForce.name().to_owned();
+        let name = Kind::JointTorque.name().to_owned();
         let (text, left) = (text.join(" + "), Math::spelled(&name));
         sums.vector = Some(Equation { name, text, left, right: Math::row(right) });
     }

@@ -440,12 +440,12 @@ impl<'g> Writer<'_, 'g> {
 }
 
 /// The symbol of a joint torque.
-fn generalized_force(index: usize) -> Symbol {
-    Symbol { kind: Kind::GeneralizedForce, number: index + 1, component: None }
+fn joint_torque(index: usize) -> Symbol {
+    Symbol { kind: Kind::JointTorque, number: index + 1, component: None }
 }
 
 /// The value for the coordinate of a joint torque; `None` for other quantities.
-fn of_generalized_force<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
+fn of_joint_torque<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
     let place = quantity.symbol.number.checked_sub(1)?;
-    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::GeneralizedForce)
+    values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::JointTorque)
 }

@@ -96,7 +96,7 @@ impl Default for EquationOptions {
     fn default() -> EquationOptions {
         EquationOptions {
             form: Form::Expanded,
-            kinds: vec![Kind::GeneralizedForce],
+            kinds: vec![Kind::JointTorque],
             friction: false,
             snap: None,
             trigonometry: Trigonometry::Named,

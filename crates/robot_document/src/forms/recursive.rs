@@ -13,7 +13,7 @@ use super::definitions::{Root, positive};
 use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
-use super::{Cell, Equation, Group, Writer, generalized_force, numbers, shapes};
+use super::{Cell, Equation, Group, Writer, joint_torque, numbers, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -52,7 +52,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         }
         groups.push(group.0);
     }
-    groups.push(generalized_forces(writer, &iterations.generalized_forces, &named)?);
+    groups.push(joint_torques(writer, &iterations.joint_torques, &named)?);
     Ok(groups)
 }
 
@@ -196,14 +196,14 @@ fn is_known(writer: &Writer<'_, '_>, value: Expr<'_>) -> bool {
     }
 }
 
-fn generalized_forces(
+fn joint_torques(
     writer: &Writer<'_, '_>,
     forces: &[Expr<'_>],
     named: &Named<'_>,
 ) -> Result<Group, Error> {
     let mut equations = vec![];
     for (index, force) in forces.iter().enumerate() {
-        let symbol = generalized_force(index);
+        let symbol = joint_torque(index);
         let value = named.rewritten(*force);
         equations.push(sum(writer, symbol.to_string(), Math::quantity(symbol), value)?);
     }

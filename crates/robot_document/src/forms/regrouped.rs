@@ -12,7 +12,7 @@ use super::coefficients::{
 };
 use super::letters::candidates;
 use super::loads::{frictions, wrenches};
-use super::{Equation, Group, Writer, aliases, generalized_force, shapes};
+use super::{Equation, Group, Writer, aliases, joint_torque, shapes};
 use crate::base_parameters::{self as base, Formulas, Written};
 use crate::error::Error;
 use crate::math::Math;
@@ -336,7 +336,7 @@ fn inline<'g>(
                 }
             }
         }
-        let symbol = generalized_force(index);
+        let symbol = joint_torque(index);
         let (name, left) = (symbol.to_string(), Math::quantity(symbol));
         equations.push(writer.of_terms(name, left, &terms)?);
     }

@@ -74,7 +74,7 @@ impl Math {
     #[must_use]
     pub fn in_paper(symbol: Symbol) -> Math {
         match symbol.kind {
-            Kind::GeneralizedForce => {
+            Kind::JointTorque => {
                 let (lower, upper) = (Math::Letter('m'), Math::integer(symbol.number));
                 let base = Math::Letter('Q');
                 Math::Script(Box::new(Script { base, lower: Some(lower), upper: Some(upper) }))

@@ -183,7 +183,7 @@ fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Op
         (_, "epsilon") => "component of the angular acceleration of link i, rad/s²",
         (_, "a") => "component of the acceleration of the origin of frame i, m/s²",
         (_, name) => {
-            let torque = (!group.definitions).then_some(Kind::GeneralizedForce);
+            let torque = (!group.definitions).then_some(Kind::JointTorque);
             of_quantity(Kind::from_name(name).or(torque)?)
         }
     };
@@ -199,7 +199,7 @@ const fn of_quantity(kind: Kind) -> &'static str {
         Kind::Moment => "component of the moment about the center of mass that moves link i, N m",
         Kind::LinkForce => "component of the force that link i receives through its joint, N",
         Kind::LinkMoment => "component of the moment that link i receives through its joint, N m",
-        Kind::GeneralizedForce => "joint torque (N m) or joint force (N) of joint i",
+        Kind::JointTorque => "joint torque (N m) or joint force (N) of joint i",
     }
 }
 

@@ -83,7 +83,7 @@ fn title(form: Form, group: &Group, options: &EquationOptions) -> String {
     let has_all = matches!(form, Form::Expanded | Form::Collected | Form::Compact);
     match options.kinds.as_slice() {
         _ if group.definitions => group.title.clone(),
-        [Kind::GeneralizedForce] => "Joint torques".to_owned(),
+        [Kind::JointTorque] => "Joint torques".to_owned(),
         _ if has_all => "Quantities".to_owned(),
         _ => "Joint torques".to_owned(),
     }

@@ -17,7 +17,7 @@ const MANY: usize = 16;
 
 /// The number of iterations that determine the accelerations together with the load-dependent dry friction that they
 /// cause. Each iteration multiplies the error by approximately the coefficient of friction.
-const FRICTION_ROUNDS: usize = 8;
+const FRICTION_ITERATIONS: usize = 8;
 
 /// The function for the solution q̈ of M q̈ = τ − C q̇ − g or, with friction, of M q̈ = τ − C q̇ − g − Q_f.
 pub(super) fn forward_dynamics<'g>(
@@ -91,12 +91,12 @@ fn with_friction<'g>(derivation: &Derivation<'_, 'g>, wrench: bool) -> Vec<Expr<
     let tau = derivation.coordinate_symbols(JointVariable::Torque);
     let friction = inverse_dynamics::friction_forces(&derivation.mechanism, wrench);
     let by_load = derivation.mechanism.links.iter().any(|link| !link.friction.coulomb.is_zero());
-    let rounds = if by_load { FRICTION_ROUNDS } else { 1 };
+    let iterations = if by_load { FRICTION_ITERATIONS } else { 1 };
     let mut found = match by_load {
         true => accelerations(derivation, wrench, &tau),
         false => tau.clone(),
     };
-    for _ in 0..rounds {
+    for _ in 0..iterations {
         let value = |name: &str| {
             let (variable, coordinate) = JointVariable::parse(name)?;
             found.get(coordinate).copied().filter(|_| variable == JointVariable::Acceleration)

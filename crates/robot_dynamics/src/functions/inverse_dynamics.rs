@@ -30,7 +30,7 @@ pub(super) fn inverse_dynamics<'g>(
         }
     };
     let doc = [sum_doc, friction_doc];
-    let tau = derivation.torque_output(generalized_forces(derivation, wrench, friction));
+    let tau = derivation.torque_output(joint_torques(derivation, wrench, friction));
     derivation.of_kind(kind, &doc, vec![tau])
 }
 
@@ -54,7 +54,7 @@ pub(super) fn bias<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
 }
 
 /// The joint torques Q by the economical recursion, plus friction.
-fn generalized_forces<'g>(
+fn joint_torques<'g>(
     derivation: &Derivation<'_, 'g>,
     wrench: bool,
     friction: bool,
@@ -62,7 +62,7 @@ fn generalized_forces<'g>(
     let mechanism = &derivation.mechanism;
     let iterations = |friction| newton_euler::newton_euler(mechanism, Effects { wrench, friction });
     let Some(recursion) = &derivation.recursion else {
-        return iterations(friction).generalized_forces;
+        return iterations(friction).joint_torques;
     };
     let mut forces = recursion.inverse_dynamics(wrench);
     if friction {

@@ -39,7 +39,7 @@ fn of_axis(axis: &str) -> (Vec<f64>, Vec<f64>, String) {
     });
     let mechanism = symbolic::Mechanism::new(&robot, &graph, &MechanismOptions::EXACT);
     let printed = newton_euler(&mechanism, Effects { wrench: false, friction: false });
-    let printed = printed.generalized_forces.iter().map(|torque| {
+    let printed = printed.joint_torques.iter().map(|torque| {
         Polynomial::of(*torque, &PolynomialOptions::default()).unwrap().to_text().unwrap()
     });
     (solved, coded, printed.collect::<Vec<_>>().join("\n"))

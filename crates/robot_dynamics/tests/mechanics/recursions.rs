@@ -29,10 +29,10 @@ fn joint_torques_and_forces_between_links_agree_with_the_numeric_solver() {
         let joints = [robot.degrees_of_freedom()];
         let links = [2, robot.links.len(), 3];
         let mut held: Vec<(&str, &[Expr<'_>], FunctionKind, &[usize])> = vec![
-            ("Q", &plain.generalized_forces, FunctionKind::InverseDynamics(Effects::NONE), &joints),
+            ("Q", &plain.joint_torques, FunctionKind::InverseDynamics(Effects::NONE), &joints),
             (
                 "Q with loads and friction",
-                &loaded.generalized_forces,
+                &loaded.joint_torques,
                 FunctionKind::InverseDynamics(Effects::BOTH),
                 &joints,
             ),

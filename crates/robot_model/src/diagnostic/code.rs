@@ -46,7 +46,7 @@ codes! {
     WRONG_COUNT = "R0105", "A list has the wrong number of entries.";
     CONFLICT = "R0106", "Keys exclude each other or have no effect together.";
     FORMAT = "R0107", "The file format is unknown.";
-    LIMIT = "R0108", "There are more entries than the limit.";
+    LIMIT = "R0108", "A limit on size or count is exceeded.";
     XACRO = "R0109", "The file is a xacro template.";
     NAME = "R0201", "A name contains characters that are not allowed.";
     RESERVED = "R0202", "A name is reserved.";
@@ -86,7 +86,7 @@ codes! {
     MOVES_NOTHING = "R0611", "A joint moves no mass.";
     ANGLE_NEAR = "R0612", "An angle is nearly a multiple of π/2.";
     DEGREES = "R0613", "An angle appears to be in degrees.";
-    AXIS_NEAR = "R0614", "A joint axis is nearly aligned with an axis of its frame.";
+    AXIS_NEAR = "R0614", "A component of a joint axis is nearly zero.";
     GRAVITY_UP = "R0615", "Gravity points up.";
     FREE_BASE = "R0617", "The base has mass, and several branches move on it.";
     LIMIT_SIGN = "R0618", "A joint limit has an impossible sign.";
@@ -95,7 +95,7 @@ codes! {
     TAKEN_COORDINATE = "R0703", "A joint's coordinate needs attention.";
     TAKEN_DEFAULT = "R0704", "A value that is not in the file has the format's default.";
     TAKEN_NAME = "R0705", "A name is changed.";
-    LEFT_OUT = "R0706", "Something in the file is not part of the robot.";
+    LEFT_OUT = "R0706", "Content of the file is not used.";
     TAKEN_ANGLE = "R0707", "An angle is snapped to a multiple of π/2.";
     BUDGET = "R0801", "A function exceeds its budget.";
     LACKING = "R0802", "A requested function is not available for the robot.";

@@ -69,7 +69,7 @@ impl<'g> Iterations<'g> {
             Kind::Moment => &self.moments,
             Kind::LinkForce => &self.joint_forces,
             Kind::LinkMoment => &self.joint_moments,
-            Kind::GeneralizedForce => &[],
+            Kind::JointTorque => &[],
         }
     }
 

@@ -63,7 +63,7 @@ impl<'g> Writer<'_, 'g> {
                         _ => vec![],
                     }
                 }
-                (Kind::GeneralizedForce, _) => {
+                (Kind::JointTorque, _) => {
                     let moved = mechanism.links.iter().enumerate();
                     let mut sum = Sum::default();
                     for (index, link) in moved.filter(|(_, link)| link.coordinate == place) {

@@ -208,6 +208,6 @@ fn of_torque(number: usize, link: &MechanismLink<'_>) -> Relation {
         right.extend([sign('='), row, sign('·'), Math::Matrix(column.to_vec())]);
         right.extend([sign('='), component(axis)]);
     }
-    let symbol = Symbol { kind: Kind::GeneralizedForce, number, component: None };
+    let symbol = Symbol { kind: Kind::JointTorque, number, component: None };
     relation(symbol.to_string(), Math::in_paper(symbol), right)
 }

@@ -117,7 +117,7 @@ impl Limbs<'_> {
         let mechanism = part.of(&Mechanism::new(self.robot, &graph, self.options));
         let base = Base::new(&mechanism)?;
         let effects = Effects { wrench: false, friction: false };
-        let reference = newton_euler::newton_euler(&mechanism, effects).generalized_forces;
+        let reference = newton_euler::newton_euler(&mechanism, effects).joint_torques;
         let torques: ObjectiveOf<'_, '_> =
             &|recursion: &Recursion<'_>| Objective::new(recursion.inverse_dynamics(false));
         let mut search = Search::new(self.robot, &mechanism, &base, torques, &reference);

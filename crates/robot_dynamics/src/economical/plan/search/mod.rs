@@ -133,7 +133,7 @@ fn search_with<T>(
     let mechanism = Mechanism::new(robot, &graph, options);
     let base = Base::new(&mechanism)?;
     let effects = Effects { wrench: false, friction: false };
-    let reference = newton_euler::newton_euler(&mechanism, effects).generalized_forces;
+    let reference = newton_euler::newton_euler(&mechanism, effects).joint_torques;
     let torques: ObjectiveOf<'_, '_> =
         &|recursion| Objective::new(recursion.inverse_dynamics(false));
     let mut search = Search::new(robot, &mechanism, &base, torques, &reference);
