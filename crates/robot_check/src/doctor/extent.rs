@@ -73,8 +73,8 @@ fn far(body: &BodyFacts<'_>, distance: f64, size: f64) -> Diagnostic {
     Diagnostic::warning(code::CENTER_FAR, message)
         .at(body.of_center(), "in the link frame?")
         .because(format!(
-            "by its frames and inertia the link is about {} m in size, and a link is normally \
-             near its joint",
+            "judging by its frames and inertia, the link is about {} m in size, and its center of \
+             mass is normally near its joint",
             significant(size)
         ))
         .help("give it in m and in the link frame, not in that of the base or of a drawing")

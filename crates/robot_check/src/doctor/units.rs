@@ -103,7 +103,7 @@ fn dense(body: &BodyFacts<'_>) -> Diagnostic {
     );
     Diagnostic::warning(code::UNITS, message)
         .at(body.of_mass(), "in g?")
-        .and_at(body.of_tensor(), "in other units than kg m^2, or a placeholder?")
+        .and_at(body.of_tensor(), "in units other than kg m^2, or a placeholder?")
         .because(format!(
             "parts of it would be denser than {} kg/m^3; osmium, the densest element, has {DENSEST}",
             significant(density(body))

@@ -107,7 +107,8 @@ pub(super) fn friction(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: JointKi
     if let Some(span) = entries.read(symmetric, &mut both, what, NotNegative) {
         if positive.or(negative).is_some() {
             let message = format!("`{symmetric}` already sets both directions");
-            entries.conflict(&span, &message, "keep it, or the two directions");
+            let help = format!("keep `{symmetric}`, or the two directions");
+            entries.conflict(&span, &message, &help);
         }
         friction.coulomb_positive = both.clone();
         friction.coulomb_negative = both;

@@ -129,7 +129,7 @@ pub(super) fn attach(
         reader.report(
             Diagnostic::error(code::NO_EFFECT, "the payload is fixed to the base")
                 .at(&place.span, "it does not move")
-                .help("name as `parent` a link that moves, or a frame on one"),
+                .help("set `parent` to a link that moves, or to a frame on one"),
         );
         return None;
     };
@@ -139,7 +139,7 @@ pub(super) fn attach(
         reader.report(
             Diagnostic::error(code::MASS, message)
                 .at(&place.span, "without the payload this link has no mass")
-                .help("give the link its mass, or attach the payload to a link with mass"),
+                .help("give the link a mass, or attach the payload to a link with mass"),
         );
         return None;
     }

@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
         if is_coordinate(name) {
             return diagnostic
                 .at(span, "a joint variable")
-                .because("the values in a robot file do not depend on its motion")
+                .because("the values in a robot file do not depend on the robot's motion")
                 .help("describe anything that moves as a joint");
         }
         let names = self.parameters.iter().map(|known| known.name.as_str());

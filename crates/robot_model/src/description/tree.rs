@@ -139,7 +139,10 @@ fn report_cycles(
         let names: Vec<String> =
             on_cycle.iter().chain([first]).map(|link| written(reader.text, link)).collect();
         let place = |link: &DraftLink| link.places.parent.clone().unwrap_or(link.name.span.clone());
-        let message = format!("the parents of the links form a cycle: {}", names.join(" on "));
+        let message = match names.as_slice() {
+            [name, _] => format!("the link {name} is its own parent"),
+            _ => format!("links form a cycle, each a child of the next: {}", names.join(", ")),
+        };
         let mut diagnostic = Diagnostic::error(code::CYCLE, message)
             .at(&place(first), "this parent")
             .because("every link must lead back to the base; closed loops are not supported")
@@ -159,7 +162,7 @@ fn written(text: &str, link: &DraftLink) -> String {
     let is_name = !found.is_empty() && !found.contains(['[', '{', '=', '\n']);
     match !is_name || found == name {
         true => format!("`{name}`"),
-        false => format!("`{}`, renamed `{name}`,", quote(found)),
+        false => format!("`{}` (renamed `{name}`)", quote(found)),
     }
 }
 

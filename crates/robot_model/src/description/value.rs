@@ -34,7 +34,7 @@ impl Reader<'_> {
         let found = match value.get_ref() {
             DeValue::String(_) => "a string",
             DeValue::Integer(_) | DeValue::Float(_) => "a number",
-            DeValue::Boolean(_) => "true or false",
+            DeValue::Boolean(_) => "a Boolean",
             DeValue::Datetime(_) => "a date",
             DeValue::Array(_) => "a list",
             DeValue::Table(_) => "a table",
@@ -123,7 +123,7 @@ impl Reader<'_> {
     /// Reads a text for readers, in which control and invisible characters other than line ends and tabs are not
     /// allowed.
     pub(super) fn prose(&mut self, value: Value<'_>) -> Option<String> {
-        let text = self.string(value, "a text in quotes")?.as_ref();
+        let text = self.string(value, "text in quotes")?.as_ref();
         let bad = |(_, character): &(usize, char)| {
             (character.is_control() && !matches!(character, '\n' | '\r' | '\t'))
                 || is_invisible(*character)

@@ -111,7 +111,7 @@ pub(super) fn known(reader: &mut Reader<'_>, robot: &Robot, named: &Named) -> Op
             let message = format!("{} has no function `{}`", robot.name, kind.name());
             Diagnostic::error(code::LACKING, message)
                 .because(why)
-                .help("otherwise remove the function from the list")
+                .help("otherwise do not name this function")
         }
         Err(wrong) => {
             let near = wrong.near.as_ref().map(|near| format!(" Did you mean `{near}`?"));

@@ -53,9 +53,9 @@ codes! {
     DUPLICATE = "R0203", "A name is defined twice.";
     ALIKE = "R0204", "Two names differ only in case or underscores.";
     LATEX = "R0205", "The LaTeX for a symbol is not in the grammar for symbols.";
-    TEXT = "R0206", "A text contains control or invisible characters.";
+    TEXT = "R0206", "Text contains control or invisible characters.";
     NUMBER = "R0301", "A value is not finite, or is too large or too small to compute with.";
-    EXPRESSION = "R0302", "A text is not a valid expression.";
+    EXPRESSION = "R0302", "An expression is not valid.";
     UNKNOWN_SYMBOL = "R0303", "An expression contains a name that is not a parameter.";
     UNIT = "R0304", "A unit is unknown.";
     UNIT_NOT_SI = "R0305", "A unit is not an SI unit.";

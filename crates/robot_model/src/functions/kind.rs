@@ -301,7 +301,9 @@ impl FunctionKind {
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let Effects { wrench, friction } = self.effects();
         if self.frame().is_some_and(|frame| frame.name(robot).is_none()) {
-            return Some("the robot does not have this frame");
+            return Some(
+                "the robot does not have this frame; choose a named frame or a moving link",
+            );
         }
         if self == FunctionKind::FramePoses && robot.frames.is_empty() {
             return Some("the robot has no named frame; add [tip] or [[frame]] to the robot file");

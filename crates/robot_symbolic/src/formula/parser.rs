@@ -97,7 +97,7 @@ impl Parser<'_> {
         }
         Err(ParseError::new(
             self.last.clone(),
-            format!("the formula is longer than {MAX_TOKENS} numbers, names and signs"),
+            format!("the expression is longer than {MAX_TOKENS} numbers, names and signs"),
         )
         .help("introduce names for parts of it"))
     }
@@ -136,7 +136,7 @@ impl Parser<'_> {
                     self.last.clone(),
                     format!("expected a number, a name or `(` after `{operator}`, found the end"),
                 )
-                .help("complete the formula, or remove the last operator"))
+                .help("complete the expression, or remove the last operator"))
             }
         }
     }
@@ -216,7 +216,7 @@ impl Parser<'_> {
             if self.depth > MAX_DEPTH {
                 return Err(ParseError::new(
                     span,
-                    format!("the formula is nested deeper than {MAX_DEPTH} levels"),
+                    format!("the expression is nested deeper than {MAX_DEPTH} levels"),
                 )
                 .help("introduce names for the inner parts"));
             }

@@ -307,7 +307,7 @@ impl<'t> Translator<'t, '_> {
             }
             "" | "}" | "_" | "^" | r"\\" => self.fault(
                 "expected a group or a sign",
-                "an index, a power, an accent or a font needs an argument",
+                "a subscript, a power, an accent or a font needs an argument",
             ),
             text if is_font(text) || is_accent(text) => {
                 self.place += 1;
@@ -382,7 +382,6 @@ pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
         _ => format!("`{shown}` is not supported here"),
     };
     ParseError::new(span, message).help(
-        "supported are symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, \
-         parentheses, indices and powers",
+        "write symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, parentheses, subscripts and powers",
     )
 }

@@ -86,8 +86,8 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
         .at(place, label)
         .because("a massless link silently drops out of the equations")
         .help(
-            "add its `<inertial>`; if the link is massless, read it with the option \
-            `allow_massless`",
+            "add its `<inertial>`; if the link is massless, read the file with the option \
+             `allow_massless`",
         );
     if options.allow_massless {
         diagnostic.severity = Severity::Warning;
@@ -154,8 +154,8 @@ fn judge_body(
                 PUBLISHED * 100.0
             ));
             diagnostic = diagnostic.help(
-                "correct the values; if they are published this way, read it with the option \
-                 `allow_unphysical`",
+                "correct the values; if they are published this way, read the file with the \
+                 option `allow_unphysical`",
             );
             excess
         }

@@ -120,7 +120,7 @@ fn wrong(word: &str, place: &Span) -> Diagnostic {
     } else if word.contains(',') && is_number(&word.replacen(',', ".", 1)) && !word.ends_with(',') {
         (format!("`{shown}` has a decimal comma"), "use a decimal point: `0.5` instead of `0,5`")
     } else if word.contains(',') {
-        (format!("`{shown}` is not a number"), "separate numbers by spaces, not commas")
+        (format!("`{shown}` is not a number"), "separate numbers with spaces, not commas")
     } else if is_number(without_exponent(word)) {
         (
             format!("`{shown}` is outside the range of floating-point numbers"),

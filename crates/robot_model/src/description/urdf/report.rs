@@ -128,7 +128,7 @@ fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
         reader.report(
             Diagnostic::note(code::TAKEN_DEFAULT, message)
                 .at(&dynamics.span, dynamics.values_text())
-                .because("damping is viscous friction, friction is constant Coulomb friction"),
+                .because("`damping` is viscous friction, `friction` is constant Coulomb friction"),
         );
     }
 }

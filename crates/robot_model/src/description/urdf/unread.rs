@@ -68,7 +68,7 @@ fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
         Diagnostic::note(code::LEFT_OUT, message)
             .at(&first.span, first.values_text())
             .because("the torques do not include it")
-            .help("the import option `friction` takes it into the robot file"),
+            .help("the import option `friction` includes it in the robot file"),
     );
     reader.left_out.push(format!(
         "the friction of {count} (the import option `friction` includes \
@@ -94,7 +94,8 @@ fn drives(reader: &mut Reader<'_>, places: &[Span]) {
 fn simulated(reader: &mut Reader<'_>, places: &[Span]) {
     let Some(first) = places.first() else { return };
     let count = counted(places.len(), "Gazebo element");
-    let message = format!("{count}: gravity, springs and damping in it are not part of the robot");
+    let message =
+        format!("{count}: settings of gravity, springs and damping are not part of the robot");
     reader.report(Diagnostic::note(code::LEFT_OUT, message).at(first, "").because(
         "they are meant for a simulator; here gravity acts on every body, and there \
                 are no springs",
