@@ -45,7 +45,8 @@ impl Parse for Arguments {
             } else {
                 arguments.set(&key, &input.parse()?)
             };
-            let twice = || syn::Error::new(key.span(), format!("`{key}` is given twice"));
+            let twice =
+                || syn::Error::new(key.span(), format!("`{key}` is given twice; keep one of them"));
             let result = if seen.contains(&key) { Err(twice()) } else { result };
             if let Err(error) = result {
                 match &mut errors {
@@ -133,7 +134,8 @@ impl Parse for Bundles {
         let content;
         let braces = syn::braced!(content in input);
         if content.is_empty() {
-            return Err(syn::Error::new(braces.span.join(), "the list of bundles is empty"));
+            let message = "the list of bundles is empty; name at least one, or leave out `bundles`";
+            return Err(syn::Error::new(braces.span.join(), message));
         }
         let bundle = |input: ParseStream<'_>| {
             let name = input.parse()?;
@@ -172,11 +174,12 @@ fn list(value: &Expr, more: Option<&'static str>) -> syn::Result<Vec<LitStr>> {
     let Expr::Array(array) = value else {
         return Err(syn::Error::new_spanned(
             value,
-            "expected functions, [\"inverse_dynamics\", …]",
+            "expected a list of functions, such as [\"inverse_dynamics\"]",
         ));
     };
     if array.elems.is_empty() {
-        return Err(syn::Error::new_spanned(value, "the list of functions is empty"));
+        let message = "the list of functions is empty; name at least one function";
+        return Err(syn::Error::new_spanned(value, message));
     }
     let kinds = FunctionKind::ALL.iter().map(|kind| kind.name());
     let known: Vec<(&str, ())> = kinds.chain(more).map(|name| (name, ())).collect();
@@ -197,7 +200,9 @@ fn one_of<T: Copy>(value: &Expr, known: &[(&str, T)]) -> syn::Result<T> {
         let names: Vec<String> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         let words: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
         let near = meant(&literal.value(), &words);
-        syn::Error::new(literal.span(), format!("expected one of {}{near}", names.join(", ")))
+        let (given, names) = (literal.value(), names.join(", "));
+        let message = format!("{given:?} is not allowed here{near}; use one of {names}");
+        syn::Error::new(literal.span(), message)
     })
 }
 
@@ -252,7 +257,7 @@ fn without_type(suffix: &str, value: &Expr) -> syn::Result<()> {
     if suffix.is_empty() {
         return Ok(());
     }
-    Err(syn::Error::new_spanned(value, format!("write the number without its type `{suffix}`")))
+    Err(syn::Error::new_spanned(value, format!("write the number without the suffix `{suffix}`")))
 }
 
 fn literal(value: &Expr) -> Option<&Lit> {

@@ -77,9 +77,7 @@ impl RobotFile {
         };
         let pin = read_pin(&path).map_err(failed)?;
         if pin.digest != digest(&pin.content()) {
-            return Err(failed(
-                "the pinned plan was edited after the search had written it".to_owned(),
-            ));
+            return Err(failed("the pinned plan was edited after the search wrote it".to_owned()));
         }
         let robot = crate::read_with(&self.source, options)?.robot;
         if pin.fingerprint != fingerprint(&robot) {
@@ -107,7 +105,7 @@ fn read_pin(path: &Path) -> Result<Pin, String> {
         _ => system_reason(&error),
     })?;
     if !found.is_file() {
-        return Err("a pinned plan must be a regular file, and this is not".to_owned());
+        return Err("a pinned plan must be a regular file, and this one is not".to_owned());
     }
     let size = found.len();
     if size > MAX_BYTES {
@@ -172,7 +170,7 @@ mod tests {
             file.with_pin(&Options::default())
         };
         let error = pinned(&text.replace("operations = 7", "operations = 6")).unwrap_err();
-        let reason = "was edited after the search had written it";
+        let reason = "was edited after the search wrote it";
         assert!(error.to_string().contains(reason), "{error}");
         // A file can be too long for a plan.
         let filled = |bytes: u64| {

@@ -12,13 +12,13 @@ pub fn system_reason(error: &Error) -> String {
         ErrorKind::IsADirectory => "it is a folder",
         ErrorKind::ReadOnlyFilesystem => "its disk is read-only",
         ErrorKind::StorageFull => "the disk is full",
-        ErrorKind::QuotaExceeded => "your share of the disk is full",
-        ErrorKind::FileTooLarge => "the system does not allow so large a file",
+        ErrorKind::QuotaExceeded => "your disk quota is used up",
+        ErrorKind::FileTooLarge => "the file is too large for the system",
         // This kind has no stable name yet.
         kind if format!("{kind:?}") == "FilesystemLoop" => "its symbolic links form a cycle",
         // EIO, which has no kind yet.
         _ if cfg!(unix) && error.raw_os_error() == Some(5) => {
-            "the system does not give its content"
+            "the system reports an input/output error"
         }
         _ => return without_number(&error.to_string()).to_owned(),
     };

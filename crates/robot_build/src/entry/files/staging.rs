@@ -83,7 +83,8 @@ impl Staged {
                 return Ok(Staged { temporary, target: target.to_owned(), lock, is_placed: false });
             }
         }
-        Err(std::io::Error::other("no temporary file could be created beside it"))
+        let reason = "no temporary file could be created beside it; remove the hidden files";
+        Err(std::io::Error::other(format!("{reason} `{prefix}…` there")))
     }
 
     /// Sets the permissions and, if permitted, the owner to those of the existing file.
