@@ -29,7 +29,7 @@ def typesetter(by: str | None) -> Typesetter:
         return "latex", _by_pdflatex
     wanted = {"typst": "Typst, which is", "latex": "LaTeX, which is"}.get(by or "", "Typst or LaTeX, neither of which is")
     remedy = "install `pdflatex`" if by == "latex" else "`pip install typst` is enough"
-    raise RobotError(f"a PDF needs {wanted} installed: {remedy}; a document of the ending .tex, .typ, .md or .html needs nothing")
+    raise RobotError(f"a PDF needs {wanted} installed: {remedy}; a document with the extension .tex, .typ, .md or .html needs nothing")
 
 
 def _by_typst_package(source: Path, target: Path) -> None:
@@ -38,7 +38,7 @@ def _by_typst_package(source: Path, target: Path) -> None:
     try:
         typst.compile(str(source), output=str(target))
     except RuntimeError as error:
-        raise RobotError(f"Typst fails: {error}") from None
+        raise RobotError(f"Typst failed: {error}") from None
 
 
 def _by_typst_program(source: Path, target: Path) -> None:
@@ -57,7 +57,7 @@ def _run(arguments: list[str], folder: Path, **variables: str) -> None:
     done = subprocess.run(arguments, cwd=folder, env={**os.environ, **variables}, capture_output=True, text=True, errors="replace", check=False)
     if done.returncode != 0:
         said = (done.stderr or done.stdout).strip().splitlines()[-12:]
-        raise RobotError("\n".join([f"{arguments[0]} fails:", *said]))
+        raise RobotError("\n".join([f"{arguments[0]} failed:", *said]))
 
 
 def typeset(write: Callable[[str, Path], None], target: Path, by: str | None) -> None:

@@ -134,7 +134,7 @@ class Robot:
     def diff(self, other: Robot) -> dict[str, Any]:
         """Shows how another robot differs: parameters, terms, operations, torques."""
         if not isinstance(other, Robot):
-            raise RobotError(f"diff compares with another robot of robots.load, not with {other!r}")
+            raise RobotError(f"diff takes another robot from robots.load, not {other!r}")
         flags = sorted({*self._flags, *other._flags})
         found: dict[str, Any] = json.loads(run(["diff", self._path, other._path, *flags, "--format", "json"], (0, 1)))
         return found
@@ -150,7 +150,7 @@ class Robot:
         notation = {".tex": "latex", ".typ": "typst", ".md": "markdown"}.get(target.suffix)
         flags = _flags(options)
         if by is not None and target.suffix != ".pdf":
-            raise RobotError(f"{target}: `by` is for documents of the ending .pdf")
+            raise RobotError(f"{target}: `by` is only for documents with the extension .pdf")
         if target.suffix == ".html":
             run(["report", self._path, *self._flags, "--without-compiler", "-o", str(target), *flags, *["--force"] * force])
         elif target.suffix == ".pdf":
@@ -160,7 +160,7 @@ class Robot:
         elif notation is not None:
             self._document(notation, target, [*flags, *["--force"] * force])
         else:
-            raise RobotError(f"{target}: the ending must be .pdf, .tex, .typ, .md or .html")
+            raise RobotError(f"{target}: the extension must be .pdf, .tex, .typ, .md or .html")
         return target
 
     def _document(self, notation: str, target: Path, flags: list[str]) -> None:
@@ -239,7 +239,7 @@ class Robot:
         if regressor.ndim != 3 or measured.shape != regressor.shape[:2]:
             raise RobotError(f"tau has the shape {measured.shape}; it must be (N, {self.degrees_of_freedom}) as the states are")
         if measured.size == 0:
-            raise RobotError("there are no states, and nothing can be identified from none")
+            raise RobotError("there are no states; identification needs at least one")
         weights = 1.0 / np.broadcast_to(_noise(noise, self.degrees_of_freedom), measured.shape).ravel()
         matrix, torques = regressor.reshape(-1, regressor.shape[2]), measured.ravel()
         if not (np.isfinite(matrix).all() and np.isfinite(torques).all()):

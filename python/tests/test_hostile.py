@@ -158,7 +158,7 @@ def test_calls_from_many_threads(puma, given):
         (lambda r: r.call(), "at least one"),
         (lambda r: r.call("gravity", "nothing", q=[0, 0]), "nothing"),
         (lambda r: r.diff("scara.toml"), "another robot"),
-        (lambda r: r.document("arm.doc"), "ending must be"),
+        (lambda r: r.document("arm.doc"), "extension must be"),
         (lambda r: r.document("arm.tex", by="latex"), "by"),
         (lambda r: r.document("arm.pdf", by="word"), "word"),
         (lambda r: r.arrow("gravity", output="rows"), "output must be"),

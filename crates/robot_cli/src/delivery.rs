@@ -18,7 +18,7 @@ const SHOWN: usize = 5;
 /// Whether files of others are replaced.
 #[derive(Args)]
 pub(crate) struct ForceArgument {
-    /// Replace an existing file that this program did not write, or a document, page or picture that was edited since;
+    /// Replace an existing file that this program did not write, or a document, page or picture that has been edited since;
     /// never an input
     #[arg(long)]
     force: bool,

@@ -50,7 +50,7 @@ impl Notation {
         if !has_font {
             writeln!(
                 terminal.errors,
-                "note: on a terminal the page is printed without its font; write it into a file, such as > page.html"
+                "note: on a terminal the page is printed without its font; write it to a file, as with `> page.html`"
             )?;
         }
         Ok(Notation::Mathml { has_font })

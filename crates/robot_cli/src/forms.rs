@@ -255,7 +255,7 @@ impl EquationArguments {
             let file = shown(path);
             let message = format!(
                 "{without_common_terms} of the {compared} equations in {file} have no term in common with those of \
-                 this robot, which are printed in an order of their own; is it the right file for the robot?"
+                 this robot, which are printed in an order of their own; is this the right file for the robot?"
             );
             writeln!(terminal.errors, "warning: {message}")?;
         }
@@ -379,7 +379,9 @@ fn kinds(names: &[String]) -> Result<Vec<Kind>, Failure> {
         match (name.as_str(), Kind::from_name(name)) {
             ("all", _) if names.len() == 1 => return Ok(Kind::ALL.to_vec()),
             ("all", _) => {
-                wrong.push("--quantity: `all` has all quantities; leave the others out".to_owned());
+                wrong.push(
+                    "--quantity: `all` selects all quantities; leave the others out".to_owned(),
+                );
             }
             (_, Some(kind)) => kinds.push(kind),
             _ => wrong.push(text::unknown("quantity", name, &known)),

@@ -34,8 +34,9 @@ pub(crate) fn functions(names: &[String], robot: &Robot) -> Result<Functions, Fa
         (true, _) => Ok(Functions::Chosen(kinds)),
         (false, true) => Ok(Functions::All),
         (false, false) => {
-            let message =
-                format!("--function: `{ALL_FUNCTIONS}` has all functions; leave the others out");
+            let message = format!(
+                "--function: `{ALL_FUNCTIONS}` selects all functions; leave the others out"
+            );
             Err(Failure::Usage(vec![message]))
         }
     }

@@ -30,7 +30,7 @@ pub(crate) fn pinned_or_searched(
     let found = watched("searching for a plan", terminal, find);
     let instead = match &found {
         Some(Found { operations, .. }) => format!(
-            "using a plan searched for now, under which inverse dynamics takes {operations} \
+            "using a plan from a new search, with which inverse dynamics takes {operations} \
              operations"
         ),
         None => "using the default form".to_owned(),

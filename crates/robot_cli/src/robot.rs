@@ -304,7 +304,7 @@ impl CodeArguments {
         if options.fused && !language.has_multiply_add() {
             writeln!(
                 terminal.errors,
-                "note: --fused: `{name}` has no instruction that multiplies and adds, so products and sums are apart"
+                "note: --fused: `{name}` has no instruction that multiplies and adds, so products and sums stay separate"
             )?;
         }
         if !self.target.is_given("limbs") {
@@ -313,13 +313,13 @@ impl CodeArguments {
         let standard = options.trigonometry == Trigonometry::Standard;
         let why = match language {
             Language::Rust if standard && options.limbs == Limbs::SideBySide => {
-                "with --trigonometry standard; limbs are apart"
+                "with --trigonometry standard; each limb has separate code"
             }
             Language::Rust if like_limbs(robot).is_none() => {
                 "on this robot: it has parameters, or no limbs that are alike"
             }
             Language::Rust => return Ok(()),
-            _ => "outside Rust; limbs are apart",
+            _ => "outside Rust; each limb has separate code",
         };
         writeln!(terminal.errors, "note: --limbs has no effect {why}")?;
         Ok(())

@@ -19,7 +19,7 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
         .map(|near| format!(" Did you mean `{near}`?"))
         .unwrap_or_default();
     let known = match known {
-        [] => "None is available.".to_owned(),
+        [] => "None are available.".to_owned(),
         known => format!("Available: {}.", known.join(", ")),
     };
     format!("there is no {what} `{}`.{near} {known}", quote(name))
@@ -225,7 +225,7 @@ mod tests {
             "there is no quantity `F_1`. Did you mean `F_l`? Available: Q, F_l, M_l."
         );
         assert!(!unknown("quantity", "torques", &["Q", "F_l"]).contains("mean"));
-        assert_eq!(unknown("tip", "a", &[]), "there is no tip `a`. None is available.");
+        assert_eq!(unknown("tip", "a", &[]), "there is no tip `a`. None are available.");
     }
 
     #[test]

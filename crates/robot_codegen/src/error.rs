@@ -52,7 +52,7 @@ pub enum Error {
     },
     /// The module has expressions from two graphs.
     #[error(
-        "output `{output}` of function `{function}` belongs to another graph than the module's \
+        "output `{output}` of function `{function}` belongs to a different graph than the module's \
          first output; build all expressions of a module in one graph"
     )]
     ForeignGraph {
@@ -188,19 +188,19 @@ pub enum Error {
         place: String,
     },
     /// A number type that a language does not have.
-    #[error("{language} computes in f64 alone; leave out the option `scalar`")]
+    #[error("{language} computes only in f64; leave out the option `scalar`")]
     Scalar {
         /// The language.
         language: &'static str,
     },
     /// Double precision, which a language does not have.
-    #[error("{language} computes in f32 alone; give the option `scalar` the value `f32`")]
+    #[error("{language} computes only in f32; give the option `scalar` the value `f32`")]
     Single {
         /// The language.
         language: &'static str,
     },
     /// Sines of the standard library, which a language does not have.
-    #[error("{language} has no sines of a standard library; leave out the option `trigonometry`")]
+    #[error("{language} has no sines from a standard library; leave out the option `trigonometry`")]
     Trigonometry {
         /// The language.
         language: &'static str,

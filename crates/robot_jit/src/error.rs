@@ -8,7 +8,7 @@ use robot_codegen::Errors;
 pub enum Error {
     /// The processor does not have the registers for which code is made.
     #[error(
-        "machine code needs {needed}, which this machine does not have; the interpreter computes the same"
+        "machine code needs {needed}, which this machine does not have; the interpreter computes the same results"
     )]
     Processor {
         /// The required processor and its extensions.
@@ -46,7 +46,7 @@ pub enum Error {
     },
     /// A function whose values do not fit into the stack of a thread.
     #[error(
-        "function `{function}` would take {bytes} bytes of the stack as machine code; the interpreter computes the same"
+        "function `{function}` would take {bytes} bytes of the stack as machine code; the interpreter computes the same results"
     )]
     Stack {
         /// The function.
@@ -65,7 +65,9 @@ pub enum Error {
         reason: String,
     },
     /// The system does not provide memory, or does not allow it to be executable.
-    #[error("the system provides no memory for code ({0}); the interpreter computes the same")]
+    #[error(
+        "the system provides no memory for code ({0}); the interpreter computes the same results"
+    )]
     Memory(#[from] std::io::Error),
     /// Errors in the parameters, or an unknown function.
     #[error(transparent)]

@@ -185,7 +185,7 @@ fn is_too_large(errors: &Errors) -> bool {
 fn omission(all: &[FunctionKind], chosen: &[FunctionKind]) -> Option<String> {
     let omitted = all.iter().filter(|kind| !chosen.contains(kind)).map(|kind| kind.name());
     let omitted: Vec<&str> = omitted.collect();
-    let words = "not shown: with them the code of a robot of so many joints has more expressions than code is made of.";
+    let words = "not shown: with them, the code of a robot with so many joints would exceed the limit on expressions.";
     (!omitted.is_empty()).then(|| format!("Note: {} are {words}", omitted.join(", ")))
 }
 

@@ -85,7 +85,7 @@ impl fmt::Display for Cause {
                  or the square root of a negative number in their expressions",
             ),
             Cause::Friction => formatter.write_str(
-                "no acceleration is consistent with its load-dependent friction; check the \
+                "no acceleration is consistent with the load-dependent friction; check the \
                  coefficients `coulomb` of the joints, or set `smoothing` for their friction",
             ),
             Cause::Events => formatter.write_str(

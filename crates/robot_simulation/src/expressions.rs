@@ -34,7 +34,9 @@ pub(crate) fn assignment<'t>(
     let unknown = formula.symbols().map(|(name, _)| name).find(|name| !is_known(name));
     if let Some(unknown) = unknown {
         let unknown = quote(unknown);
-        return Err(format!("`{shown}`: `{unknown}` is not known here; known are {known}"));
+        return Err(format!(
+            "`{shown}`: `{unknown}` is not known here; the known names are {known}"
+        ));
     }
     Ok((name.trim(), formula))
 }

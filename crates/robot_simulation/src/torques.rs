@@ -101,7 +101,7 @@ impl Torques {
             && (*first > 0.0 || *last < duration)
         {
             wrong.push(format!(
-                "{source}: the torques cover {} s to {} s, but the motion 0 s to {} s",
+                "{source}: the torques cover {} s to {} s, but the motion covers 0 s to {} s",
                 number(*first),
                 number(*last),
                 number(duration)

@@ -178,7 +178,7 @@ fn formulas(
                 if coordinates.iter().chain(&wrenches).all(|known| known != name) {
                     let names = [&coordinates[..], &wrenches].concat().join(", ");
                     wrong.push(format!(
-                        "`{shown}` is not part of a trajectory; possible are {names}"
+                        "`{shown}` is not part of a trajectory; its parts are {names}"
                     ));
                 } else if formulas.insert(name.to_owned(), formula).is_some() {
                     wrong.push(format!("`{shown}` is given twice"));

@@ -22,7 +22,7 @@ use crate::text;
 
 The page is a single file that needs no other file and no network: the kinematic scheme, tables of joints,
 masses and parameters, the equations of motion, the structure of the matrices, operations by function, stage and
-option, and evidence. It works on screens, dark and light, in print and with screen readers; hover over a link,
+option, and evidence. It works on dark and light screens, in print and with screen readers; hover over a link,
 a parameter or a term to highlight everything related to it.
 
 For the evidence, rustc compiles the code (the variable RUSTC, or `rustc`); if there is no compiler, the page

@@ -52,7 +52,7 @@ pub(crate) struct Arguments {
     /// Maximum number of integrator steps [default: 1000000, or ten per line of output if that is more]
     #[arg(long, value_name = "STEPS", value_parser = whole(0_usize..), allow_hyphen_values = true)]
     max_steps: Option<usize>,
-    /// Initial joint positions, separated by commas; rad or m, or such as pi/2, 90deg [default: 0]
+    /// Initial joint positions, separated by commas; in rad or m, such as 0.5, pi/2 or 90deg [default: 0]
     #[arg(long, value_name = "Q1,Q2,…", allow_hyphen_values = true)]
     q0: Option<String>,
     /// Initial joint velocities; rad/s or m/s [default: 0]

@@ -48,7 +48,7 @@ pub(crate) struct Arguments {
     /// Show the operations after each pass
     #[arg(long)]
     passes: bool,
-    /// Show the savings by each option of the recursion and each pass
+    /// Show the savings of each option of the recursion and each pass
     #[arg(long, conflicts_with = "passes")]
     options: bool,
     /// Output format [default: text on a terminal, else json]

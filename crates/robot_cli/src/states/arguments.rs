@@ -11,7 +11,7 @@ use crate::values::{list, miscounted, number, of_joints};
 /// A state, each variable as an option.
 #[derive(Args)]
 pub(crate) struct StateArguments {
-    /// Joint positions of one state, instead of --states, separated by commas; rad or m, or such as pi/2, 90deg
+    /// Joint positions of one state, instead of --states, separated by commas; in rad or m, such as 0.5, pi/2 or 90deg
     #[arg(long, value_name = "Q1,Q2,…", allow_hyphen_values = true, conflicts_with = "states")]
     q: Option<String>,
     /// Joint velocities of the state; rad/s or m/s

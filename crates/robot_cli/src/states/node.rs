@@ -21,9 +21,9 @@ impl Node {
     pub(super) fn kind(&self) -> &'static str {
         match self {
             Node::Null => "null",
-            Node::Bool => "a truth value",
+            Node::Bool => "a Boolean",
             Node::Number(_) => "a number",
-            Node::Text => "a text",
+            Node::Text => "a string",
             Node::Array(_) => "an array",
             Node::Object(_) => "an object",
         }

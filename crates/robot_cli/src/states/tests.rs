@@ -75,7 +75,7 @@ fn json_and_csv_give_the_same_states() {
 fn everything_that_is_wrong_with_json_is_named() {
     let text = r#"[{"q": [1, "x"], "qd": [1], "qdt": []}, 5, {"q": 3, "qd": [null, 1]}]"#;
     let expected = [
-        "state 1: `q` has a text at entry 2, not a number",
+        "state 1: `q` has a string at entry 2, not a number",
         "state 1: `qd` has 1 entry, not 2",
         "state 1: there is no key `qdt`. Did you mean `qd`? Available: q, qd, qdd, tau, wrench.",
         "state 2: expected an object, not a number",
@@ -101,7 +101,7 @@ fn everything_that_is_wrong_with_csv_is_named() {
     // Files that other programs write have a remedy.
     let deg = errors("q1 [deg],q2\n");
     assert!(deg[0].ends_with("fx, fy, fz, mx, my, mz; write the name without a unit, and values in s, rad, m, N m and N: degrees are not converted"), "{deg:?}");
-    let semicolons = "the header has semicolons instead of commas; separate columns by commas, and write decimals with points";
+    let semicolons = "the header has semicolons instead of commas; separate columns with commas, and write decimals with points";
     assert_eq!(errors("q1;q2\n0;1\n"), [semicolons]);
     let found = errors("q1,q2\n1,nan\n1\n2,\n");
     let expected = [

@@ -70,10 +70,10 @@ fn what_is_given_twice_is_an_error() {
     let arm = robot("planar_2r");
     for (arguments, expected) in [
         (&["generate", &arm, "--function", "bias,bias"][..], "--function: `bias` is given twice"),
-        (&["stats", &arm, "--function", "all,bias"], "`all` has all functions"),
+        (&["stats", &arm, "--function", "all,bias"], "`all` selects all functions"),
         (&["generate", &arm, "--bundle", "d=bias,bias"], "--bundle d: `bias` is given twice"),
         (&["equations", &arm, "--quantity", "Q,Q"], "--quantity: `Q` is given twice"),
-        (&["equations", &arm, "--quantity", "all,Q"], "`all` has all quantities"),
+        (&["equations", &arm, "--quantity", "all,Q"], "`all` selects all quantities"),
         (&["document", &arm, "--form", "grouped,grouped"], "--form: `grouped` is given twice"),
         (&["check", &arm, "--allow", "R0602,R0602"], "--allow: `R0602` is given twice"),
         (&["prove", &arm, "--profile", "dev,dev"], "--profile: `dev` is given twice"),

@@ -419,7 +419,7 @@ fn wrong_messages_are_told_on_standard_error_alone() {
     ] {
         let outcome = run_with(&["lsp"], bytes);
         assert_eq!((outcome.code, outcome.output.as_str()), (1, ""));
-        let reason = "error: the input is not a message of the protocol: ";
+        let reason = "error: the input is not a protocol message: ";
         assert!(outcome.errors.starts_with(reason), "{}", outcome.errors);
     }
     // A message that cannot be used does not end the session.

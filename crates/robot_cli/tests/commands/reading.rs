@@ -204,7 +204,7 @@ fn options_without_effect_are_refused() {
 fn tables_of_other_programs_have_a_remedy() {
     let file = robot("planar_2r");
     for (table, part) in [
-        ("t;q1;q2\n0;0;0\n", "the header has semicolons instead of commas; separate columns by"),
+        ("t;q1;q2\n0;0;0\n", "the header has semicolons instead of commas; separate columns with"),
         ("t\tq1\tq2\n0\t0\t0\n", "the header has tabs instead of commas"),
         ("t,q1,q2\r0,0,0\r", "the lines end with carriage returns alone; end them with line feeds"),
         (
@@ -233,7 +233,7 @@ fn remedies_fit_what_was_written() {
     let open = complaint(1, &open, "");
     assert!(open.contains("this parenthesis is not closed") && open.lines().count() == 1, "{open}");
     let single = complaint(1, &["generate", &file, "--language", "wgsl", "--scalar", "f64"], "");
-    assert!(single.ends_with("WGSL computes in f32 alone; use `--scalar f32`\n"), "{single}");
+    assert!(single.ends_with("WGSL computes only in f32; use `--scalar f32`\n"), "{single}");
     let tip = "\n[[tip]]\nlink = \"2\"\nposition = [0, 0, 0]\n[tip]\nlink = \"1\"\n";
     let text = std::fs::read_to_string(&file).unwrap() + tip;
     let path = folder("single-tip").join("arm.toml");

@@ -122,7 +122,10 @@ fn plans_that_are_none_are_to_be_moved() {
     std::fs::create_dir(&plan).unwrap();
     for command in ["stats", "search"] {
         let found = run(&[command, &file]).errors;
-        assert!(found.contains("must be a regular file, and this is not; move it away"), "{found}");
+        assert!(
+            found.contains("must be a regular file, and this one is not; move it away"),
+            "{found}"
+        );
     }
     std::fs::remove_dir(&plan).unwrap();
     // A plan that a search wrote, and somebody edited, is replaced.

@@ -93,12 +93,12 @@ fn languages_of_double_precision_refuse_single() {
     ];
     for printer in printers {
         let errors = printer.files(&module("single")).unwrap_err().to_string();
-        assert!(errors.contains("computes in f64 alone"), "{errors}");
+        assert!(errors.contains("computes only in f64"), "{errors}");
     }
 }
 
 #[test]
 fn wgsl_refuses_double_precision() {
     let errors = Wgsl { options: options() }.files(&module("double")).unwrap_err().to_string();
-    assert!(errors.contains("computes in f32 alone"), "{errors}");
+    assert!(errors.contains("computes only in f32"), "{errors}");
 }

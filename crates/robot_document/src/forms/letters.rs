@@ -77,7 +77,7 @@ impl Letters {
         let again = again.map(|(_, letter)| format!("`{}` is given twice", quote(letter)));
         let mut wrong: Vec<String> = others.chain(again).collect();
         wrong.extend(
-            (letters.len() != 4).then(|| format!("{} letters are not four", letters.len())),
+            (letters.len() != 4).then(|| format!("{} letters are given, not four", letters.len())),
         );
         let letters: Vec<Option<String>> =
             letters.iter().map(|letter| Some((*letter).to_owned())).collect();
@@ -103,7 +103,7 @@ impl Letters {
 /// Texts that are not letters, with the reason.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{0}; letters are `field`, `paper`, or four different ones, of joint torques, mass matrix, Coriolis \
+    "{0}; letters are `field`, `paper`, or four different ones, for joint torques, mass matrix, Coriolis \
      and centrifugal terms, and gravity terms, such as tau,M,C,g"
 )]
 pub struct InvalidLetters(String);

@@ -15,7 +15,7 @@ pub fn separators(header: &str) -> Option<String> {
     let found = SEPARATORS.iter().find(|(separator, _)| header.contains(*separator));
     let (_, name) = found.filter(|_| !header.contains(','))?;
     Some(format!(
-        "the header has {name} instead of commas; separate columns by commas, and write decimals with points"
+        "the header has {name} instead of commas; separate columns with commas, and write decimals with points"
     ))
 }
 
@@ -35,7 +35,7 @@ pub fn unit(name: &str) -> &'static str {
 pub fn miscounted(place: &str, line: &str, found: usize, expected: usize) -> String {
     let entries = if found == 1 { "entry" } else { "entries" };
     let remedy = if SEPARATORS.iter().any(|(separator, _)| line.trim().contains(*separator)) {
-        "; separate them by commas"
+        "; separate them with commas"
     } else {
         ""
     };
@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn other_separators_have_a_remedy() {
         for (header, part) in [
-            ("t;q1;q2\n", Some("has semicolons instead of commas; separate columns by commas")),
+            ("t;q1;q2\n", Some("has semicolons instead of commas; separate columns with commas")),
             ("t\tq1\n", Some("has tabs instead of commas")),
             ("t|q1\n", Some("has vertical bars instead of commas")),
             ("t,q1\r0,1\r1,1\r", Some("end with carriage returns alone")),
@@ -63,7 +63,7 @@ mod tests {
         }
         assert_eq!(
             miscounted("line 2", "0;1", 1, 3),
-            "line 2: 1 entry, but the header has 3; separate them by commas"
+            "line 2: 1 entry, but the header has 3; separate them with commas"
         );
         assert_eq!(miscounted("line 2", "0,1\n", 2, 3), "line 2: 2 entries, but the header has 3");
     }

@@ -203,7 +203,7 @@ fn what_is_wrong_with_a_trajectory_is_named() {
     let lines: Vec<&str> = shown.lines().collect();
     assert!(lines[0].starts_with("`q1 = sin(q2)`: `q2` is not known here"), "{shown}");
     assert!(
-        lines[1].starts_with("`q3` is not part of a trajectory; possible are q1, q2"),
+        lines[1].starts_with("`q3` is not part of a trajectory; its parts are q1, q2"),
         "{shown}"
     );
     assert_eq!(lines[2], "`q2` is given twice");

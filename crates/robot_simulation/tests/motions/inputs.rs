@@ -34,7 +34,7 @@ fn expressions_know_time_state_and_parameters() {
         [
             "torque `3` does not match a joint; the joints are 1 to 2, by name 1, 2",
             "torque `1` is given twice",
-            "torque `2 = tau1`: `tau1` is not known here; known are t, q1 …, qd1 … and the robot's \
+            "torque `2 = tau1`: `tau1` is not known here; the known names are t, q1 …, qd1 … and the robot's \
              parameters",
             "torque `7` is not an assignment; write NAME = EXPRESSION",
             "torque `elbow` does not match a joint; the joints are 1 to 2, by name 1, 2",
@@ -57,7 +57,7 @@ fn tables_are_linear_between_samples() {
     let shown = Torques::from_table(robot, "a.csv", &table, 3.0).unwrap_err().to_string();
     let expected = [
         "a.csv: the time does not increase at row 3 below the header",
-        "a.csv: the torques cover 0 s to 1 s, but the motion 0 s to 3 s",
+        "a.csv: the torques cover 0 s to 1 s, but the motion covers 0 s to 3 s",
         "a.csv: there is no column tau1, tau2; add a column of zeros for a joint that is not driven",
         "a.csv: the column `tau3` does not match a coordinate",
     ];

@@ -30,8 +30,8 @@ mistakes; they change nothing, and most are shown only by this command. Notes sa
 Every diagnostic has a stable code with a page (docs/diagnostics).
 
 Exit codes: 0 if there are no errors; 1 if a file has errors, or warnings with --deny warnings; 2 if the command
-line is wrong. What is wrong goes to standard error as text; that nothing is, and JSON, go to standard
-output.")]
+line is wrong. Errors, warnings and notes go to standard error as text; the line `no errors, no warnings`, and
+JSON, go to standard output.")]
 pub(crate) struct Arguments {
     /// Robot files, TOML or URDF
     #[arg(required_unless_present = "explain", value_name = "FILE")]

@@ -49,7 +49,7 @@ fn words(content: Content) -> String {
             let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
             return quoted.join(" or ");
         }
-        Content::Text => "a text",
+        Content::Text => "text",
         Content::Unit => "a unit",
         Content::Latex => "LaTeX",
         Content::Identifier => "an identifier",

@@ -24,10 +24,11 @@ use session::Session;
 
 An editor starts this command and speaks the Language Server Protocol with it over standard input and output. It
 then shows what `check` reports while a file is edited, saved or not, for robot files in TOML and URDF, and the
-meaning of keys and parameters in TOML. Files of other programs are left alone. The page about robot files (docs/robot-file.md) has settings of editors.
+meaning of keys and parameters in TOML. Files of other programs are left alone. The page about robot files
+(docs/robot-file.md) has settings for editors.
 
-Exit codes: 0 after `shutdown` and `exit`; 1 after `exit` alone, at the end of the input, or after a message that is
-not one of the protocol; 2 if the command line is wrong.")]
+Exit codes: 0 after `shutdown` and `exit`; 1 after `exit` alone, at the end of the input, or after input that
+is not a protocol message; 2 if the command line is wrong.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
     examination: ExaminationArguments,
@@ -96,7 +97,7 @@ fn serve(
             return Err(Failure::input("the input ended without the message `exit`"));
         };
         let message = message.map_err(|reason| {
-            Failure::input(format!("the input is not a message of the protocol: {reason}"))
+            Failure::input(format!("the input is not a protocol message: {reason}"))
         })?;
         if is_exit(&message) {
             let reason = "the editor sent `exit` without `shutdown`";

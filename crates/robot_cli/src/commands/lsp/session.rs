@@ -230,7 +230,7 @@ fn changed(message: &mut Value) -> Result<String, String> {
     let last = changes.and_then(|changes| changes.last_mut());
     let last = last.ok_or("it has no changes (`params.contentChanges`)")?;
     if last.get("range").is_some_and(|range| !range.is_null()) {
-        return Err("a change has a range; this server takes whole texts".to_owned());
+        return Err("a change has a range; this server accepts only whole documents".to_owned());
     }
     match last.get_mut("text").map(Value::take) {
         Some(Value::String(text)) => Ok(text),

@@ -66,7 +66,7 @@ fn header(stream: &mut dyn BufRead) -> Result<Option<u64>, String> {
             let number: Option<u64> = value.trim().parse().ok();
             let number = number.ok_or_else(|| format!("its header has {line:?}; {expected}"))?;
             if number > MAX_BYTES {
-                return Err(format!("it has {number} bytes; the most are {MAX_BYTES}"));
+                return Err(format!("it has {number} bytes; at most {MAX_BYTES} are allowed"));
             }
             length = Some(number);
         }

@@ -33,7 +33,7 @@ and other commands warn, until you search again. Remarks, names and values of pa
 With --tune the plans with the fewest operations are also compiled in memory and timed on this machine: a call
 of inverse dynamics at one state, and the time per state in a batch. The plan with the fastest call is pinned if
 it is 1 % faster than the one with the fewest operations. Another run or machine may choose another plan, and
-the pin says so. Without --tune the result is the same everywhere.
+the pinned plan says so. Without --tune the result is the same everywhere.
 
 For each link the table shows the position of its frame's origin on the joint axis (for example at the foot of
 the common normal to the next or previous axis), the direction of its x axis, further options, and the first and
@@ -68,7 +68,7 @@ impl Arguments {
         if !self.dry_run {
             if path.exists() && !path.is_file() {
                 return Err(Failure::input(format!(
-                    "{}: a pinned plan must be a regular file, and this is not; move it away",
+                    "{}: a pinned plan must be a regular file, and this one is not; move it away",
                     shown(&path)
                 )));
             }

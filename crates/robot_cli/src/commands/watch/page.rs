@@ -60,7 +60,9 @@ impl Page {
         let path = shown(&self.path);
         match self.last {
             None => format!("the page {path} is not written yet"),
-            Some(_) => format!("this robot does not have a page; {path} still shows the last one"),
+            Some(_) => {
+                format!("no page can be made for this robot; {path} still shows the last one")
+            }
         }
     }
 
