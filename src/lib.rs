@@ -12,7 +12,7 @@
 //! let model = Model::new(&Parameters { M5: 2.5, ..Parameters::NOMINAL });
 //! let (q, qd, qdd) = ([0.1, 0.5, 0.2, 0.1, -0.3], [0.0; 5], [0.0; 5]);
 //! let tau = model.inverse_dynamics(&q, &qd, &qdd);
-//! // At rest the carriage bears no load along its axis, the lift bears all elements above it.
+//! // At rest, no force acts on the carriage along its axis; the lift carries the links above it.
 //! let Parameters { M3, M4, g, .. } = Parameters::NOMINAL;
 //! assert!(tau[0].abs() < 1e-12);
 //! assert!((tau[2] - (M3 + M4 + 2.5) * g).abs() < 1e-9);

@@ -357,7 +357,8 @@ fn failure(robot: &RobotArgument, error: &Error, condition: &str) -> Failure {
     Failure::input(format!("{}: {error}{remedy}", shown(robot.path())))
 }
 
-/// The options that help. Messages of the library mention their values at most.
+/// The options with which the error can be avoided; `None` for other errors. Messages of the library mention at most
+/// the values of these options.
 const fn options_that_help(error: &Error) -> Option<&'static str> {
     match error {
         Error::TooLong { .. } | Error::TooMany { .. } | Error::TooManyExpressions { .. } => {
