@@ -1,4 +1,4 @@
-//! Constants: exact as long as they are rational and not too long, otherwise floating-point numbers.
+//! Constants: exact if they are rational and not too long, otherwise floating-point numbers.
 
 use std::hash::{Hash, Hasher};
 

@@ -1,4 +1,4 @@
-//! Exact rational numbers: machine words as long as they suffice, otherwise the big rationals of `dashu`.
+//! Exact rational numbers: machine words if they suffice, otherwise the big rationals of `dashu`.
 
 use std::cmp::Ordering;
 use std::fmt;

@@ -352,7 +352,7 @@ fn the_order_of_a_sum_is_taken_and_a_single_term_has_none() {
     assert_eq!(order("Q2 = I2*qdd1 + I2*qdd2\nQ2 = I2*qdd2 + I2*qdd1\n"), forth);
 }
 
-/// A line begins behind the end of the one before it, which belongs to that one.
+/// A line begins after the line end of the preceding line, which belongs to that line.
 #[test]
 fn every_byte_is_in_its_line() {
     for text in ["a\nbc\n\nd", "\n\na", "abc", "", "é\nq\n"] {

@@ -395,7 +395,8 @@ mod tests {
         }
     }
 
-    /// All passes together, over several rounds, leave fewer operations than one round or than without one of them.
+    /// All passes together, over several rounds, leave fewer operations than one round does, and fewer than without one
+    /// of the passes.
     #[test]
     fn together_passes_save_more_than_each() {
         let left = |options: Options| {

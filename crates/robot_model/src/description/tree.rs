@@ -155,7 +155,7 @@ fn report_cycles(
 fn written(text: &str, link: &DraftLink) -> String {
     let name = &link.name.name;
     let found = text.get(link.name.span.clone()).unwrap_or_default().trim_matches(['"', '\'']);
-    // A name that the file does not have has the place of something else.
+    // If the file does not contain the name, its place is that of something else.
     let is_name = !found.is_empty() && !found.contains(['[', '{', '=', '\n']);
     match !is_name || found == name {
         true => format!("`{name}`"),

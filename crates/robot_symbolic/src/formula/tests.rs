@@ -197,7 +197,8 @@ fn reserved_names_are_no_symbols() {
     }
 }
 
-/// Every text gives a formula that can be lowered and evaluated, or an error with a place in the text and a remedy.
+/// Every text gives either a formula that can be lowered and evaluated, or an error with a place in the text and a
+/// remedy.
 #[test]
 fn random_texts_end_in_an_answer() {
     const TOKENS: [&str; 33] = [

@@ -471,7 +471,7 @@ fn each_option_has_its_setter() {
     }
 }
 
-/// The setters of what is not in the table of options keep what was set before.
+/// The setters of options that are not in the table keep the options that were set before.
 #[test]
 fn other_setters_set_a_field_each() {
     let plan = Plan { links: vec![], unit_length: None };

@@ -241,7 +241,7 @@ fn leftovers_of_a_killed_process_go_and_those_of_a_living_one_stay() {
     assert_eq!(folder.names(), [".a.rs.robot-symbolic-tmp-x", "a.rs", "new"]);
 }
 
-/// Where no file can be made, the reason of the system is kept; another name would not help.
+/// If no file can be created, the system's reason is kept, because another name would not help.
 #[test]
 fn a_temporary_file_that_cannot_be_made_has_its_reason() {
     let folder = Folder::new("staged");

@@ -316,7 +316,7 @@ enum Target {
 
 pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     let reason = match error.kind() {
-        // The file is made beside its name.
+        // A temporary file is created in the folder of the target.
         std::io::ErrorKind::NotFound => "its folder does not exist, or takes no files".to_owned(),
         _ => system_reason(error),
     };

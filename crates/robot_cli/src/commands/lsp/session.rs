@@ -20,7 +20,7 @@ enum ErrorCode {
     ServerNotInitialized = -32002,
 }
 
-/// How far the session is.
+/// The phase of the session.
 #[derive(Clone, Copy, PartialEq)]
 enum Phase {
     /// `initialize` has not been received.
@@ -63,7 +63,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     ///
-    /// The reason why a message without an answer cannot be used; the session goes on.
+    /// The reason why a message without an answer cannot be used; the session continues.
     pub(super) fn receive(&mut self, message: Value) -> Result<Option<Value>, String> {
         let method = message.get("method").and_then(Value::as_str);
         match (message.get("id"), method) {

@@ -1,4 +1,4 @@
-//! Words that names in printed Rust must not be.
+//! Words that cannot be names in printed Rust.
 
 /// Words that cannot be identifiers or have a special meaning where names occur; then crates and
 /// types that a module with this name would hide from the code around it.

@@ -18,7 +18,7 @@ pub(super) const POINTS: usize = 2;
 
 /// A coefficient counts if it is larger than its rounding error by this factor.
 const COUNTS: f64 = 1e3;
-/// The most variables that are told apart; if there are more, neighbors count as one.
+/// The most variables that are distinguished; if there are more, neighbors count as one.
 const VARIABLES: usize = 32;
 /// The most monomials of a polynomial.
 const MONOMIALS: usize = 600;

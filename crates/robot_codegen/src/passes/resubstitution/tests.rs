@@ -106,7 +106,8 @@ fn a_sum_with_a_multiple_is_found() {
     assert_eq!(operations, 2);
 }
 
-/// Of y − c x with a c far below the rounding of y, whether the pass keeps the term: y may be as small as c.
+/// The pass keeps the term c x of y − c x even if c is far below the rounding error of y, because y may be as small as
+/// c.
 #[test]
 fn a_term_stays_however_small_its_constant_is() {
     let operations = |constant: f64, small: fn(&mut Builder) -> Value| {
@@ -116,7 +117,7 @@ fn a_term_stays_however_small_its_constant_is() {
         let weight = b.mul(constant, x);
         let (rest, both) = (b.sub(y, weight), b.add(y, weight));
         let inertia = b.load(Source::Input(1));
-        // Two uses each, as in forward dynamics: a force less a weight, by an inertia.
+        // Each has two uses, as in forward dynamics: a force minus a weight, divided by an inertia.
         let results = vec![b.div(rest, inertia), b.div(both, inertia), b.mul(rest, both)];
         let program = b.finish(results);
         let left = Counts::of(&with(Resubstitution::Multiples)(&program)).operations();
@@ -138,7 +139,8 @@ fn a_term_stays_however_small_its_constant_is() {
     }
 }
 
-/// Whether the pass keeps all operations of a program of the sine of an angle, a speed, a torque and a parameter.
+/// Whether the pass keeps all operations of a program, which `build` makes from the sine of an angle, a velocity, a
+/// torque and a parameter.
 fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
     let mut b = Builder::new();
     let loads = [Source::Sin(0), Source::Input(0), Source::Input(1), Source::Parameter(0)];
@@ -149,8 +151,8 @@ fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
     Counts::of(&found).operations() == Counts::of(&program).operations()
 }
 
-/// Of 9.81 sin q + c q̇², the second term counts at high speeds, also in what is computed from the sum: its product
-/// with another value, its quotient by a sum, and the difference of the torque.
+/// Of 9.81 sin q + c q̇², the second term counts at high velocities, also in values that are computed from the sum: its
+/// product with another value, its quotient by a sum, and the difference of the torque.
 #[test]
 fn a_term_of_other_inputs_stays_however_small_it_is() {
     for constant in [1.5, 1e-9, 1e-17, 1e-30, 1e-100] {
