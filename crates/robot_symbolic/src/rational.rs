@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_denominators_are_no_number() {
+    fn fractions_with_denominator_zero_are_refused() {
         assert_eq!(Rational::new(1, 0), None);
         assert_eq!(Rational::ZERO.recip(), None);
         assert_eq!(Rational::new(-4, -6), Rational::new(2, 3));

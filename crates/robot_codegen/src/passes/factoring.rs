@@ -259,7 +259,7 @@ mod tests {
 
     /// The predicted saving of a factoring is the difference of the operations before and after it.
     #[test]
-    fn savings_come_as_foretold() {
+    fn savings_are_as_predicted() {
         let mut counted = 0;
         for seed in 0..300 {
             let mut view = Nary::new(&random_polynomials(seed));

@@ -213,7 +213,7 @@ mod tests {
     /// If the first axis is aligned with the last, the pivot of the first joint is only the small inertia of the first
     /// two links.
     #[test]
-    fn a_small_pivot_is_found_where_axes_come_into_line() {
+    fn a_small_pivot_is_found_where_axes_are_aligned() {
         assert!(may_be_small(&wrist("x", 1e-4)));
         assert!(!may_be_small(&wrist("x", 0.5)));
         // The pivot of the first joint is 2·10⁻³ of the diagonal; pivots below a hundredth count as small.

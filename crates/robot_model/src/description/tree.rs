@@ -168,7 +168,7 @@ mod tests {
     use super::sorted;
 
     #[test]
-    fn the_file_order_is_kept_where_it_can_be() {
+    fn the_file_order_is_kept_if_possible() {
         assert_eq!(sorted(&[None, Some(0), Some(0), None]), [0, 1, 2, 3]);
         assert_eq!(sorted(&[None, Some(2), Some(0), Some(1)]), [0, 2, 1, 3]);
         assert_eq!(sorted(&[Some(1), Some(0), None, Some(0)]), [2]);

@@ -115,7 +115,7 @@ fn tables_are_known_by_their_header_and_edited_files_by_nothing() {
 }
 
 #[test]
-fn nothing_is_written_where_one_output_is_refused() {
+fn nothing_is_written_if_one_output_is_refused() {
     let folder = Folder::new("batch");
     let (own, mine) = (folder.put("own.rs", OWN), folder.put("mine.rs", "mine"));
     let (new, below) = (folder.path("new.rs"), folder.path("below/too.rs"));
@@ -250,7 +250,7 @@ fn a_temporary_file_that_cannot_be_made_has_its_reason() {
 }
 
 #[test]
-fn a_folder_named_as_such_is_no_file() {
+fn a_folder_named_as_such_is_not_a_file() {
     let folder = Folder::new("slash");
     let path = PathBuf::from(format!("{}/new/", folder.0.display()));
     assert!(message(write(&path, NEW)).contains("it is a folder; name a file"));

@@ -108,7 +108,7 @@ mod tests {
     /// A picture that cannot be removed is an error; a picture that no longer exists or that has another text is not.
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_picture_that_cannot_be_removed_is_told() {
+    fn a_picture_that_cannot_be_removed_is_reported() {
         // Nobody may remove it.
         let path = Path::new("/proc/version");
         let text = std::fs::read_to_string(path).unwrap();

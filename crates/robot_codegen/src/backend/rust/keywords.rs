@@ -74,7 +74,7 @@ mod tests {
 
     /// Excludes words that are reserved only in some contexts and names that can be hidden.
     #[test]
-    fn reserved_words_are_no_identifiers_and_adapted_ones_are() {
+    fn reserved_words_are_not_identifiers_and_adapted_ones_are() {
         let identifiers = RESERVED.iter().filter(|word| syn::parse_str::<syn::Ident>(word).is_ok());
         let identifiers: Vec<&str> = identifiers.copied().collect();
         let expected = "gen union macro_rules raw safe alloc bool char core f32 f64 std";

@@ -281,7 +281,7 @@ fn trust_ends_where_rounding_may_reach_a_part_in_a_billion() {
 }
 
 #[test]
-fn an_absolute_value_is_no_argument() {
+fn an_absolute_value_is_not_replaced_by_its_argument() {
     let mut b = Builder::new();
     let x = b.load(Source::Input(0));
     let square = b.mul(x, x);
@@ -326,7 +326,7 @@ fn forms_cost_and_compute_what_they_say() {
 
 /// Keys are 30 bits of a number without its sign. Numbers that differ by less have the same key or neighboring ones.
 #[test]
-fn near_are_numbers_that_agree_to_nine_digits() {
+fn numbers_that_agree_to_nine_digits_are_near() {
     for number in [1.0, 1.75, 3e-7, 6e8] {
         assert_eq!(key(number), key(-number));
         let step = number * 2f64.powi(-30);
@@ -394,7 +394,7 @@ fn sums_of_much_larger_values_are_not_taken() {
 /// (x z u + y z)/z is x u + y, but this form is not taken if x u is (x + c w) u − c w u with a large c, which rounds a
 /// lot.
 #[test]
-fn values_that_round_much_more_are_no_terms() {
+fn values_that_round_much_more_are_not_terms() {
     let found = |size: f64| {
         let mut b = Builder::new();
         let [x, y, z, u, w] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));

@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn few_values_live_where_many_could() {
+    fn few_values_are_live_although_many_could_be() {
         // A hundred products of two loads each, summed from the first to the last. All could start
         // at once, but would then have to wait for their sums.
         let mut builder = Builder::new();
@@ -376,7 +376,7 @@ mod tests {
 
     /// A value that is both operands of an operation counts as one operand.
     #[test]
-    fn operands_are_told_once() {
+    fn operands_are_listed_once() {
         let (x, y) = (Value(3), Value(5));
         let each = |operation| distinct(operation).collect::<Vec<_>>();
         assert_eq!(each(Operation::Mul(x, x)), [x]);

@@ -92,7 +92,7 @@ fn a_cheap_plan_with_wrong_values_is_not_taken() {
 
 /// Trees and long chains are searched limb by limb, other chains as a whole.
 #[test]
-fn limbs_are_searched_where_there_are_several_or_a_long_one() {
+fn limbs_are_searched_if_there_are_several_or_a_long_one() {
     use robot_numeric::random::{Random, Recipe};
     let applies = |joints: usize, change: &dyn Fn(&mut Robot)| {
         let mut robot = robot_numeric::robots::robot(&mut Random::new(3), &Recipe::serial(joints));
