@@ -1,10 +1,9 @@
-//! The robots of `robots/` as plain Rust: a module each, generated from its file when this crate is
-//! built.
+//! The robots of `robots/` as plain Rust: one module for each robot, generated from its file when this crate is built.
 //!
-//! A module has the robot's `Parameters` with their nominal values, a `Model` that holds what depends
-//! on them alone, and its functions: inverse dynamics, the same with a wrench at the tip and with
-//! friction, and the forces and moments in the joints. Functions take and give arrays; they allocate
-//! nothing, cannot panic and have no branches.
+//! A module has the robot's `Parameters` with their nominal values, a `Model` that contains the values that depend only
+//! on them, and its functions: inverse dynamics, the same with a wrench at the tip and with friction, and the forces
+//! and moments in the joints. Functions take and return arrays; they allocate nothing, cannot panic and have no
+//! branches.
 //!
 //! ```
 //! use robots::trttr1::{Model, Parameters};

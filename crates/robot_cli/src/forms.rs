@@ -265,7 +265,7 @@ impl EquationArguments {
     /// Converts an error in the equations of a robot file.
     pub(crate) fn failed(&self, robot: &RobotArgument, error: &Error) -> Failure {
         let style = if self.like.is_some() { "--like" } else { "--style" };
-        // A style fixes the form, so another form can only be had without it.
+        // A style determines the form, so another form requires that no style is chosen.
         let condition = match options_that_help(error) {
             Some(options) if self.has_style() && options.contains("--form") => {
                 format!(", without {style}")

@@ -285,7 +285,7 @@ mod tests {
         assert!(counted > 100, "{counted}");
     }
 
-    /// Of two factors that save equally much, the earlier node is taken; otherwise the factor that saves more.
+    /// The factor that saves more is taken; of two factors that save the same, the earlier node.
     #[test]
     fn the_factor_that_saves_most_is_taken() {
         let mut b = Builder::new();

@@ -155,7 +155,7 @@ impl<'a> Session<'a> {
             "didClose" => {
                 let closed = self.documents.remove(&uri);
                 closed.ok_or_else(|| not_open(&uri))?;
-                // What was shown refers to a text that may not have been saved.
+                // The diagnostics that were shown refer to a text that may not have been saved.
                 return Ok(Some(published(&uri, &Value::Null, &[])));
             }
             _ => {
@@ -190,7 +190,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// What the server can do.
+/// The capabilities of the server.
 fn capabilities() -> Value {
     // `change` 1: each change has the whole text.
     let sync = json!({ "openClose": true, "change": 1, "save": true });

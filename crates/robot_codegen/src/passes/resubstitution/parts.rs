@@ -34,7 +34,7 @@ type Monomial = [u16; DEGREE];
 const ONE: Monomial = [0; DEGREE];
 /// The number of the variable that stands for all values of functions.
 const CALL: u16 = 1 + VARIABLES as u16;
-/// What is added to the number of a variable for its reciprocal.
+/// The difference between the number of the reciprocal of a variable and that of the variable.
 const INVERSE: u16 = CALL;
 /// The number of the first variable that stands for the reciprocal of a sum.
 const OF_SUM: u16 = 2 * CALL + 1;

@@ -151,7 +151,7 @@ fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
     Counts::of(&found).operations() == Counts::of(&program).operations()
 }
 
-/// Of 9.81 sin q + c q̇², the second term counts at high velocities, also in values that are computed from the sum: its
+/// The second term of 9.81 sin q + c q̇² counts at high velocities, also in values that are computed from the sum: its
 /// product with another value, its quotient by a sum, and the difference of the torque.
 #[test]
 fn a_term_of_other_inputs_stays_however_small_it_is() {
