@@ -236,7 +236,7 @@ impl EquationArguments {
         self.digits.map(usize::from)
     }
 
-    /// Prints a note that decimals are rounded, if no option asks for it.
+    /// Prints a note that decimals are rounded, if no option requests it.
     pub(crate) fn note_rounding(
         &self,
         equations: &Equations,

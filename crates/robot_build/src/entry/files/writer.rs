@@ -19,7 +19,7 @@ pub enum Ownership {
     /// The [`MARKER`](super::MARKER), or the mark of generated code, near its start or on its last line, and a
     /// [seal](super::sealed()) that matches, if it has one.
     Marked,
-    /// Its first line, for formats without comments; the function says whether this program writes such a line.
+    /// Its first line, for formats without comments; the function returns whether this program writes such a line.
     Headed(fn(&str) -> bool),
     /// No evidence, because the file is meant to be edited.
     Edited,

@@ -54,7 +54,7 @@ impl<'a> Session<'a> {
         Session { options, phase: Phase::New, documents: BTreeMap::new(), relates: false }
     }
 
-    /// Whether the editor has asked for the end, as it must before it sends `exit`.
+    /// Whether the editor has sent `shutdown`, as it must before it sends `exit`.
     pub(super) fn is_shut_down(&self) -> bool {
         self.phase == Phase::ShutDown
     }
@@ -86,7 +86,7 @@ impl<'a> Session<'a> {
             }
             // Notifications before the start and after the end are dropped, as the protocol says.
             (None, Some(_)) => Ok(None),
-            // An answer of the editor; this server asks nothing.
+            // An answer of the editor; this server sends no requests.
             (Some(_), None) if message.get("result").or(message.get("error")).is_some() => Ok(None),
             _ => Err("a message has no `method`".to_owned()),
         }
