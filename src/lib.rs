@@ -1,10 +1,9 @@
-//! The robots of `robots/` as plain Rust: a module each, generated from its file when this crate is
-//! built.
+//! The robots of `robots/` as plain Rust: one module for each robot, generated from its file when this crate is built.
 //!
-//! A module has the robot's `Parameters` with their nominal values, a `Model` that holds what depends
-//! on them alone, and its functions: inverse dynamics, the same with a wrench at the tip and with
-//! friction, and the forces and moments in the joints. Functions take and give arrays; they allocate
-//! nothing, cannot panic and have no branches.
+//! A module has the robot's `Parameters` with their nominal values, a `Model` that contains the values that depend only
+//! on them, and its functions: inverse dynamics, the same with a wrench at the tip and with friction, and the forces
+//! and moments in the joints. Functions take and return arrays; they allocate nothing, cannot panic and have no
+//! branches.
 //!
 //! ```
 //! use robots::trttr1::{Model, Parameters};
@@ -12,7 +11,7 @@
 //! let model = Model::new(&Parameters { M5: 2.5, ..Parameters::NOMINAL });
 //! let (q, qd, qdd) = ([0.1, 0.5, 0.2, 0.1, -0.3], [0.0; 5], [0.0; 5]);
 //! let tau = model.inverse_dynamics(&q, &qd, &qdd);
-//! // At rest the carriage bears no load along its axis, the lift bears all elements above it.
+//! // At rest, no force acts on the carriage along its axis; the lift carries the links above it.
 //! let Parameters { M3, M4, g, .. } = Parameters::NOMINAL;
 //! assert!(tau[0].abs() < 1e-12);
 //! assert!((tau[2] - (M3 + M4 + 2.5) * g).abs() < 1e-9);

@@ -80,7 +80,7 @@ impl From<DataFusionError> for Error {
     }
 }
 
-/// Whether a task was cancelled. Only a worker that shuts down cancels its tasks; it reports this as a text, which the
+/// Whether a task was canceled. Only a worker that shuts down cancels its tasks; it reports this as a text, which the
 /// engine passes on in errors of several kinds.
 fn is_cancelled(error: &DataFusionError) -> bool {
     let text = error.to_string();

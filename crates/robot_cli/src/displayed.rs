@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_refused_where_there_are_none() {
+    fn numbers_are_refused_if_there_are_none() {
         let refused =
             |width, numbers, typeset| match (LayoutArguments { width, numbers }).check(typeset) {
                 Ok(()) => vec![],

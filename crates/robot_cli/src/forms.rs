@@ -236,7 +236,7 @@ impl EquationArguments {
         self.digits.map(usize::from)
     }
 
-    /// Prints a note that decimals are rounded, if no option asks for it.
+    /// Prints a note that decimals are rounded, if no option requests it.
     pub(crate) fn note_rounding(
         &self,
         equations: &Equations,
@@ -265,7 +265,7 @@ impl EquationArguments {
     /// Converts an error in the equations of a robot file.
     pub(crate) fn failed(&self, robot: &RobotArgument, error: &Error) -> Failure {
         let style = if self.like.is_some() { "--like" } else { "--style" };
-        // A style fixes the form, so another form can only be had without it.
+        // A style determines the form, so another form requires that no style is chosen.
         let condition = match options_that_help(error) {
             Some(options) if self.has_style() && options.contains("--form") => {
                 format!(", without {style}")
@@ -357,7 +357,8 @@ fn failure(robot: &RobotArgument, error: &Error, condition: &str) -> Failure {
     Failure::input(format!("{}: {error}{remedy}", shown(robot.path())))
 }
 
-/// The options that help. Messages of the library mention their values at most.
+/// The options with which the error can be avoided; `None` for other errors. Messages of the library mention at most
+/// the values of these options.
 const fn options_that_help(error: &Error) -> Option<&'static str> {
     match error {
         Error::TooLong { .. } | Error::TooMany { .. } | Error::TooManyExpressions { .. } => {

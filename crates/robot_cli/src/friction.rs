@@ -8,7 +8,7 @@ use robot_symbolic::Formula;
 
 use crate::failure::Failure;
 
-/// Checks that the robot has friction, if a command is asked to take it into account.
+/// Checks that the robot has friction, if the command is to take it into account.
 pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
     match FunctionKind::InverseDynamics(Effects::FRICTION).missing_in(robot) {
         None => Ok(()),

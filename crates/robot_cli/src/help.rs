@@ -208,7 +208,7 @@ mod tests {
         for (line, expected) in [
             ("  a b", &["  a b"][..]),
             ("  a -b c --d", &["  a", " -b c", " --d"]),
-            // Behind a quoted text, options count again.
+            // After a quoted text, options count again.
             ("  a --b \"c -d\" -e \"f -g\" -h", &["  a", " --b \"c -d\"", " -e \"f -g\"", " -h"]),
             ("  -a -b", &["  -a", " -b"]),
             ("", &[""]),

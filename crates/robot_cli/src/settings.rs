@@ -31,7 +31,7 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 }
 
 impl Settings {
-    /// Names and values.
+    /// The names and values of the parameters that are set.
     pub(crate) fn pairs(&self) -> Vec<(&str, f64)> {
         self.settings.iter().map(|(name, value)| (name.as_str(), *value)).collect()
     }

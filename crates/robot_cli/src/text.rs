@@ -234,7 +234,7 @@ mod tests {
         let snap = |name: &str, change| Snap { name: name.to_owned(), angle: 1.57, change };
         let told = |snaps: &[Snap]| snapped_for_print(&robot, snaps);
         assert_eq!(told(&[]), "");
-        // What code changes as well is not told.
+        // Angles that code changes, too, are not named.
         assert_eq!(
             told(&[snap("a", snap::DEFAULT), snap("b", -snap::DEFAULT), snap("c", 0.0)]),
             ""
@@ -300,7 +300,7 @@ mod tests {
             let names = ["ab", &long];
             let between = if breaks { "\n    " } else { " " };
             assert_eq!(list("names", &names), format!("names: ab,{between}{long}\n"), "{length}");
-            // With a comma behind it, the name is a character longer.
+            // With a comma after it, the name is one character longer.
             let shown = list("names", &["ab", &long[2..], "c"]);
             assert!(shown.starts_with(&format!("names: ab,{between}{},", &long[2..])), "{shown}");
         }

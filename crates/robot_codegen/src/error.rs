@@ -86,7 +86,7 @@ pub enum Error {
         module: String,
         /// The requested name.
         function: String,
-        /// The names there are.
+        /// The names that exist.
         known: String,
     },
     /// A parameter that was given, but that the module does not have.
@@ -94,9 +94,9 @@ pub enum Error {
     UnknownParameter {
         /// The module.
         module: String,
-        /// The name given.
+        /// The given name.
         parameter: String,
-        /// The names there are.
+        /// The names that exist.
         known: String,
     },
     /// A parameter that has no nominal value and was not given.
@@ -120,9 +120,9 @@ pub enum Error {
     UnknownInput {
         /// The function.
         function: String,
-        /// The name given.
+        /// The given name.
         input: String,
-        /// The names there are.
+        /// The names that exist.
         known: String,
     },
     /// An input of the wrong length.
@@ -134,7 +134,7 @@ pub enum Error {
         input: String,
         /// The number of entries that the function takes.
         expected: usize,
-        /// The number given.
+        /// The given number.
         found: usize,
     },
     /// The number of columns differs from the number of entries of the function's inputs or outputs.
@@ -146,7 +146,7 @@ pub enum Error {
         kind: &'static str,
         /// The number of entries.
         expected: usize,
-        /// The number of columns given.
+        /// The given number of columns.
         found: usize,
     },
     /// Inputs or outputs have different numbers of states.
@@ -165,7 +165,7 @@ pub enum Error {
     /// The runtime path of the Rust backend is not a Rust path.
     #[error("the runtime path `{path}` is not a Rust path such as `::robot_runtime`")]
     RuntimePath {
-        /// The text given.
+        /// The given text.
         path: String,
     },
     /// A constant that the scalar type cannot hold.

@@ -402,7 +402,7 @@ mod tests {
 
     use super::*;
 
-    /// Two links with skew axes; the first is turned and displaced as `origin` says.
+    /// Two links with skew axes; the first is turned and displaced by `origin`.
     fn skew(origin: &str) -> Robot {
         let rest = "mass = 1\ncenter_of_mass = [0.1, 0.2, 0.3]\ninertia = { xx = 0.05, yy = 0.055, zz = 0.045 }\n";
         let link = |name: &str, axis: &str, origin: &str| {

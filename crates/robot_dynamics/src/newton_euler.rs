@@ -22,7 +22,7 @@ use crate::vector::{Matrix, Vector};
 pub struct LinkMotion<'g> {
     /// \[R\]ᵢ: the rotation from link components to parent components.
     pub rotation: Matrix<'g>,
-    /// r̄ᵢ: the origin in parent components, m.
+    /// r̄ᵢ: the origin of the frame in parent components, m.
     pub origin: Vector<'g>,
     /// ω̄: angular velocity, rad/s.
     pub angular_velocity: Vector<'g>,
@@ -59,7 +59,8 @@ pub struct NewtonEuler<'g> {
     kinds: Vec<JointKind>,
 }
 
-/// Runs both iterations and the projection on the joint axes.
+/// Runs both iterations and projects the wrenches on the joint axes; `effects` selects friction and the wrenches of the
+/// tips.
 #[must_use]
 pub fn newton_euler<'g>(mechanism: &Mechanism<'g>, effects: Effects) -> NewtonEuler<'g> {
     let motions = outward(mechanism);

@@ -27,7 +27,7 @@ impl<'g> Vector<'g> {
         Vector([zero, zero, component])
     }
 
-    /// The vector product `self × other`.
+    /// The cross product `self × other`.
     #[must_use]
     pub fn cross(self, other: Vector<'g>) -> Vector<'g> {
         let (Vector([a, b, c]), Vector([x, y, z])) = (self, other);
@@ -61,7 +61,7 @@ impl<'g> Vector<'g> {
 }
 
 impl<'g> Matrix<'g> {
-    /// The unit matrix.
+    /// The identity matrix.
     #[must_use]
     pub fn identity(graph: &'g Graph) -> Matrix<'g> {
         let (one, zero) = (graph.one(), graph.zero());
@@ -80,7 +80,7 @@ impl<'g> Matrix<'g> {
         Matrix([0, 1, 2].map(|row| [0, 1, 2].map(|column| entry(row, column))))
     }
 
-    /// The matrix of the vector product: `skew(a) b = a × b`.
+    /// The matrix of the cross product: `skew(a) b = a × b`.
     #[must_use]
     pub fn skew(Vector([x, y, z]): Vector<'g>) -> Matrix<'g> {
         let zero = x.graph().zero();

@@ -11,7 +11,7 @@ use crate::probe::{CRATE, Probe, ROOT_FILE};
 /// The largest number of lines of the compiler's messages that are shown.
 const SHOWN_LINES: usize = 12;
 
-/// The compiler's message about a processor that it does not know.
+/// The compiler's message about a processor that it does not support.
 const UNKNOWN_CPU: &str = "is not a recognized processor";
 
 /// A profile of compilation, with the default settings of Cargo.

@@ -259,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_object_file_is_an_error() {
+    fn what_is_not_an_object_file_is_an_error() {
         for bytes in [&b""[..], b"robot", &[0x7f, b'E', b'L', b'F', 2, 1, 1]] {
             assert!(matches!(Object::parse(bytes), Err(Error::Object(_))));
         }

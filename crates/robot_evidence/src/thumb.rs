@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn data_are_no_instructions() {
+    fn data_are_not_instructions() {
         let bytes = [0x70, 0x47, 0, 0, 0xfe, 0xd1, 0xfe, 0xd1];
         assert_eq!(instructions(&bytes, &[(4, 8)]).len(), 2);
     }

@@ -201,7 +201,7 @@ fn check_addresses(entry: &Entry, lanes: usize, place: &str) {
     let mut decoder = Decoder::new(64, &entry.code, DecoderOptions::NONE);
     let mut information = InstructionInfoFactory::new();
     let in_columns = lanes > 1;
-    // Says whether the register for pointers to columns points to an input or an output.
+    // Whether the register for pointers to columns points to an input or an output.
     let mut column = Register::None;
     let mut instructions = 0;
     // Long code advances two pointers before it uses them.

@@ -14,9 +14,9 @@ use proc_macro::TokenStream;
 /// ```
 ///
 /// The path is relative to the package's `Cargo.toml`. The module is named like the robot, in lower case, and is the
-/// same that `robot_build` generates in a build script. The crate `robot_runtime` must be a dependency. A change of the
-/// robot file causes a new build; each problem in it is a compile error, whose first line contains the place in the
-/// file and the reason.
+/// same as the one that `robot_build` generates in a build script. The crate `robot_runtime` must be a dependency. A
+/// change of the robot file causes a new build; each problem in it is a compile error, whose first line contains the
+/// place in the file and the reason.
 ///
 /// If a plan is pinned beside the robot file by `robot-symbolic search`, it is used and tracked as well. The search
 /// updates the time of the robot file, so that a new plan is noticed. If the plan was created in another way, for

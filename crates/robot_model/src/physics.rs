@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn bodies_are_told_from_what_is_none() {
+    fn possible_tensors_are_distinguished_from_impossible_ones() {
         let verdict = |tensor| judge(tensor);
         for tensor in [[0.0; 6], [1.0, 2.0, 3.0, 0.0, 0.0, 0.0], [1.0, 1.0, 0.0, 0.0, 0.0, 0.0]] {
             assert_eq!(verdict(tensor), Verdict::Possible, "{tensor:?}");

@@ -121,7 +121,7 @@ impl DhConvention {
 pub struct Payload {
     /// The mass, kg.
     pub mass: String,
-    /// The center of mass in the frame of the file that carries the payload, m.
+    /// The center of mass in the frame of the link or named frame that carries the payload, m.
     pub center_of_mass: [String; 3],
     /// The inertia tensor about the center of mass in the axes of that frame: xx, yy, zz, xy, xz, yz, kg m².
     pub inertia: [String; 6],

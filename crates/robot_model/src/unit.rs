@@ -311,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn nonsense_is_no_unit() {
+    fn nonsense_is_not_a_unit() {
         for text in ["", " ", "/", "m/", "furlong", "m^x", "m^99", "m/s/s", "m/s kg", "kg m²", "m^"]
         {
             let error = Unit::parse(text).unwrap_err();

@@ -1,4 +1,4 @@
-//! The Coriolis matrix and the Christoffel symbols behind it.
+//! The Coriolis matrix and the Christoffel symbols from which its entries follow.
 
 use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
 use robot_model::variable::JointVariable::{Position, Velocity};

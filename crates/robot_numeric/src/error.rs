@@ -49,7 +49,6 @@ pub enum NumericError {
     /// The mass matrix is not positive definite in this configuration, so torques do not determine accelerations.
     /// Possible reasons are a coordinate that moves no mass, an inertia that no body can have, and a number that is not
     /// finite.
-    /// determine accelerations.
     #[error(
         "the mass matrix is not positive definite in this configuration: check that every coordinate \
          moves mass and that inertias and arguments are finite and physically possible"

@@ -86,8 +86,8 @@ impl TorqueContributions {
         }
     }
 
-    /// The columns t, tau1 …, and then those of each contribution: inertia1 …, coriolis1 …, gravity1 …, friction1 …,
-    /// wrench1 ….
+    /// The table with the columns t, tau1 …, and then those of each contribution: inertia1 …, coriolis1 …, gravity1 …,
+    /// friction1 …, wrench1 ….
     #[must_use]
     pub fn table(&self) -> Table {
         let mut table = Table::default();

@@ -33,15 +33,15 @@ pub trait Dynamics {
         Ok(())
     }
 
-    /// The dry friction that holds joints at rest; `None` if there is none that can. If there is some, the motion
+    /// The dry friction that holds joints at rest; `None` if no dry friction can. If it is not `None`, the motion
     /// follows from it and not from [`Dynamics::accelerations`].
     fn dry_friction(&self) -> Option<&dyn DryFriction> {
         None
     }
 }
 
-/// Dry friction without smoothing: a coordinate at rest stays at rest as long as its friction can supply the force that
-/// is required of it.
+/// Dry friction without smoothing: a coordinate at rest stays at rest while its friction can supply the force that is
+/// required to hold it.
 pub trait DryFriction {
     /// For each of the n coordinates, whether dry friction can hold it.
     fn can_stick(&self) -> &[bool];

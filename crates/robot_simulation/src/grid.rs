@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_grid_is_refused() {
+    fn what_is_not_a_grid_is_refused() {
         let shown = times(-1.0, f64::NAN).unwrap_err().to_string();
         assert_eq!(shown.lines().count(), 2, "{shown}");
         assert!(times(1e9, 1e-9).unwrap_err().to_string().contains("samples"));

@@ -59,7 +59,7 @@ impl Motion {
         Ok(energies)
     }
 
-    /// The columns t, q1 …, qd1 …, qdd1 …, tau1 …, kinetic, potential, energy.
+    /// The table with the columns t, q1 …, qd1 …, qdd1 …, tau1 …, kinetic, potential, energy.
     #[must_use]
     pub fn table(&self, energies: &Energies) -> Table {
         self.table_of(energies, 0..self.t.len())

@@ -82,9 +82,9 @@ impl Torques {
         Error::check(wrong, Torques(Law::Formulas { formulas, meanings }))
     }
 
-    /// Samples: the column t (s) with increasing values, and a column `tau1` … for each coordinate; the other columns
-    /// of a motion are ignored. Torques are linear in t between samples and constant outside them, but the samples must
-    /// cover the `duration` (s).
+    /// Reads the samples of a table with the column t (s), whose values must increase, and a column `tau1` … for each
+    /// coordinate; the other columns of a motion are ignored. Torques are linear in t between samples and constant
+    /// outside them, but the samples must cover the `duration` (s).
     ///
     /// # Errors
     ///

@@ -42,7 +42,7 @@ fn wrench_names(robot: &Robot) -> Vec<String> {
     suffixes.flat_map(of_tip).collect()
 }
 
-/// The rows of some columns.
+/// Converts columns to rows, of which there are `count`.
 fn rows(columns: &[&[f64]], count: usize) -> Vec<Vec<f64>> {
     let entry = |column: &&[f64], row: usize| column.get(row).copied();
     let row = |row: usize| columns.iter().filter_map(|column| entry(column, row)).collect();
@@ -50,9 +50,9 @@ fn rows(columns: &[&[f64]], count: usize) -> Vec<Vec<f64>> {
 }
 
 impl Trajectory {
-    /// Samples: the columns t (s) with increasing values, q1 …, qd1 …, qdd1 …, and, if a tip exerts a wrench, fx, fy,
-    /// fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of a simulated motion are
-    /// ignored.
+    /// Reads the samples of a table with the columns t (s), whose values must increase, q1 …, qd1 …, qdd1 …, and, if a
+    /// tip exerts a wrench, fx, fy, fz, mx, my, mz, or fx_NAME … for each of several tips. The torques and energies of
+    /// a simulated motion are ignored.
     ///
     /// # Errors
     ///

@@ -12,7 +12,7 @@
 //! assert_eq!((q1 + graph.pi() / 2).sin(), q1.cos());
 //! ```
 //!
-//! The main parts beside the graph:
+//! The main parts besides the graph:
 //!
 //! - [`Formula`] is the text of an expression, as in robot files. It belongs to no graph and is checked when it is
 //!   read; [`Graph::parse`] makes an expression directly from text.

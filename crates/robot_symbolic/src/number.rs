@@ -1,4 +1,4 @@
-//! Constants: exact as long as they are rational and not too long, otherwise floating-point numbers.
+//! Constants: exact if they are rational and not too long, otherwise floating-point numbers.
 
 use std::hash::{Hash, Hasher};
 
@@ -203,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn the_reciprocal_of_zero_is_no_number() {
+    fn the_reciprocal_of_zero_is_not_a_number() {
         assert!(Number::integer(0).recip().to_f64().is_nan());
     }
 }

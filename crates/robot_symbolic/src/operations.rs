@@ -22,13 +22,13 @@ pub struct Operations {
 }
 
 impl Operations {
-    /// Multiplications plus additions.
+    /// The number of multiplications and additions.
     #[must_use]
     pub fn flops(&self) -> usize {
         self.multiplications + self.additions
     }
 
-    /// Multiplications plus additions, with each fusible pair counted as one multiply-add.
+    /// The number of multiplications and additions, with each fusible pair counted as one multiply-add.
     #[must_use]
     pub fn instructions(&self) -> usize {
         self.flops() - self.fusible

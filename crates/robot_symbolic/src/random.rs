@@ -12,7 +12,7 @@ impl Random {
         Random(seed)
     }
 
-    /// 64 random bits.
+    /// Returns 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -21,13 +21,13 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number from `low` to `high`; `high` is excluded, except when rounding reaches it.
+    /// Returns a number from `low` to `high`; `high` is excluded, except when rounding reaches it.
     pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
         let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
         low + (high - low) * unit
     }
 
-    /// An index below `count`; 0 if `count` is 0.
+    /// Returns an index below `count`; 0 if `count` is 0.
     pub fn index(&mut self, count: usize) -> usize {
         (self.bits() % count.max(1) as u64) as usize
     }

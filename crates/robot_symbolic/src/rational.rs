@@ -1,4 +1,4 @@
-//! Exact rational numbers: machine words as long as they suffice, otherwise the big rationals of `dashu`.
+//! Exact rational numbers: machine words if they suffice, otherwise the big rationals of `dashu`.
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -398,7 +398,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_denominators_are_no_number() {
+    fn fractions_with_denominator_zero_are_refused() {
         assert_eq!(Rational::new(1, 0), None);
         assert_eq!(Rational::ZERO.recip(), None);
         assert_eq!(Rational::new(-4, -6), Rational::new(2, 3));

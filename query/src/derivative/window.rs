@@ -97,7 +97,7 @@ fn type_of(values: &DataType) -> Result<DataType> {
     }
 }
 
-/// The derivatives of an episode.
+/// Computes the derivatives of an episode.
 #[derive(Debug)]
 struct Evaluator {
     order: usize,

@@ -28,6 +28,8 @@ pub(crate) struct Parameters {
 }
 
 impl Parameters {
+    /// Derives the base parameters of a robot.
+    ///
     /// # Errors
     ///
     /// A robot whose base parameters cannot be derived; parameters without a nominal value.

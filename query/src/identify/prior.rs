@@ -104,6 +104,8 @@ impl Placed {
         Placed { expected: vec![0.0; count], weights: vec![0.0; count], fixed: vec![], ridge: 0.0 }
     }
 
+    /// Finds the parameters of priors by their names.
+    ///
     /// # Errors
     ///
     /// A name that no parameter has, or that occurs twice.

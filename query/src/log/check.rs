@@ -48,7 +48,7 @@ impl fmt::Display for Finding {
 /// The distance beyond its limits at which a position is reported, as a fraction of the range.
 const BEYOND: f64 = 0.1;
 
-/// The number of kinds of mistakes in a row, in the order of [`WHAT`].
+/// The number of kinds of mistakes in a row; [`WHAT`] lists them.
 const KINDS: usize = 7;
 
 /// Checks the Parquet files of a log and finds rows with nulls, NaN or infinities, times that repeat, go back or

@@ -122,7 +122,7 @@ mod tests {
         assert!(of("any pass") > of("none"));
         assert!(found[1..=PLAN_OPTIONS.len()].iter().any(|one| operations(one) > of("none")));
         assert!(found.iter().all(|one| operations(one) <= of("any pass")));
-        // Under a plan without options there is nothing to leave out of it.
+        // If the plan has no options, none can be left out.
         let robot = crate::read(&source).unwrap().robot;
         let basic = Plan::uniform(robot.links.len(), &LinkPlan::BASIC);
         let found = ablation(&source, &Options { plan: Some(basic), ..options }).unwrap();

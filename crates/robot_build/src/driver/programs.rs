@@ -78,7 +78,7 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
     programs_under(robot, name, options, &options.codegen(), MAX_NODES)
 }
 
-/// Returns the plan of the options, or searches for one if they ask for it.
+/// Returns the plan of the options, or searches for one if the options request a search.
 pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     let measure = if options.fused { Measure::Instructions } else { Measure::Operations };
     let searched = || search(robot, &options.mechanism(robot), measure).map(|found| found.plan);
@@ -86,7 +86,8 @@ pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     if options.search { given.or_else(searched) } else { given }
 }
 
-/// Returns the options with the plan that they give or ask to search for, so that several uses search only once.
+/// Returns the options with the plan that they contain or that a requested search finds, so that several uses search
+/// only once.
 #[must_use]
 pub fn planned(robot: &Robot, options: &Options) -> Options {
     Options { plan: plan_of(robot, options), search: false, ..options.clone() }

@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn larger_tolerances_are_told_if_they_snap_more() {
+    fn larger_tolerances_are_reported_if_they_snap_more() {
         let robot = arm();
         let told = |snap: Option<f64>| {
             let Snapping { taken, larger } = snapping(&robot, snap, None).unwrap();

@@ -10,7 +10,8 @@ use robot_symbolic::nearest_word;
 use crate::entry::system::system_reason;
 use crate::error::{Error, Errors, shown};
 
-/// The reason why a robot is not read from a pipe or a device: beside its file are its plan and what is made of it.
+/// The reason why a robot is not read from a pipe or a device: the plan of a robot and the files that are made from it
+/// are stored beside its file.
 const NOT_REGULAR: &str = "it is not a regular file; save the robot in a file";
 
 /// A robot file that has been read.
@@ -182,7 +183,7 @@ mod tests {
         ] {
             assert_eq!(told(name), format!("{none}{near}"), "{name}");
         }
-        // The place is told if it is not the given path.
+        // The place is stated if it is not the given path.
         let told = missing_at(&at("puma.tom"), Path::new("arms/puma.tom"));
         let place = format!("{none} (looked for {})", shown(&at("puma.tom")));
         assert_eq!(told, format!("{place}; did you mean arms/puma.urdf?"));

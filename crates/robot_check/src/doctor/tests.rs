@@ -38,7 +38,7 @@ fn a_sound_arm_is_passed() {
 }
 
 #[test]
-fn units_are_told_by_the_ratio_of_inertia_to_mass() {
+fn units_are_recognized_by_the_ratio_of_inertia_to_mass() {
     for (scale, unit) in [(1e9, "g mm^2"), (1e6, "kg mm^2"), (1e4, "kg cm^2")] {
         let found = check("arm.toml", &rod(2.0, scale, false), &Options::default()).found;
         assert_eq!(found.iter().map(|one| one.code).collect::<Vec<_>>(), [code::UNITS], "{found}");
@@ -50,7 +50,7 @@ fn units_are_told_by_the_ratio_of_inertia_to_mass() {
 }
 
 #[test]
-fn a_tensor_about_the_origin_is_told() {
+fn a_tensor_about_the_origin_is_reported() {
     assert_eq!(codes(&rod(2.0, 1.0, true)), [code::ABOUT_ORIGIN]);
     let right = rod(2.0, 1.0, true).replacen("xx =", "about = \"origin\", xx =", 1);
     assert_eq!(codes(&right), [""; 0]);
@@ -94,7 +94,7 @@ fn gravity_up_to_thirty_is_in_meters() {
 
 /// The travel of a prismatic joint adds to the size of its link; the range of a revolute joint does not.
 #[test]
-fn limits_count_where_they_are_lengths() {
+fn limits_count_if_they_are_lengths() {
     let limited = |kind: &str| {
         rod(2.0, 1.0, false).replace("[0.2, 0, 0]", "[10, 0, 0]").replacen(
             "type = \"revolute\"",
@@ -107,7 +107,7 @@ fn limits_count_where_they_are_lengths() {
 }
 
 #[test]
-fn rounded_right_angles_are_told_from_angles() {
+fn rounded_right_angles_are_distinguished_from_other_angles() {
     let turned = |angle: &str| {
         rod(2.0, 1.0, false)
             .replace("xyz = [0.4, 0, 0]", &format!("xyz = [0.4, 0, 0], rpy = [{angle}, 0, 0]"))
@@ -131,7 +131,7 @@ fn rounded_right_angles_are_told_from_angles() {
 }
 
 #[test]
-fn copies_are_told_and_parameters_are_not() {
+fn copies_are_reported_and_parameters_are_not() {
     let link = |name: &str, mass: &str, moment: &str| {
         format!(
             "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"x\" }}\n\
@@ -172,7 +172,7 @@ fn what_is_not_known_is_passed_over() {
 }
 
 #[test]
-fn joints_that_move_nothing_are_told() {
+fn joints_that_move_nothing_are_reported() {
     let text = "format = 1\n[robot]\nname = \"arm\"\n[[link]]\nname = \"a\"\n\
                 joint = { type = \"prismatic\", axis = \"z\" }\nmass = 1\n\
                 center_of_mass = [0, 0, 0]\ninertia = { xx = 0, yy = 0, zz = 0 }\n\
@@ -209,7 +209,7 @@ fn beam(
 
 /// A uniform body of a real material between the ends of its link causes no warning, whatever its shape.
 #[test]
-fn bodies_on_their_links_are_passed() {
+fn bodies_on_their_links_cause_no_warning() {
     let mut random = Random::new(5);
     for round in 0..500 {
         let length = random.uniform(0.05, 1.5);
@@ -224,7 +224,7 @@ fn bodies_on_their_links_are_passed() {
 
 /// Tests rods that are thinner than a seventh of their length.
 #[test]
-fn slender_bodies_with_tensors_about_the_origin_are_told() {
+fn slender_bodies_with_tensors_about_the_origin_are_reported() {
     let mut random = Random::new(6);
     for round in 0..200 {
         let length = random.uniform(0.1, 1.5);
@@ -237,7 +237,7 @@ fn slender_bodies_with_tensors_about_the_origin_are_told() {
 /// A warning is given if a part of the body must be denser than osmium. A body of 2 kg with this tensor has a density
 /// of at least 137 kg/m³, and the density increases with the mass to the power of 2.5.
 #[test]
-fn bodies_denser_than_osmium_are_told() {
+fn bodies_denser_than_osmium_are_reported() {
     let heavy = |mass: &str| {
         codes(&rod(2.0, 1.0, false).replace("mass = 2\n", &format!("mass = {mass}\n")))
     };
@@ -254,7 +254,7 @@ fn the_size_of_the_link_decides_between_units() {
 
 /// The largest radius of gyration is three times the size of the link; that of this rod is 0.117 m times √scale.
 #[test]
-fn bodies_wider_than_their_links_are_told() {
+fn bodies_wider_than_their_links_are_reported() {
     assert_eq!(codes(&rod(2.0, 80.0, false)), [""; 0]);
     assert_eq!(codes(&rod(2.0, 130.0, false)), [code::TOO_WIDE]);
 }
@@ -283,7 +283,7 @@ fn centers_outside_of_the_link_are_measured_from_its_ends() {
 
 /// The reference point of a tensor is checked only if both ends of the body are known and the check is not waived.
 #[test]
-fn tensors_are_judged_where_the_ends_of_the_body_are_known() {
+fn tensors_are_judged_if_the_ends_of_the_body_are_known() {
     let wrong = rod(2.0, 1.0, true);
     let last = wrong.split("[[link]]\nname = \"hand\"").next().unwrap();
     assert_eq!(codes(last), [code::ABOUT_ORIGIN]);
@@ -312,7 +312,7 @@ fn masses_that_hardly_differ_are_the_same() {
 }
 
 #[test]
-fn gravity_that_points_up_is_told() {
+fn gravity_that_points_up_is_reported() {
     let with = |gravity: &str| {
         let robot = format!("name = \"arm\"\ngravity = {gravity}\n");
         codes(&rod(2.0, 1.0, false).replacen("name = \"arm\"\n", &robot, 1))

@@ -26,7 +26,7 @@ const LONGEST_LEFT_SIDE: usize = 1000;
 #[derive(Clone, Debug)]
 pub(super) struct Entry {
     text: String,
-    /// The first byte in the file.
+    /// The position of the entry's first byte in the file.
     start: usize,
     /// The equation number in `\tag`.
     pub(super) number: Option<String>,

@@ -114,7 +114,7 @@ fn what_is_counted() {
     assert!(wrench.wrench);
 }
 
-/// Texts of which the arrangement is read: the quantity, its number, its terms.
+/// Texts whose arrangement is read: the quantity, the number and the terms of each equation.
 const ARRANGED: &[&str] = &[
     "Q1 = a\n(2) Q2 = b - c\n  + d\n# no\nQ3 = (a - b)*c + sin(a + b) - 1e-3*d\n",
     "( 7 ) Q1 = a +b -c\r\n\tcontinued + d\r\n",

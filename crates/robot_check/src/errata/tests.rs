@@ -159,7 +159,7 @@ fn the_distance_of_terms_counts_factors_and_one_for_the_coefficient() {
 }
 
 #[test]
-fn terms_that_are_no_torque_are_told() {
+fn terms_that_are_not_torques_are_reported() {
     let evidence = |wrong: &str| -> Vec<String> {
         spoiled(TERMS[3], wrong)[0].evidence.iter().map(ToString::to_string).collect()
     };
@@ -213,7 +213,7 @@ fn latex_is_compared_as_text_is() {
 
 /// A byte order mark, which some editors put before a text, is ignored.
 #[test]
-fn a_byte_order_mark_is_no_part_of_the_equations() {
+fn a_byte_order_mark_is_not_part_of_the_equations() {
     let robot = robot("planar_2r");
     let equation = "Q2 = m2*r2^2*qdd1 # not a comment here\n";
     for (text, notation) in [
@@ -352,7 +352,7 @@ fn the_order_of_a_sum_is_taken_and_a_single_term_has_none() {
     assert_eq!(order("Q2 = I2*qdd1 + I2*qdd2\nQ2 = I2*qdd2 + I2*qdd1\n"), forth);
 }
 
-/// A line begins behind the end of the one before it, which belongs to that one.
+/// A line begins after the line end of the preceding line, which belongs to that line.
 #[test]
 fn every_byte_is_in_its_line() {
     for text in ["a\nbc\n\nd", "\n\na", "abc", "", "é\nq\n"] {

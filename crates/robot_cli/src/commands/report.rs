@@ -98,7 +98,7 @@ impl Arguments {
     }
 }
 
-/// What a page is made from; `live` says whether the robot moves in it.
+/// The input of a page; `live` is whether the robot moves in it.
 pub(crate) fn input<'a>(
     source: &'a Source,
     options: &'a Options,

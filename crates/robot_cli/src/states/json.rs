@@ -14,7 +14,7 @@ use super::{Layout, Place, Sink, State};
 use crate::failure::Failure;
 use crate::text;
 
-/// Reads the states; `is_array` says whether the text starts as an array.
+/// Reads the states; `is_array` is whether the text starts as an array.
 pub(super) fn read<'l>(
     text: impl Read,
     is_array: bool,

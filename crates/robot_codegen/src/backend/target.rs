@@ -11,7 +11,7 @@ pub struct Language {
     pub name: &'static str,
     /// The extension of its source files.
     pub extension: &'static str,
-    /// The words that names from a robot file must not be in printed code.
+    /// The words that cannot be names in printed code; names from robot files are adapted if necessary.
     pub reserved: &'static [&'static str],
     /// The sizes of expressions, blocks and functions that its compilers handle well.
     pub limits: Limits,

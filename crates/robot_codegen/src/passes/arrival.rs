@@ -15,8 +15,8 @@ pub(super) fn run(program: &Program) -> Program {
     ordered(program, false).view.program()
 }
 
-/// Returns the reordered program, with the arrival time of every node; `fused` says whether products will become part
-/// of multiply-adds.
+/// Returns the reordered program, with the arrival time of every node; `fused` is whether products will become part of
+/// multiply-adds.
 pub(super) fn ordered(program: &Program, fused: bool) -> Waiting {
     let mut waiting = Waiting::new(program, fused);
     for id in waiting.ids() {

@@ -259,7 +259,7 @@ mod tests {
 
     /// The predicted saving of a factoring is the difference of the operations before and after it.
     #[test]
-    fn savings_come_as_foretold() {
+    fn savings_are_as_predicted() {
         let mut counted = 0;
         for seed in 0..300 {
             let mut view = Nary::new(&random_polynomials(seed));
@@ -285,7 +285,7 @@ mod tests {
         assert!(counted > 100, "{counted}");
     }
 
-    /// Of two factors that save equally much, the earlier node is taken; otherwise the factor that saves more.
+    /// The factor that saves more is taken; of two factors that save the same, the earlier node.
     #[test]
     fn the_factor_that_saves_most_is_taken() {
         let mut b = Builder::new();

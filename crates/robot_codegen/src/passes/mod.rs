@@ -364,7 +364,7 @@ mod tests {
     /// The result of a pass is discarded if it costs as much as before, and that of a reordering if it waits longer or
     /// adds an operation.
     #[test]
-    fn results_of_passes_are_taken_where_they_are_better() {
+    fn results_of_passes_are_taken_if_they_are_better() {
         let program = |value: u32| {
             let mut b = Builder::new();
             let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
@@ -395,7 +395,8 @@ mod tests {
         }
     }
 
-    /// All passes together, over several rounds, leave fewer operations than one round or than without one of them.
+    /// All passes together, over several rounds, leave fewer operations than one round does, and fewer than without one
+    /// of the passes.
     #[test]
     fn together_passes_save_more_than_each() {
         let left = |options: Options| {

@@ -336,7 +336,7 @@ mod tests {
 
     /// The most frequent pairs are joined first.
     #[test]
-    fn the_commonest_pair_is_joined_first() {
+    fn the_most_frequent_pair_is_joined_first() {
         let sums = left(|b, [u, v, x, y, z]| {
             let rows = [vec![u, v, x], vec![u, v, y], vec![u, v, z], vec![v, x, y], vec![z, v, x]];
             rows.map(|row| joined(b, &row, Builder::add)).to_vec()

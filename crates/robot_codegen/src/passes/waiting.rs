@@ -23,7 +23,7 @@ pub(super) struct Waiting {
 }
 
 impl Waiting {
-    /// Makes the view of a program, in which no node is settled; `fused` says whether products will become part of
+    /// Makes the view of a program, in which no node is settled; `fused` is whether products will become part of
     /// multiply-adds.
     pub(super) fn new(program: &Program, fused: bool) -> Waiting {
         let view = Nary::new(program);

@@ -22,8 +22,8 @@ pub(super) const MAX_LENGTH: usize = 200;
 /// The possible limits for the printed symbols of a coefficient that is written out, if others need named parts. The
 /// one that makes the coefficients and the named parts shortest in total is used.
 const LENGTHS: [usize; 4] = [300, 200, 130, 80];
-/// Limits that leave few coefficients written out: only if with the one above all is longer than with parts for every
-/// coefficient by more than a tenth.
+/// Lower limits, which leave few coefficients written out. They are used only if the total with the limit above exceeds
+/// the total with named parts for every coefficient by more than a tenth.
 const SHORTER: [usize; 2] = [50, 30];
 /// The smallest number of printed symbols of a coefficient that is written by another one.
 pub(super) const MIN_LENGTH: usize = 3;

@@ -30,29 +30,30 @@ pub(super) mod candidates {
     pub(in crate::forms) const OF_STATE: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];
 }
 
-/// Letters, of which some may be given; the others are those that no symbol of the robot has.
+/// The letters of joint torques and of the symbols that the grouped form defines. A letter that is `None` is chosen
+/// from those that no symbol of the robot has, except for the letter of the joint torques.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Letters {
-    /// Of the joint torques; Q if none is given.
+    /// The letter of the joint torques; `None` for Q.
     pub torque: Option<String>,
-    /// Of the entries of the mass matrix.
+    /// The letter of the mass matrix and its entries.
     pub mass: Option<String>,
-    /// Of the Coriolis and centrifugal terms: their column, their matrix, and the coefficients of products of
-    /// velocities.
+    /// The letter of the Coriolis and centrifugal terms: of their column, their matrix, and the coefficients of
+    /// products of velocities.
     pub velocity: Option<String>,
-    /// Of the gravity terms.
+    /// The letter of the gravity terms.
     pub gravity: Option<String>,
 }
 
 impl Letters {
-    /// The sets of letters that have names: the field's, and the paper's.
+    /// The names of the sets of letters: the letters that are usual in robotics, and those of the paper.
     pub const SETS: [&'static str; 2] = ["field", "paper"];
 
     /// Reads four letters between commas, each a Latin one or the name of a Greek one, or the name of a set.
     ///
     /// # Errors
     ///
-    /// Not as many letters, what is not a letter, and the same letter twice.
+    /// A number of letters other than four, names that are not letters, and letters that are given twice.
     pub fn parse(text: &str) -> Result<Letters, InvalidLetters> {
         let [field, paper] = Letters::SETS;
         if text == paper {

@@ -444,7 +444,7 @@ fn joint_torque(index: usize) -> Symbol {
     Symbol { kind: Kind::JointTorque, number: index + 1, component: None }
 }
 
-/// The value for the coordinate of a joint torque; `None` for other quantities.
+/// The entry of `values`, one for each coordinate, that belongs to a joint torque; `None` for other quantities.
 fn of_joint_torque<'g>(quantity: &Quantity<'g>, values: &[Expr<'g>]) -> Option<Expr<'g>> {
     let place = quantity.symbol.number.checked_sub(1)?;
     values.get(place).copied().filter(|_| quantity.symbol.kind == Kind::JointTorque)

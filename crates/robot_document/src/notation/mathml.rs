@@ -263,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_that_goes_on_has_its_sign_between() {
+    fn a_line_that_continues_a_sum_has_its_sign_between() {
         let sum = |first| Math::Row(vec![first, Math::Letter('m')]);
         assert!(continued(&sum(Math::Sign('+'))).to_string().contains("<mo form=\"infix\">+"));
         let fenced = Math::Fenced(Fence::Parentheses, Box::new(Math::Letter('x')));

@@ -113,7 +113,8 @@ mod tests {
         );
     }
 
-    /// Nothing is divided by a parameter if a number is at hand, unless that is small beside the others.
+    /// A parameter is chosen as the pivot only if no entry is a number, or if all numbers are small relative to the
+    /// other entries.
     #[test]
     fn numbers_are_pivots_before_parameters() {
         let graph = Graph::new();
@@ -134,7 +135,7 @@ mod tests {
         [zero].into_iter().chain(row[..row.len() - 1].iter().copied()).collect()
     }
 
-    /// Moved by one place again and again, one row spans everything behind it.
+    /// The repeated shifts of one row by one place span all places from its first nonzero entry on.
     #[test]
     fn a_closure_holds_all_images() {
         let graph = Graph::new();

@@ -157,7 +157,8 @@ mod tests {
         Scalar::new(graph.parse(text).unwrap())
     }
 
-    /// What is 0 by algebra is the constant 0: of rational numbers, of parameters, and of irrational constants.
+    /// An expression that vanishes identically becomes the constant 0, with rational numbers, parameters and irrational
+    /// constants.
     #[test]
     fn what_vanishes_is_the_constant_zero() {
         let graph = Graph::new();
@@ -177,7 +178,7 @@ mod tests {
         }
     }
 
-    /// A value that is small at some points is not 0 for that.
+    /// A scalar does not count as 0 only because its values are small.
     #[test]
     fn what_is_small_is_not_zero() {
         let graph = Graph::new();
@@ -190,7 +191,7 @@ mod tests {
         }
     }
 
-    /// A scalar carries the values of its expression, by which it is told from 0 and from others.
+    /// A scalar carries the values of its expression, by which it is distinguished from 0 and from other scalars.
     #[test]
     fn values_follow_the_expression() {
         let graph = Graph::new();

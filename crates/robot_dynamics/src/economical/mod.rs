@@ -100,13 +100,14 @@ impl<'g> Recursion<'g> {
         self.chain.degrees_of_freedom
     }
 
-    /// The joint torques Q, including the effect of the tips' wrenches if `wrench` is true; friction is not included.
+    /// The joint torques Q, N m or N, including the effect of the tips' wrenches if `wrench` is true; friction is not
+    /// included.
     #[must_use]
     pub fn inverse_dynamics(&self, wrench: bool) -> Vec<Expr<'g>> {
         self.torques(&self.chain, Accelerations::Given, wrench).0
     }
 
-    /// The bias torques C(q, q̇) q̇ + g(q), including the effect of the tips' wrenches if `wrench` is true.
+    /// The bias torques C(q, q̇) q̇ + g(q), N m or N, including the effect of the tips' wrenches if `wrench` is true.
     #[must_use]
     pub fn bias(&self, wrench: bool) -> Vec<Expr<'g>> {
         let mut chain = self.chain.clone();
@@ -116,8 +117,8 @@ impl<'g> Recursion<'g> {
         self.torques(&chain, Accelerations::Given, wrench).0
     }
 
-    /// The accelerations q̈ for the joint torques `tau`, including the effect of the tips' wrenches if `wrench` is
-    /// true.
+    /// The accelerations q̈, rad/s² or m/s², for the joint torques `tau`, including the effect of the tips' wrenches if
+    /// `wrench` is true.
     ///
     /// This solves M q̈ = τ − τ(q̈*) + M q̈*, with accelerations q̈* whose joint torques need few operations
     /// ([`LinkPlan::free`]). `None` if the solver does not apply.
@@ -196,7 +197,7 @@ impl<'g> Recursion<'g> {
         (inward::inward(chain, &self.plans, &states, tips), states)
     }
 
-    /// The gravity terms g(q): the joint torques that hold the mechanism at rest.
+    /// The gravity terms g(q), N m or N: the joint torques that hold the mechanism at rest.
     #[must_use]
     pub fn gravity(&self) -> Vec<Expr<'g>> {
         gravity::gravity(&self.chain.without_idle_turns(&[]), &self.plans)

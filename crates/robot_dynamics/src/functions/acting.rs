@@ -250,7 +250,7 @@ mod tests {
         }
     }
 
-    /// Terms that cancel have a slope that is small beside them; a slope adds the terms of all roots.
+    /// Terms that cancel have a slope that is small compared with them; a slope adds the terms of all roots.
     #[test]
     fn terms_that_cancel_have_a_size() {
         let graph = Graph::new();

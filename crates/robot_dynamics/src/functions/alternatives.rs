@@ -75,7 +75,8 @@ mod tests {
     use super::*;
     use robot_model::functions::Effects;
 
-    /// The other plans regroup fully or are uniform, keep the unit of length, and are none that is tried already.
+    /// The other plans regroup fully or are uniform, keep the unit of length, and differ from the given plan and from
+    /// each other.
     #[test]
     fn other_plans_keep_the_unit_of_length() {
         let link = LinkPlan { angle_sum: true, composite_sum: true, ..LinkPlan::BASIC };
@@ -97,7 +98,7 @@ mod tests {
         }
     }
 
-    /// Functions with composites are tried under other plans, of many coordinates the mass matrix alone.
+    /// Functions with composites are tried with other plans; for robots with many coordinates, only the mass matrix is.
     #[test]
     fn composites_are_tried_under_other_plans() {
         let tried = |coordinates: usize| {

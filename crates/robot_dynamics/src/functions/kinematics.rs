@@ -82,7 +82,7 @@ fn link_poses<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Pose<'g>> {
     forms.min_by_key(cost).unwrap_or_else(|| plain::link_poses(derivation))
 }
 
-/// The functions of all frames for which the kind stands.
+/// The functions of all frames that the kind comprises.
 pub(super) fn per_frame<'g>(
     derivation: &Derivation<'_, 'g>,
     kind: FunctionKind,

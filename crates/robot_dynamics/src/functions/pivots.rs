@@ -210,13 +210,13 @@ mod tests {
         read("wrist", &format!("format = 1\n[robot]\nname = \"wrist\"\n{}", links.concat()))
     }
 
-    /// Where the first axis comes into line with the last, the pivot of the first is the little inertia that is not
-    /// of the last link.
+    /// If the first axis is aligned with the last, the pivot of the first joint is only the small inertia of the first
+    /// two links.
     #[test]
-    fn a_small_pivot_is_found_where_axes_come_into_line() {
+    fn a_small_pivot_is_found_where_axes_are_aligned() {
         assert!(may_be_small(&wrist("x", 1e-4)));
         assert!(!may_be_small(&wrist("x", 0.5)));
-        // What is left of the first link is 2·10⁻³ of the diagonal, and a hundredth counts as small.
+        // The pivot of the first joint is 2·10⁻³ of the diagonal; pivots below a hundredth count as small.
         assert!(may_be_small(&wrist("x", 1e-3)));
         for name in ["puma560", "scara", "planar_2r"] {
             assert!(!may_be_small(&robot(name)), "{name}");

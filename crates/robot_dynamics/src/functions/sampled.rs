@@ -220,7 +220,7 @@ center_of_mass = [0.3, 0, 0]
 inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
 ";
 
-    /// The largest part of the diagonal above which the pivots are known to be, to a ten thousandth.
+    /// The largest fraction of the diagonal that all pivots are known to exceed, in steps of 10⁻⁴.
     fn bound(text: &str) -> f64 {
         let matrix = SampledMassMatrix::new(&read("arm", text));
         let known =
@@ -228,12 +228,13 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
         f64::from(known.last().unwrap_or_default()) * 1e-4
     }
 
-    /// The bound by hand: what a coordinate moves in any case, over the most that it can move.
+    /// The bound computed by hand: the inertia that a coordinate moves in every configuration, divided by the largest
+    /// inertia that it can move.
     #[test]
     fn the_own_inertias_over_the_largest_are_a_bound() {
-        // Of the column its own inertia and drive, and of the hand the own inertia, times the square of its ratio.
+        // The own inertia and the drive of the column, and the own inertia of the hand times the square of its ratio.
         let least = (0.1 + 2.0 * 0.36) + 0.18 + 4.0 * (0.1 + 0.09);
-        // The slide may be as far out as the distances of all frames together.
+        // The slide may be as far out as the sum of the distances between all frames.
         let travel = 0.3 + 0.4 + 0.5;
         let [column, hand] = [0.6 + 2.0, 4.0 * (0.3 + 0.09)];
         let slide = 0.5 + 3.0 * (0.5_f64 + 0.4 + travel).powi(2);
@@ -241,19 +242,19 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
         let most = 0.18 + column + hand + slide + hand_at_column;
         let found = bound(ARM);
         assert!((found - least / most).abs() < 1e-4, "{found} {}", least / most);
-        // With a heavy drive of the column the slide decides: 3 kg of 4 kg.
+        // If the column has a heavy drive, the slide determines the bound: 3 kg of 4 kg.
         let found = bound(&ARM.replace("armature = 0.18", "armature = 100"));
         assert!((found - 0.75).abs() < 1e-4, "{found}");
     }
 
-    /// A rotor that turns against its carrier may take inertia from it, and a link without mass has none.
+    /// No bound is known for a link that carries a rotor, which may turn against it, or for a link without mass.
     #[test]
     fn nothing_is_known_of_carriers_of_rotors_and_of_links_without_mass() {
         let rotor =
             "axis = \"x\" }\ndrive = { rotor_inertia = 0.001, gear_ratio = 10, gyroscopic = true }";
         let carrier =
             ARM.replace("axis = \"x\" }", rotor).replace("drive = { armature = 0.18 }\n", "");
-        // Of the column only the hand is left.
+        // Of the inertia that the column moves, only that of the hand is left in the bound.
         assert!(bound(&carrier) < bound(ARM));
         let alone = carrier
             .replace("{ joint = \"column\", ratio = -2 }", "{ joint = \"slide\", ratio = -2 }");

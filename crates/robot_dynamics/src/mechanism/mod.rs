@@ -146,19 +146,19 @@ pub struct MechanismLink<'g> {
 /// The friction in a joint in symbols; see [`robot_model::robot::Friction`].
 #[derive(Clone, Debug)]
 pub struct MechanismFriction<'g> {
-    /// The coefficient b of equation (4).
+    /// The coefficient b of equation (4), N m s/rad or N s/m.
     pub viscous: Expr<'g>,
-    /// The coefficient c of equation (5).
+    /// The coefficient c of equation (5), without unit.
     pub coulomb: Expr<'g>,
     /// The diameter d in equation (5), m.
     pub spindle_diameter: Expr<'g>,
-    /// The constant dry friction at positive velocities.
+    /// The constant dry friction at positive velocities, N m or N.
     pub coulomb_positive: Expr<'g>,
-    /// The constant dry friction at negative velocities.
+    /// The constant dry friction at negative velocities, N m or N, as a positive value.
     pub coulomb_negative: Expr<'g>,
-    /// A constant offset.
+    /// A constant offset, N m or N.
     pub offset: Expr<'g>,
-    /// The width of the smooth sign; `None` for the exact sign.
+    /// The width of the smooth sign, rad/s or m/s; `None` for the exact sign.
     pub smoothing: Option<Expr<'g>>,
 }
 

@@ -146,7 +146,7 @@ impl Bytes {
         MemoryOperand::new(COLUMN, STATE, NUMBER as u32, 0, 0, false, Register::None)
     }
 
-    /// The address of a place; `spread` says that the instruction spreads one number over its lanes.
+    /// The address of a place; `spread` is whether the instruction spreads one number over its lanes.
     fn memory(&mut self, memory: Memory, spread: bool) -> MemoryOperand {
         match memory {
             Memory::Spill(number) => Bytes::at(WORKING, i64::from(number) - self.reach[0], spread),

@@ -2,7 +2,7 @@
 //! order in which a simple processor would start the steps.
 //!
 //! A processor looks only a few hundred instructions ahead. Here, the step for which results wait longest starts first,
-//! including the steps of sines; while more values are alive than there are registers, steps that end the lives of
+//! including the steps of sines; while more values are live than there are registers, steps that end the live ranges of
 //! others start first. The model starts two products, two sums and four other steps in each cycle. Latencies are those
 //! of Zen 4 and Zen 5, divided by a number, because calls, and even more the states of lanes, overlap with the next
 //! ones.
@@ -18,7 +18,8 @@ const PRODUCTS: usize = 0;
 const SUMS: usize = 1;
 const OTHERS: usize = 2;
 
-/// The number of steps of each unit among which one that ends lives is searched. The time to compile grows with it.
+/// The number of steps of each unit that are searched for one that ends a live range. The time to compile grows with
+/// it.
 const LOOKED_AT: usize = 48;
 
 /// The cycles until the result of a step is known, and its unit.
@@ -38,7 +39,7 @@ fn cost(step: Step) -> (u32, usize) {
 /// The model of a processor for scheduling.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Model {
-    /// The number of live values from which on steps that end lives go first.
+    /// The number of live values from which on steps that end live ranges go first.
     pub(crate) registers: usize,
     /// The number by which latencies are divided.
     pub(crate) overlap: u32,
@@ -73,7 +74,7 @@ struct Scheduler<'l> {
     missing: Vec<u32>,
     /// For each value, the number of steps that still need it.
     uses: Vec<u32>,
-    /// For each step, the number of values whose lives it would end now, minus one if it starts a value.
+    /// For each step, the number of values whose live ranges it would end now, minus one if it starts a value.
     ended: Vec<i8>,
     /// For each step, the cycle in which its operands are known.
     start: Vec<u32>,
@@ -236,7 +237,7 @@ impl<'l> Scheduler<'l> {
         for value in self.computed(position) {
             self.uses[value] -= 1;
             if self.uses[value] == 1 {
-                // Only one remaining step needs the value, and would end its life.
+                // Only one remaining step needs the value and would end its live range.
                 let users =
                     self.users[self.range_of_users(value)].iter().map(|user| *user as usize);
                 let last = users.into_iter().find(|user| !self.is_started[*user]);

@@ -27,7 +27,7 @@ pub(super) struct Stores {
 }
 
 impl Stores {
-    /// The stores of a function with a number of operations; `pairs` says whether two values can be stored at once.
+    /// The stores of a function with a number of operations; `pairs` is whether two values can be stored at once.
     pub(super) fn new(mut entries: Vec<(usize, u32)>, operations: usize, pairs: bool) -> Stores {
         entries.sort_unstable();
         let last = operations / LAST_PART;

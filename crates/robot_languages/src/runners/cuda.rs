@@ -1,4 +1,5 @@
-//! CUDA C++: it is run on the processor as C++, compiled for a device by NVRTC, and run on a device where one is at hand.
+//! CUDA C++: it is run on the processor as C++, compiled for a device by NVRTC, and run on a device if one is
+//! available.
 
 use std::path::Path;
 

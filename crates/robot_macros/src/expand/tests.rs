@@ -112,7 +112,7 @@ fn each_error_of_a_file_is_one_of_the_compiler() {
 }
 
 #[test]
-fn a_plan_is_watched_where_there_is_one() {
+fn a_plan_is_watched_if_there_is_one() {
     let shown = expanded(quote!("robots/ur5.toml"));
     assert!(shown.contains("/robots/ur5.toml\"") && shown.contains("/robots/ur5.plan\""));
     let folder = folder_of("plan");

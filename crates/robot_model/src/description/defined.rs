@@ -132,7 +132,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn poles_are_told_from_values() {
+    fn poles_are_distinguished_from_values() {
         let options = Options::default();
         let mut reader = Reader::new("", &options);
         for (name, value) in [("a", Some("0.3")), ("b", Some("0.1")), ("x", None)] {

@@ -83,7 +83,8 @@ impl Table {
         })
     }
 
-    /// Reports it if the table has more rows or fewer rows than there are links to take them.
+    /// Reports an error if the number of rows is not the number of links without a frame of their
+    /// own.
     pub(super) fn finish(self, reader: &mut Reader<'_>) {
         if self.count == self.taken {
             return;

@@ -67,7 +67,7 @@ impl Entries<'_, '_, '_> {
 const KEYS_OF_DRY_FRICTION: [&str; 5] =
     ["coulomb", "coulomb_positive", "coulomb_negative", "coulomb_torque", "coulomb_force"];
 
-/// Reports a table without keys, which says nothing.
+/// Reports a table without keys, which has no effect.
 fn check_not_empty(entries: &mut Entries<'_, '_, '_>, entry: &Entry<'_>, name: &str) {
     if matches!(entry.value.get_ref(), DeValue::Table(table) if table.is_empty()) {
         let message = format!("`{name}` is empty");

@@ -307,7 +307,7 @@ mod tests {
     }
 
     #[test]
-    fn right_angles_are_told_by_their_last_digit() {
+    fn right_angles_are_recognized_by_their_last_digit() {
         let text = |text: &str| angle(&Formula::number(&Rational::from_decimal(text).unwrap()));
         assert_eq!(text("1.5707963267948966"), "\"pi/2\"");
         assert_eq!(text("-3.141592653589793"), "\"-pi\"");

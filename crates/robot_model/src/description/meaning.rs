@@ -11,11 +11,11 @@ use crate::diagnostic::Span;
 pub struct Meaning {
     /// The bytes of the name.
     pub span: Span,
-    /// What stands there.
+    /// The key or the parameter that the name denotes.
     pub subject: Subject,
 }
 
-/// What can stand at a place.
+/// The subject of a name at a place of a file.
 #[derive(Clone, Debug)]
 pub enum Subject {
     /// A key of the format.
@@ -223,7 +223,7 @@ friction = { viscous = \"J\" }
         }
     }
 
-    /// The name of a parameter means it where it is defined and in expressions, not in other texts and comments.
+    /// The name of a parameter denotes it in its definition and in expressions, but not in other texts or in comments.
     #[test]
     fn parameters_are_used_in_expressions_alone() {
         let text = "# l1

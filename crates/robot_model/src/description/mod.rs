@@ -295,7 +295,7 @@ fn no_effect(reader: &mut Reader<'_>, locations: &Locations) {
     }
 }
 
-/// Warns about wrenches of tips that are fixed to the base, which no joint feels.
+/// Warns about wrenches of tips that are fixed to the base, which do not affect any joint torque.
 fn wrenches_on_base(reader: &mut Reader<'_>, robot: &Robot, locations: &Locations) {
     for (frame, places) in robot.frames.iter().zip(&locations.frames) {
         if frame.wrench.is_none() || frame.link.is_some() {

@@ -16,12 +16,12 @@ pub enum Format {
 /// The options of reading a file: which errors become warnings, whether friction is read, and values of parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Accept moving links without mass; the errors become warnings.
+    /// Whether moving links without mass are accepted; the errors become warnings.
     pub allow_massless: bool,
-    /// Accept masses and inertias that are physically impossible; the errors become warnings.
+    /// Whether masses and inertias that are physically impossible are accepted; the errors become warnings.
     pub allow_unphysical: bool,
-    /// Read the friction of joints in URDF: damping as viscous friction, friction as constant dry friction. If false,
-    /// the robot has no friction.
+    /// Whether the friction of joints in URDF is read: damping as viscous friction, friction as constant dry friction.
+    /// If false, the robot has no friction.
     pub friction: bool,
     /// Values of parameters that replace the nominal ones; all checks use them. Names that are not parameters of the
     /// robot have no effect.

@@ -67,7 +67,7 @@ impl Range<'_, '_> {
 
     /// Checks the magnitudes of the components of an axis. An axis of exact numbers may have any length. An axis of
     /// expressions is normalized at run time, so the square of its length must be in range. No axis may have a
-    /// component that is negligible beside the others.
+    /// component that is negligible compared with the others.
     fn axis(&mut self, axis: &[Formula; 3], joint: &str, at: &Span) {
         let known = axis.each_ref().map(|component| self.reader.known(component));
         let [Some(x), Some(y), Some(z)] = known.map(|known| known.map(f64::abs)) else { return };

@@ -53,7 +53,7 @@ pub enum Content {
     Axis,
     /// A number.
     Number,
-    /// Two numbers.
+    /// The lower and the upper limit, two numbers.
     Limits,
     /// A non-negative whole number.
     Whole,
@@ -67,7 +67,7 @@ pub enum Content {
     Boolean,
     /// One of these words.
     Word(&'static [&'static str]),
-    /// A text for readers.
+    /// A text for human readers.
     Text,
     /// A unit: a product of powers of SI units.
     Unit,

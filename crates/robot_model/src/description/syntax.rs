@@ -11,7 +11,8 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let mut found = Vec::new();
     // The keys below a duplicate header would be reported as duplicates, too; they are skipped.
     let mut header: Option<Span> = None;
-    // An error without a place is one of the end, which is that of the last line with text.
+    // An error without a place is at the end of the file, which is taken as the end of the last
+    // line with text.
     let end = text.trim_end().len();
     for error in &errors {
         let span = error.span().unwrap_or(end..end);

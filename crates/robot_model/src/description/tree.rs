@@ -158,7 +158,7 @@ fn report_cycles(
 fn written(text: &str, link: &DraftLink) -> String {
     let name = &link.name.name;
     let found = text.get(link.name.span.clone()).unwrap_or_default().trim_matches(['"', '\'']);
-    // A name that the file does not have has the place of something else.
+    // If the file does not contain the name, its place is that of something else.
     let is_name = !found.is_empty() && !found.contains(['[', '{', '=', '\n']);
     match !is_name || found == name {
         true => format!("`{name}`"),
@@ -171,7 +171,7 @@ mod tests {
     use super::sorted;
 
     #[test]
-    fn the_file_order_is_kept_where_it_can_be() {
+    fn the_file_order_is_kept_if_possible() {
         assert_eq!(sorted(&[None, Some(0), Some(0), None]), [0, 1, 2, 3]);
         assert_eq!(sorted(&[None, Some(2), Some(0), Some(1)]), [0, 2, 1, 3]);
         assert_eq!(sorted(&[Some(1), Some(0), None, Some(0)]), [2]);

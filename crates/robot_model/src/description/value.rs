@@ -120,7 +120,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads a text for readers, in which control and invisible characters other than line ends and tabs are not
+    /// Reads a text for human readers, in which control and invisible characters other than line ends and tabs are not
     /// allowed.
     pub(super) fn prose(&mut self, value: Value<'_>) -> Option<String> {
         let text = self.string(value, "text in quotes")?.as_ref();

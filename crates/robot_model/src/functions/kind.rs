@@ -218,7 +218,7 @@ impl FunctionKind {
     }
 
     /// What the function computes, with its shape, where n is the number of coordinates: `M (n × n)`. The tables of
-    /// functions in the book and the README are made of it.
+    /// functions in the book and the README are made from it.
     #[must_use]
     pub const fn result(self) -> &'static str {
         self.declaration().result
@@ -296,7 +296,7 @@ impl FunctionKind {
         FunctionKind::ALL.iter().copied().find(|kind| kind.name() == name)
     }
 
-    /// The reason why the robot does not have the function; `None` if it has.
+    /// The reason why the robot does not have the function; `None` if it does.
     #[must_use]
     pub fn missing_in(self, robot: &Robot) -> Option<&'static str> {
         let Effects { wrench, friction } = self.effects();
@@ -352,7 +352,7 @@ struct Declaration {
     motions: bool,
     /// Whether composite inertias are used.
     composites: bool,
-    /// Whether it solves with the mass matrix.
+    /// Whether the function solves a system of equations with the mass matrix.
     solves: bool,
     /// Whether the function concerns the base parameters.
     base: bool,

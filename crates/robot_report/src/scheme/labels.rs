@@ -282,7 +282,7 @@ mod tests {
         assert_eq!(room.settled(&[vec![on, above]])[0].label, above.label);
         let placed = room.settled(&[vec![on, above, below], vec![on, above, below]]);
         assert_eq!([placed[0].label, placed[1].label], [above.label, below.label]);
-        // The line of the second label would run through the first, which makes way.
+        // The line of the second label would run through the first, which is therefore moved.
         let far = Rectangle::about(point(0.0, -90.0), size);
         let led = Candidate {
             label: far,

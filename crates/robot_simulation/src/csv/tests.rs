@@ -140,7 +140,7 @@ fn lines_are_those_of_the_whole_text() {
 }
 
 #[test]
-fn what_is_not_text_is_told_with_its_place_in_the_whole() {
+fn what_is_not_text_is_reported_with_its_place_in_the_whole() {
     for bytes in
         [&b"ab\nc\xff\nd"[..], b"ab\nc\xe2\x82\nd", b"ab\nc\xe2\x82", b"\xef\xbb\xbf1\n\x80"]
     {

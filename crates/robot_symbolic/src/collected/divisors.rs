@@ -115,7 +115,8 @@ impl<'t> Seeker<'t> {
         Candidate { factor, quotient, used, gain }
     }
 
-    /// The number of sums without sines and cosines in which one term is 1 or −1, which does not count.
+    /// The number of sums without sines and cosines in which one term is 1 or −1; this term is not counted in the
+    /// length.
     fn units(&self, factors: &[&Terms]) -> usize {
         let is_circular = |(one, _): (Variable, u16)| self.kinds.is_circular(one);
         let has_unit = |sum: &&&Terms| {

@@ -13,7 +13,7 @@
 //!    factorization of Boolean expressions", 1982, and the two-term divisors of J. Rajski and J. Vasudevamurthy, 1992.
 //!
 //! The length of a formula is the number of its printed symbols: a symbol with its index, a number, a sign, an
-//! exponent, a pair of parentheses, and the sine or cosine of a sum of angles count one each. Where forms are compared,
+//! exponent, a pair of parentheses, and the sine or cosine of a sum of angles count one each. When forms are compared,
 //! the 1 in k (x + 1) does not count if x has no sine or cosine. Numbers do not change: every printed coefficient is
 //! one of the polynomial or an integer. The result is proved equal to the polynomial by expanding it again; if the
 //! proof fails, the polynomial is printed as a plain sum.
@@ -77,7 +77,7 @@ impl<'g> Collector<'g, '_> {
         cancel(&mut terms, polynomial.graph());
         match proved(&terms, polynomial) {
             Some(Proved::Same) => terms,
-            // A sum in the numerator has cancelled the same sum in a denominator.
+            // A sum in the numerator has canceled the same sum in a denominator.
             Some(Proved::Shorter(cancelled)) => self.collect(&cancelled, rank, brackets),
             unproved => {
                 debug_assert!(

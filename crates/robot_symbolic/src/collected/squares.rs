@@ -6,7 +6,7 @@ use super::variables::Variables;
 /// The largest number of angles whose squares are chosen together; the cosines of further angles keep their squares.
 const MAX_ANGLES: usize = 4;
 
-/// Replaces squares of cosines by squares of sines for the angles where this gives shorter terms.
+/// Replaces squares of cosines by squares of sines for the angles for which this gives shorter terms.
 pub(super) fn chosen(terms: &Terms, variables: &Variables<'_>) -> Terms {
     let mut squared: Vec<Variable> = vec![];
     for (powers, _) in terms.as_slice() {

@@ -69,7 +69,7 @@ fn symbols_that_are_not_there_have_no_slope() {
 }
 
 #[test]
-fn a_deep_expression_is_no_deep_recursion() {
+fn a_deep_expression_causes_no_deep_recursion() {
     let g = Graph::new();
     let x = g.symbol("x");
     let deep = (0..50_000).fold(x, |sum, _| (sum * x) + x);

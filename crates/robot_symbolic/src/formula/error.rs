@@ -6,7 +6,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct ParseError {
-    /// The bytes of the text that are wrong; an empty range where something is missing.
+    /// The bytes of the text that are wrong; an empty range if something is missing.
     pub span: Range<usize>,
     /// The problem and what was expected.
     pub message: String,

@@ -89,7 +89,7 @@ fn different_polynomials_differ() {
 }
 
 #[test]
-fn division_by_zero_is_no_number() {
+fn division_by_zero_gives_nan() {
     let g = Graph::new();
     let value = of(&g, "1/(x*y - y*x + (x + y)^2 - x^2 - 2*x*y - y^2)");
     assert!(value.as_number().unwrap().to_f64().is_nan());
@@ -122,7 +122,7 @@ fn limits_end_hostile_expansions() {
 }
 
 #[test]
-fn depth_is_no_recursion() {
+fn depth_causes_no_recursion() {
     let g = Graph::new();
     let (x, y) = (g.symbol("x"), g.symbol("y"));
     let deep = (0..50_000).fold(x, |sum, k| if k % 2 == 0 { sum + y } else { sum - x * y });
@@ -174,7 +174,7 @@ fn rebuilding_changes_no_term() {
 /// The canonical form decides equality: a difference expands to zero exactly if it vanishes at
 /// random points.
 #[test]
-fn zero_is_found_exactly_where_values_vanish() {
+fn zero_is_found_exactly_if_values_vanish() {
     let mut zeros = 0;
     for seed in 0..400 {
         let mut random = Random::new(seed);

@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deep_expression_is_no_deep_recursion() {
+    fn a_deep_expression_causes_no_deep_recursion() {
         let g = Graph::new();
         let x = g.symbol("x");
         let deep = (0..200_000).fold(x, |sum, _| (sum * x) + x);

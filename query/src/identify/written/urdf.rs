@@ -104,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_inertial_is_put_where_there_is_none() {
+    fn an_inertial_is_added_if_there_is_none() {
         let new = "<inertial/>";
         for (text, wanted) in [
             (

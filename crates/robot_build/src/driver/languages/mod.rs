@@ -77,7 +77,7 @@ impl Language {
         Language::ALL.iter().copied().find(|language| language.name() == name)
     }
 
-    /// Whether code in the language multiplies and adds in one instruction where the processor has it.
+    /// Whether code in the language multiplies and adds in one instruction if the processor has it.
     #[must_use]
     pub fn has_multiply_add(self) -> bool {
         match self {

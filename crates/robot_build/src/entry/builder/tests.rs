@@ -83,7 +83,7 @@ fn watched(directives: &str) -> Vec<&str> {
 }
 
 #[test]
-fn a_plan_is_watched_where_there_is_one() {
+fn a_plan_is_watched_if_there_is_one() {
     let package = package("pins");
     fs::write(package.join("robots/a.toml"), ARM).unwrap();
     let built = |builder: &Builder| {
@@ -133,7 +133,7 @@ fn a_folder_is_watched_with_its_files() {
 }
 
 #[test]
-fn cargo_is_told_of_each_error_in_a_line() {
+fn cargo_gets_a_line_for_each_error() {
     let package = package("headlines");
     fs::write(package.join("robots/a.toml"), ARM.replace("mass = \"m\"", "mass = \"m5\"")).unwrap();
     let mut directives = Directives::default();
@@ -303,7 +303,7 @@ fn functions_of_a_frame_or_a_link_are_asked_for_by_name() {
 }
 
 #[test]
-fn what_no_body_has_is_taken_where_that_is_asked_for() {
+fn impossible_values_are_accepted_if_the_options_allow_them() {
     let package = package("unphysical");
     fs::write(package.join("robots/a.toml"), ARM.replace("value = 2.0", "value = -2.0")).unwrap();
     let shown = message(&builder(&package), &["robots/a.toml"]);
@@ -393,7 +393,7 @@ fn files_outside_of_the_package_are_refused() {
 }
 
 #[test]
-fn what_is_no_robot_file_is_refused() {
+fn what_is_not_a_robot_file_is_refused() {
     let package = package("nofile");
     fs::write(package.join("big.toml"), vec![b'#'; 10 << 20]).unwrap();
     fs::write(package.join("binary.toml"), [0xff, 0xfe, 0x00]).unwrap();
@@ -471,7 +471,7 @@ fn each_option_has_its_setter() {
     }
 }
 
-/// The setters of what is not in the table of options keep what was set before.
+/// The setters of options that are not in the table keep the options that were set before.
 #[test]
 fn other_setters_set_a_field_each() {
     let plan = Plan { links: vec![], unit_length: None };

@@ -115,7 +115,7 @@ fn tables_are_known_by_their_header_and_edited_files_by_nothing() {
 }
 
 #[test]
-fn nothing_is_written_where_one_output_is_refused() {
+fn nothing_is_written_if_one_output_is_refused() {
     let folder = Folder::new("batch");
     let (own, mine) = (folder.put("own.rs", OWN), folder.put("mine.rs", "mine"));
     let (new, below) = (folder.path("new.rs"), folder.path("below/too.rs"));
@@ -241,7 +241,7 @@ fn leftovers_of_a_killed_process_go_and_those_of_a_living_one_stay() {
     assert_eq!(folder.names(), [".a.rs.robot-symbolic-tmp-x", "a.rs", "new"]);
 }
 
-/// Where no file can be made, the reason of the system is kept; another name would not help.
+/// If no file can be created, the system's reason is kept, because another name would not help.
 #[test]
 fn a_temporary_file_that_cannot_be_made_has_its_reason() {
     let folder = Folder::new("staged");
@@ -250,7 +250,7 @@ fn a_temporary_file_that_cannot_be_made_has_its_reason() {
 }
 
 #[test]
-fn a_folder_named_as_such_is_no_file() {
+fn a_folder_named_as_such_is_not_a_file() {
     let folder = Folder::new("slash");
     let path = PathBuf::from(format!("{}/new/", folder.0.display()));
     assert!(message(write(&path, NEW)).contains("it is a folder; name a file"));

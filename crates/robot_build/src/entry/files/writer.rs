@@ -19,7 +19,7 @@ pub enum Ownership {
     /// The [`MARKER`](super::MARKER), or the mark of generated code, near its start or on its last line, and a
     /// [seal](super::sealed()) that matches, if it has one.
     Marked,
-    /// Its first line, for formats without comments; the function says whether this program writes such a line.
+    /// Its first line, for formats without comments; the function returns whether this program writes such a line.
     Headed(fn(&str) -> bool),
     /// No evidence, because the file is meant to be edited.
     Edited,
@@ -316,7 +316,7 @@ enum Target {
 
 pub(super) fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
     let reason = match error.kind() {
-        // The file is made beside its name.
+        // A temporary file is created in the folder of the target.
         std::io::ErrorKind::NotFound => "its folder does not exist, or takes no files".to_owned(),
         _ => system_reason(error),
     };

@@ -1,4 +1,4 @@
-//! What is found in a robot file, and which of it is wanted: shared by `check` and `lsp`.
+//! The findings about a robot file, and the choice of those that are shown: shared by `check` and `lsp`.
 
 use clap::Args;
 use robot_build::RobotFile;

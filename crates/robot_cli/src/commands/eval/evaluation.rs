@@ -31,7 +31,7 @@ pub(super) struct Task<'e> {
     pub(super) handle: Option<Handle<'e>>,
     /// The reason why states must not have a wrench, if there is one.
     pub(super) unloadable: Option<String>,
-    /// Whether the chosen function takes a wrench, so that states without one are remarkable.
+    /// Whether the chosen function takes a wrench, so that a note is printed if no state has one.
     pub(super) takes_wrench: bool,
     pub(super) printer: Printer,
     /// The name of the robot file.

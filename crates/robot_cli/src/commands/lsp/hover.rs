@@ -30,7 +30,7 @@ fn of_key(key: &Key) -> String {
     format!("{}: {}, {presence}\n{}", key.name, words(key.content), key.doc)
 }
 
-/// What the value of a key is.
+/// Describes the value of a key.
 fn words(content: Content) -> String {
     let words = match content {
         Content::Format => "the number of the format",

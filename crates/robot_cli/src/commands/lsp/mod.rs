@@ -124,7 +124,7 @@ mod tests {
         arguments: Arguments,
     }
 
-    /// What is written for messages that have all arrived before the first is handled.
+    /// The messages that are written if all messages have arrived before the first is handled.
     fn written(messages: &[Value]) -> Vec<Value> {
         let (sender, receiver) = channel();
         messages.iter().for_each(|message| sender.send(Ok(message.clone())).unwrap());

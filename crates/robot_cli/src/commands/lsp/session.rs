@@ -20,7 +20,7 @@ enum ErrorCode {
     ServerNotInitialized = -32002,
 }
 
-/// How far the session is.
+/// The phase of the session.
 #[derive(Clone, Copy, PartialEq)]
 enum Phase {
     /// `initialize` has not been received.
@@ -54,7 +54,7 @@ impl<'a> Session<'a> {
         Session { options, phase: Phase::New, documents: BTreeMap::new(), relates: false }
     }
 
-    /// Whether the editor has asked for the end, as it must before it sends `exit`.
+    /// Whether the editor has sent `shutdown`, as it must before it sends `exit`.
     pub(super) fn is_shut_down(&self) -> bool {
         self.phase == Phase::ShutDown
     }
@@ -63,7 +63,7 @@ impl<'a> Session<'a> {
     ///
     /// # Errors
     ///
-    /// The reason why a message without an answer cannot be used; the session goes on.
+    /// The reason why a message without an answer cannot be used; the session continues.
     pub(super) fn receive(&mut self, message: Value) -> Result<Option<Value>, String> {
         let method = message.get("method").and_then(Value::as_str);
         match (message.get("id"), method) {
@@ -86,7 +86,7 @@ impl<'a> Session<'a> {
             }
             // Notifications before the start and after the end are dropped, as the protocol says.
             (None, Some(_)) => Ok(None),
-            // An answer of the editor; this server asks nothing.
+            // An answer of the editor; this server sends no requests.
             (Some(_), None) if message.get("result").or(message.get("error")).is_some() => Ok(None),
             _ => Err("a message has no `method`".to_owned()),
         }
@@ -155,7 +155,7 @@ impl<'a> Session<'a> {
             "didClose" => {
                 let closed = self.documents.remove(&uri);
                 closed.ok_or_else(|| not_open(&uri))?;
-                // What was shown refers to a text that may not have been saved.
+                // The diagnostics that were shown refer to a text that may not have been saved.
                 return Ok(Some(published(&uri, &Value::Null, &[])));
             }
             _ => {
@@ -190,7 +190,7 @@ impl<'a> Session<'a> {
     }
 }
 
-/// What the server can do.
+/// The capabilities of the server.
 fn capabilities() -> Value {
     // `change` 1: each change has the whole text.
     let sync = json!({ "openClose": true, "change": 1, "save": true });

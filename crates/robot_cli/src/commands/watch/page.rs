@@ -107,10 +107,10 @@ fn marked<'a>(path: &Path, text: &'a str) -> Output<'a> {
 mod tests {
     use super::*;
 
-    /// The user is told about a picture that stays; one that is gone already, or is not its own, is not an error.
+    /// A picture that cannot be removed is an error; a picture that no longer exists or that has another text is not.
     #[cfg(target_os = "linux")]
     #[test]
-    fn a_picture_that_cannot_be_removed_is_told() {
+    fn a_picture_that_cannot_be_removed_is_reported() {
         // Nobody may remove it.
         let path = Path::new("/proc/version");
         let text = std::fs::read_to_string(path).unwrap();

@@ -64,7 +64,7 @@ fn followed_with(
 }
 
 #[test]
-fn values_terms_and_operations_are_told() {
+fn values_terms_and_operations_are_shown() {
     let still = changed("gravity = [0, \"-g\", 0]", "gravity = [0, 0, 0]");
     let (is_good, output, errors) = followed([ARM, &heavier(), &still].map(look));
     assert!(is_good);
@@ -138,7 +138,7 @@ fn remarks_change_nothing() {
 }
 
 #[test]
-fn a_stale_plan_is_no_change_of_the_robot() {
+fn a_stale_plan_is_not_a_change_of_the_robot() {
     let robot = robot_build::read(look(ARM).source.as_ref().unwrap()).unwrap().robot;
     let found = search(&robot, &MechanismOptions::ROUNDED, Measure::Operations).unwrap();
     let folder = TempDir::new().unwrap();

@@ -1,4 +1,4 @@
-//! Words that names in printed C and C++ must not be.
+//! Words that cannot be names in printed C and C++.
 
 /// The reserved words of C and C++, in one list, so that printed code has the same names in both; then the macros and
 /// functions of the standard library that occur in printed code or that a name must not hide.

@@ -119,14 +119,14 @@ pub struct Body {
 /// A statement of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
-    /// A variable is a parameter of the module.
+    /// Assigns a parameter of the module to a variable.
     Parameter {
         /// The variable.
         name: String,
         /// The index of the parameter.
         parameter: usize,
     },
-    /// A variable is an entry of an input.
+    /// Assigns an entry of an input to a variable.
     Entry {
         /// The variable.
         name: String,
@@ -135,7 +135,7 @@ pub enum Statement {
         /// The index of the entry, from 0.
         entry: usize,
     },
-    /// Two variables are the sine and the cosine of an angle.
+    /// Assigns the sine and the cosine of an angle to two variables.
     Circular {
         /// The variable that is the sine.
         sine: String,
@@ -144,14 +144,14 @@ pub enum Statement {
         /// The angle, rad.
         angle: Expression,
     },
-    /// A variable is the value of an expression.
+    /// Assigns the value of an expression to a variable.
     Let {
         /// The variable.
         name: String,
         /// The value.
         value: Expression,
     },
-    /// Variables are the values that a part of the body returns; the index of the part.
+    /// Assigns the values that a part of the body returns to its variables; the part is given by its index.
     Part(usize),
 }
 

@@ -78,7 +78,7 @@ impl Circular {
     }
 
     /// Computes from `x`, which is the angle or NaN, and `k` the sine `s` and cosine `c` of the angle minus `k` right
-    /// angles, with intermediate variables `r` and `z`. `once` says that the multiply-adds of the language round once.
+    /// angles, with intermediate variables `r` and `z`. `once` is whether the multiply-adds of the language round once.
     pub fn rest(&self, language: &impl Arithmetic, once: bool) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let times = language.times();

@@ -1,4 +1,4 @@
-//! Words that names in printed JavaScript must not be.
+//! Words that cannot be names in printed JavaScript.
 
 /// The reserved words of all editions, then global names that printed code or its users need.
 pub(super) const RESERVED: &[&str] = &[

@@ -1,4 +1,4 @@
-//! Words that names in printed MATLAB must not be.
+//! Words that cannot be names in printed MATLAB.
 
 /// The keywords of MATLAB and Octave, then the functions and constants that printed code needs.
 pub(super) const RESERVED: &[&str] = &[

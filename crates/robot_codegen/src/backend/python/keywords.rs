@@ -1,4 +1,4 @@
-//! Words that names in printed Python must not be.
+//! Words that cannot be names in printed Python.
 
 /// The keywords, including soft ones, then the built-in names that printed code or its users call.
 pub(super) const RESERVED: &[&str] = &[

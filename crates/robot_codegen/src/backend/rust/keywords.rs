@@ -1,4 +1,4 @@
-//! Words that names in printed Rust must not be.
+//! Words that cannot be names in printed Rust.
 
 /// Words that cannot be identifiers or have a special meaning where names occur; then crates and
 /// types that a module with this name would hide from the code around it.
@@ -74,7 +74,7 @@ mod tests {
 
     /// Excludes words that are reserved only in some contexts and names that can be hidden.
     #[test]
-    fn reserved_words_are_no_identifiers_and_adapted_ones_are() {
+    fn reserved_words_are_not_identifiers_and_adapted_ones_are() {
         let identifiers = RESERVED.iter().filter(|word| syn::parse_str::<syn::Ident>(word).is_ok());
         let identifiers: Vec<&str> = identifiers.copied().collect();
         let expected = "gen union macro_rules raw safe alloc bool char core f32 f64 std";

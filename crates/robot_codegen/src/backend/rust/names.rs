@@ -24,7 +24,7 @@ impl Names {
     /// Makes the names, and the namer for further functions of `Model`.
     pub(super) fn new(module: &Module, setters: &[Setter]) -> (Names, Namer) {
         let parameters = module.parameters.iter().map(|parameter| parameter.name.as_str());
-        // Of a robot without parameters, `Model` is a value too.
+        // For a robot without parameters, `Model` is also a value.
         let mut methods = Namer::with(&["new", "new_lanes", "NOMINAL", "Model"]);
         let setters = setters.iter().map(|setter| methods.name(&setter.name).to_string());
         let setters = setters.collect();

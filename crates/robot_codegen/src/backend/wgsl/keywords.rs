@@ -1,4 +1,4 @@
-//! Words that names in printed WGSL must not be.
+//! Words that cannot be names in printed WGSL.
 
 /// The keywords and the reserved words of the language, then the types, functions and enumerants that printed code
 /// needs or that a name must not hide.

@@ -1,10 +1,10 @@
 //! Resubstitution: a value that equals a multiple of another computed value, or the sum or product of two of them,
 //! is computed from these.
 //!
-//! The other passes use the operations of a program; this one uses its values at sample points, in twice the
-//! precision of `f64`. So it finds relations that follow from no rule: terms that vanish, moments that are
-//! parallel, squares of a vector's length before and after a rotation. The technique comes from logic synthesis
-//! (Brayton, Hachtel and Sangiovanni-Vincentelli 1990) and is applied to numbers here.
+//! The other passes use the operations of a program; this one uses its values at sample points, in twice the precision
+//! of `f64`. So it finds relations that do not follow from any rule: terms that vanish, moments that are parallel,
+//! squares of a vector's length before and after a rotation. The technique comes from logic synthesis (Brayton, Hachtel
+//! and Sangiovanni-Vincentelli 1990) and is applied to numbers here.
 //!
 //! A replacement must agree with the replaced value at every point, to within the rounding error of the
 //! replaced evaluation. That is evidence, not a proof. Two unrelated numbers near 1 agree to within such a

@@ -18,7 +18,7 @@ pub(super) const POINTS: usize = 2;
 
 /// A coefficient counts if it is larger than its rounding error by this factor.
 const COUNTS: f64 = 1e3;
-/// The most variables that are told apart; if there are more, neighbors count as one.
+/// The most variables that are distinguished; if there are more, neighbors count as one.
 const VARIABLES: usize = 32;
 /// The most monomials of a polynomial.
 const MONOMIALS: usize = 600;
@@ -34,7 +34,7 @@ type Monomial = [u16; DEGREE];
 const ONE: Monomial = [0; DEGREE];
 /// The number of the variable that stands for all values of functions.
 const CALL: u16 = 1 + VARIABLES as u16;
-/// What is added to the number of a variable for its reciprocal.
+/// The difference between the number of the reciprocal of a variable and that of the variable.
 const INVERSE: u16 = CALL;
 /// The number of the first variable that stands for the reciprocal of a sum.
 const OF_SUM: u16 = 2 * CALL + 1;

@@ -106,7 +106,8 @@ fn a_sum_with_a_multiple_is_found() {
     assert_eq!(operations, 2);
 }
 
-/// Of y − c x with a c far below the rounding of y, whether the pass keeps the term: y may be as small as c.
+/// The pass keeps the term c x of y − c x even if c is far below the rounding error of y, because y may be as small as
+/// c.
 #[test]
 fn a_term_stays_however_small_its_constant_is() {
     let operations = |constant: f64, small: fn(&mut Builder) -> Value| {
@@ -116,7 +117,7 @@ fn a_term_stays_however_small_its_constant_is() {
         let weight = b.mul(constant, x);
         let (rest, both) = (b.sub(y, weight), b.add(y, weight));
         let inertia = b.load(Source::Input(1));
-        // Two uses each, as in forward dynamics: a force less a weight, by an inertia.
+        // Each has two uses, as in forward dynamics: a force minus a weight, divided by an inertia.
         let results = vec![b.div(rest, inertia), b.div(both, inertia), b.mul(rest, both)];
         let program = b.finish(results);
         let left = Counts::of(&with(Resubstitution::Multiples)(&program)).operations();
@@ -138,7 +139,8 @@ fn a_term_stays_however_small_its_constant_is() {
     }
 }
 
-/// Whether the pass keeps all operations of a program of the sine of an angle, a speed, a torque and a parameter.
+/// Whether the pass keeps all operations of a program, which `build` makes from the sine of an angle, a velocity, a
+/// torque and a parameter.
 fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
     let mut b = Builder::new();
     let loads = [Source::Sin(0), Source::Input(0), Source::Input(1), Source::Parameter(0)];
@@ -149,8 +151,8 @@ fn keeps(build: impl Fn(&mut Builder, [Value; 4]) -> Vec<Value>) -> bool {
     Counts::of(&found).operations() == Counts::of(&program).operations()
 }
 
-/// Of 9.81 sin q + c q̇², the second term counts at high speeds, also in what is computed from the sum: its product
-/// with another value, its quotient by a sum, and the difference of the torque.
+/// The second term of 9.81 sin q + c q̇² counts at high velocities, also in values that are computed from the sum: its
+/// product with another value, its quotient by a sum, and the difference of the torque.
 #[test]
 fn a_term_of_other_inputs_stays_however_small_it_is() {
     for constant in [1.5, 1e-9, 1e-17, 1e-30, 1e-100] {
@@ -279,7 +281,7 @@ fn trust_ends_where_rounding_may_reach_a_part_in_a_billion() {
 }
 
 #[test]
-fn an_absolute_value_is_no_argument() {
+fn an_absolute_value_is_not_replaced_by_its_argument() {
     let mut b = Builder::new();
     let x = b.load(Source::Input(0));
     let square = b.mul(x, x);
@@ -324,7 +326,7 @@ fn forms_cost_and_compute_what_they_say() {
 
 /// Keys are 30 bits of a number without its sign. Numbers that differ by less have the same key or neighboring ones.
 #[test]
-fn near_are_numbers_that_agree_to_nine_digits() {
+fn numbers_that_agree_to_nine_digits_are_near() {
     for number in [1.0, 1.75, 3e-7, 6e8] {
         assert_eq!(key(number), key(-number));
         let step = number * 2f64.powi(-30);
@@ -392,7 +394,7 @@ fn sums_of_much_larger_values_are_not_taken() {
 /// (x z u + y z)/z is x u + y, but this form is not taken if x u is (x + c w) u − c w u with a large c, which rounds a
 /// lot.
 #[test]
-fn values_that_round_much_more_are_no_terms() {
+fn values_that_round_much_more_are_not_terms() {
     let found = |size: f64| {
         let mut b = Builder::new();
         let [x, y, z, u, w] = [0, 1, 2, 3, 4].map(|index| b.load(Source::Input(index)));

@@ -12,7 +12,7 @@ pub enum Schedule {
     /// Depth first from the results, so that values are alive for a short time. Of two operands, the one that needs
     /// more registers comes first.
     DepthFirst,
-    /// The operation for which results wait longest comes first, as long as there are registers, so that a processor
+    /// The operation for which results wait longest comes first, while there are free registers, so that a processor
     /// has work while it waits (`schedule/throughput.rs`). Programs that are too long for one function are ordered
     /// depth first, so that few values are passed from one function to the next.
     #[default]
@@ -113,7 +113,7 @@ mod tests {
 
     #[test]
     fn values_live_no_longer() {
-        // The sum over all values of how long they live, over many programs.
+        // The sum of the live ranges of all values, over many programs.
         let lifetimes = |program: &Program| -> usize {
             let mut last: Vec<usize> = (0..program.operations().len()).collect();
             for (value, operation) in program.values() {

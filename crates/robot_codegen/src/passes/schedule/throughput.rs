@@ -5,10 +5,10 @@
 //! instructions ahead, so it does not find work at the other end of a function. Here, the operation for which
 //! results wait longest starts first.
 //!
-//! The model of a processor starts two products and two sums in each cycle, as current x86-64 and 64-bit ARM
-//! cores do. Its latencies are half of theirs (`latency.rs`), because they work on the next call while this one
-//! waits. Other values of the model change the time of a call by up to 2 % for the arms in `docs/performance.md`. While
-//! more values are alive than there are registers, operations that end the lives of others go first.
+//! The model of a processor starts two products and two sums in each cycle, as current x86-64 and 64-bit ARM cores do.
+//! Its latencies are half of theirs (`latency.rs`), because they work on the next call while this one waits. Other
+//! values of the model change the time of a call by up to 2 % for the arms in `docs/performance.md`. While more values
+//! are live than there are registers, operations that end the live ranges of others go first.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,7 +21,7 @@ use crate::program::{Operation, Program, Value};
 const PRODUCTS: usize = 2;
 /// The number of sums and changes of sign that start in a cycle.
 const SUMS: usize = 2;
-/// The number of live values from which on operations that end lives go first: 32 registers, minus a few for
+/// The number of live values from which on operations that end live ranges go first: 32 registers, minus a few for
 /// operands from memory.
 const REGISTERS: isize = 24;
 
@@ -61,7 +61,7 @@ struct List<'p> {
     missing: Vec<usize>,
     /// For each value, the number of operations that still need it, plus one if it is a result.
     needed: Vec<usize>,
-    /// For each operation, the number of operands that no other operation still needs: their lives end with it.
+    /// For each operation, the number of operands that no other operation still needs: their live ranges end with it.
     ends: Vec<isize>,
     /// For each operation, the cycle in which its operands are known.
     start: Vec<u32>,
@@ -245,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn few_values_live_where_many_could() {
+    fn few_values_are_live_although_many_could_be() {
         // A hundred products of two loads each, summed from the first to the last. All could start
         // at once, but would then have to wait for their sums.
         let mut builder = Builder::new();
@@ -376,7 +376,7 @@ mod tests {
 
     /// A value that is both operands of an operation counts as one operand.
     #[test]
-    fn operands_are_told_once() {
+    fn operands_are_listed_once() {
         let (x, y) = (Value(3), Value(5));
         let each = |operation| distinct(operation).collect::<Vec<_>>();
         assert_eq!(each(Operation::Mul(x, x)), [x]);
@@ -386,7 +386,7 @@ mod tests {
         assert!(each(Operation::Load(Source::Input(0))).is_empty());
     }
 
-    /// The life of a value ends with the last operation that needs it, except for results and loads.
+    /// The live range of a value ends with the last operation that needs it, except for results and loads.
     #[test]
     fn growth_is_one_less_what_ends() {
         let mut b = Builder::new();

@@ -70,7 +70,7 @@ pub(crate) fn right_side(
 struct Limits {
     first: f64,
     rest: f64,
-    /// What the last line leaves free.
+    /// The width that the last line leaves free for the number.
     number: f64,
 }
 

@@ -170,8 +170,8 @@ mod tests {
     use crate::economical::{Plan, Recursion};
     use crate::mechanism::{Mechanism, MechanismOptions};
 
-    /// Of fewer than nine coordinates, the mass matrix has the form of the plan. Of more, it has the cheapest form, which is
-    /// another for chains about arbitrary axes.
+    /// With fewer than nine coordinates, the mass matrix has the form of the plan. With nine or more, it has the
+    /// cheapest form, which is another one for chains with joints about arbitrary axes.
     #[test]
     fn other_forms_are_tried_from_nine_coordinates_on() {
         for joints in 6..=11 {

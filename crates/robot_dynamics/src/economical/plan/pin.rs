@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn other_text_is_no_pin() {
+    fn other_text_is_not_a_pinned_plan() {
         let pin = Pin {
             fingerprint: String::new(),
             digest: String::new(),

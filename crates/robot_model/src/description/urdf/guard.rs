@@ -124,7 +124,7 @@ mod tests {
         assert!(check(&namespaces(MAX_NAMESPACES + 1)).is_some());
     }
 
-    /// Reading goes on directly behind what is skipped.
+    /// Reading continues directly after skipped text.
     #[test]
     fn elements_behind_what_is_skipped_are_counted() {
         let open = |depth: usize| "<a>".repeat(depth);

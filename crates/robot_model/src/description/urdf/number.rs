@@ -140,7 +140,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_wrong_with_a_number_is_told() {
+    fn what_is_wrong_with_a_number_is_reported() {
         for (word, reason) in [
             ("1_500", "is not a number"),
             ("1e", "is not a number"),

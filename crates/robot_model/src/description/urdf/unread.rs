@@ -137,7 +137,7 @@ mod tests {
 
     /// Elements that do not affect the dynamics are not reported: a reduction of 1, a motor without inertia.
     #[test]
-    fn gears_and_motors_that_act_are_told_from_those_that_do_not() {
+    fn gears_and_motors_that_act_are_distinguished_from_others() {
         for name in ["mechanicalReduction", "mechanical_reduction"] {
             for (text, acts) in
                 [("1", false), ("1.0", false), ("50", true), ("0", true), ("-1", true), ("", true)]
@@ -156,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn forces_of_a_simulator_are_told_from_its_other_settings() {
+    fn forces_of_a_simulator_are_distinguished_from_its_other_settings() {
         for (name, text, acts) in [
             ("turnGravityOff", "1", true),
             ("turnGravityOff", "true", true),

@@ -24,7 +24,7 @@ fn properties_that_files_do_not_mention_are_left_out() {
         (Joint, "viscous friction", "1", false),
         (Link, "Ixx", "0", true),
         (Link, "Ixx", "0.1", false),
-        // A mass of 0 is said.
+        // A mass of 0 is printed.
         (Link, "mass", "0", false),
         (Link, "body of hand: mass", "0", false),
         (Link, "body of hand: Ixx", "0", true),

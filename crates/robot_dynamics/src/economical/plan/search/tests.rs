@@ -36,7 +36,7 @@ fn the_steps_are_those_of_xorshift() {
     assert_eq!(Steps(1).below(0), 0);
 }
 
-/// The values that plans are compared at differ between symbols and between states.
+/// The values at which plans are compared differ between symbols and between states.
 #[test]
 fn states_differ_in_every_symbol() {
     let states: Vec<Vec<f64>> = (0..4).map(|state| test_state(state, 60)).collect();
@@ -46,7 +46,8 @@ fn states_differ_in_every_symbol() {
     assert!(all.windows(2).all(|pair| pair[1] - pair[0] > 1e-6));
 }
 
-/// The plan that is found costs what is said, no more than any plan to start from, and less than most.
+/// The plan that is found has the stated cost, which is no higher than that of any starting plan and lower than that of
+/// at least one.
 #[test]
 fn no_start_is_cheaper_than_what_is_found() {
     for name in ["scara", "stanford", "planar_3r"] {
@@ -60,8 +61,8 @@ fn no_start_is_cheaper_than_what_is_found() {
     }
 }
 
-/// A plan under which the values are wrong is not taken, however little it costs: neither a start nor a
-/// change, whether the values are off or not numbers.
+/// A plan with wrong values is not accepted, however low its cost: neither as a starting plan nor as a change, and
+/// whether the values deviate or are NaN.
 #[test]
 fn a_cheap_plan_with_wrong_values_is_not_taken() {
     let robot = robot("scara");
@@ -91,7 +92,7 @@ fn a_cheap_plan_with_wrong_values_is_not_taken() {
 
 /// Trees and long chains are searched limb by limb, other chains as a whole.
 #[test]
-fn limbs_are_searched_where_there_are_several_or_a_long_one() {
+fn limbs_are_searched_if_there_are_several_or_a_long_one() {
     use robot_numeric::random::{Random, Recipe};
     let applies = |joints: usize, change: &dyn Fn(&mut Robot)| {
         let mut robot = robot_numeric::robots::robot(&mut Random::new(3), &Recipe::serial(joints));
