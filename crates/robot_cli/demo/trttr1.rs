@@ -37,9 +37,9 @@
 pub mod trttr1 {
     /// The robot's name.
     pub const ROBOT: &str = "TRTTR1";
-    /// The number of generalized coordinates.
+    /// The number of coordinates.
     pub const DOF: usize = 5;
-    /// The names of the joints, in the order of the generalized coordinates.
+    /// The names of the joints, in the order of the coordinates.
     pub const JOINT_NAMES: [&str; 5] = ["1", "2", "3", "4", "5"];
     /// The parameters of trttr1.
     #[derive(Clone, Copy, Debug, PartialEq)]

@@ -36,7 +36,8 @@ pub(crate) fn read(path: &Path, terminal: &mut Terminal<'_>) -> Result<(String, 
         read.map_err(|error| cannot_open(path, &name, &error))?;
     }
     if bytes.len() as u64 > MAX_BYTES {
-        return Err(Failure::input(format!("{name} has more than {} MiB", MAX_BYTES >> 20)));
+        let limit = MAX_BYTES >> 20;
+        return Err(Failure::input(format!("{name} has more than {limit} MiB; split it")));
     }
     let text = String::from_utf8(bytes)
         .map_err(|error| Failure::input(not_utf8(&name, 0, error.utf8_error())))?;

@@ -2,7 +2,8 @@
 //!
 //! [`prove`] compiles a robot's functions with the user's own `rustc`, in the way Cargo's profiles do, reads the
 //! object file and compares it with the claim of the generator: **no conditional jump, no panic, and no call except
-//! that of the sines and cosines**. Each violation of the claim is a [`Violation`].
+//! that of the sines and cosines**. The jumps by which a function chooses its copy for the processor are counted
+//! apart. Each violation of the claim is a [`Violation`].
 //!
 //! | | dev | release |
 //! |---|---|---|

@@ -46,7 +46,7 @@ impl Parse for Arguments {
                 arguments.set(&key, &input.parse()?)
             };
             let twice =
-                || syn::Error::new(key.span(), format!("`{key}` is given twice; keep one of them"));
+                || syn::Error::new(key.span(), format!("`{key}` is given twice; leave one out"));
             let result = if seen.contains(&key) { Err(twice()) } else { result };
             if let Err(error) = result {
                 match &mut errors {

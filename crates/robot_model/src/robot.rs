@@ -26,7 +26,7 @@ pub struct Robot {
     pub base_frames: BaseFrames,
     /// The symbols that remain parameters of equations and code, in the order of the file.
     pub parameters: Vec<Parameter>,
-    /// The generalized coordinates q₁ … qₙ.
+    /// The coordinates q₁ … qₙ.
     pub coordinates: Vec<Coordinate>,
     /// The moving links, parents before children.
     pub links: Vec<Link>,
@@ -380,7 +380,7 @@ pub struct Wrench {
 }
 
 impl Robot {
-    /// The number of generalized coordinates.
+    /// The number of coordinates.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         self.coordinates.len()

@@ -181,7 +181,7 @@ fn formulas(
                         "`{shown}` is not part of a trajectory; its parts are {names}"
                     ));
                 } else if formulas.insert(name.to_owned(), formula).is_some() {
-                    wrong.push(format!("`{shown}` is given twice"));
+                    wrong.push(format!("`{shown}` is given twice; leave one out"));
                 }
             }
         }

@@ -186,12 +186,12 @@ pub(crate) fn constants(programs: &Programs) -> Vec<ConstantItem> {
         item("ROBOT", "The robot's name.", ConstantValue::Text(robot.name.clone())),
         item(
             "DOF",
-            "The number of generalized coordinates.",
+            "The number of coordinates.",
             ConstantValue::Size(coordinates.len()),
         ),
         item(
             "JOINT_NAMES",
-            "The names of the joints, in the order of the generalized coordinates.",
+            "The names of the joints, in the order of the coordinates.",
             ConstantValue::Texts(names.collect()),
         ),
     ];

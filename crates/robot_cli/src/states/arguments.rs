@@ -70,7 +70,7 @@ impl StateArguments {
             match wrench(text, layout) {
                 Ok((index, _)) if state.at(index).is_some() => {
                     let name = &layout.arrays[index].name;
-                    wrong.push(format!("--wrench: `{name}` is given twice"));
+                    wrong.push(format!("--wrench: `{name}` is given twice; leave one out"));
                 }
                 Ok((index, values)) => *state.begin_array(index) = values,
                 Err(found) => wrong.extend(found),

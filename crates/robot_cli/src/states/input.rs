@@ -271,7 +271,8 @@ impl<R: Read> Read for Text<'_, R> {
         self.budget.read.set(read);
         if read > MAX_BYTES + 2 * CHUNK as u64 {
             let (number, limit) = (self.budget.element.get().max(1), MAX_BYTES >> 20);
-            return Err(Error::other(format!("{name}: state {number} has more than {limit} MiB")));
+            let reason = format!("state {number} has more than {limit} MiB; is its array closed?");
+            return Err(Error::other(format!("{name}: {reason}")));
         }
         self.unchecked.extend_from_slice(&buffer[..count]);
         match str::from_utf8(&self.unchecked) {

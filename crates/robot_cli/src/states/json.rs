@@ -113,7 +113,7 @@ fn state<'l>(
     let place = state.place;
     for (index, (key, value)) in object.iter().enumerate() {
         if object[..index].iter().any(|(earlier, _)| earlier == key) {
-            sink.error(format!("{place}: `{}` is given twice", quote(key)));
+            sink.error(format!("{place}: `{}` is given twice; leave one out", quote(key)));
             continue;
         }
         let Some(index) = layout.position(key) else {

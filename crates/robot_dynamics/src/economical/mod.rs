@@ -94,7 +94,7 @@ impl<'g> Recursion<'g> {
         self.chain.graph
     }
 
-    /// The number of generalized coordinates.
+    /// The number of coordinates.
     #[must_use]
     pub fn degrees_of_freedom(&self) -> usize {
         self.chain.degrees_of_freedom

@@ -52,7 +52,7 @@ pub struct Mechanism<'g> {
     pub links: Vec<MechanismLink<'g>>,
     /// The named frames.
     pub frames: Vec<MechanismFrame<'g>>,
-    /// The number of generalized coordinates.
+    /// The number of coordinates.
     pub degrees_of_freedom: usize,
     /// The constant angles that were snapped.
     pub snapped: Vec<Snap>,

@@ -58,7 +58,9 @@ impl<R: BufRead> Lines<R> {
         self.number += 1;
         if self.line.len() > MAX_BYTES {
             let (number, limit) = (self.number, MAX_BYTES >> 20);
-            return Err(Error::input(format!("{source}: line {number} has more than {limit} MiB")));
+            return Err(Error::input(format!(
+                "{source}: line {number} has more than {limit} MiB; write one state per line"
+            )));
         }
         Ok(())
     }

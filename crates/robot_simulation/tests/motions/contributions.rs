@@ -206,7 +206,7 @@ fn what_is_wrong_with_a_trajectory_is_named() {
         lines[1].starts_with("`q3` is not part of a trajectory; its parts are q1, q2"),
         "{shown}"
     );
-    assert_eq!(lines[2], "`q2` is given twice");
+    assert_eq!(lines[2], "`q2` is given twice; leave one out");
     // The expression for `q1` is wrong, but it is there.
     assert_eq!(lines.len(), 3, "{shown}");
     let error = Trajectory::from_expressions(robot, &[], &["q2 = t"], 1.0, 0.1).unwrap_err();

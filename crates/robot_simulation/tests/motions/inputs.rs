@@ -33,7 +33,7 @@ fn expressions_know_time_state_and_parameters() {
         lines[1..],
         [
             "torque `3` does not match a joint; the joints are 1 to 2, by name 1, 2",
-            "torque `1` is given twice",
+            "torque `1` is given twice; leave one out",
             "torque `2 = tau1`: `tau1` is not known here; the known names are t, q1 …, qd1 … and the robot's \
              parameters",
             "torque `7` is not an assignment; write NAME = EXPRESSION",

@@ -33,7 +33,7 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
     let mut lines = comment::of_paragraphs(&[
         format!("`{plain}` of `n` states."),
         String::new(),
-        "Entry j of state i stands at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at \
+        "Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at \
          least `n`."
             .to_owned(),
     ]);

@@ -87,7 +87,7 @@ pub(super) fn kernel(header: &Header<'_>, function: &Function<'_>) -> Vec<String
     let mut lines = comment::of_paragraphs(&[
         format!("`{plain}` of `n` states, on a grid of any size of one dimension."),
         String::new(),
-        "Entry j of state i stands at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at \
+        "Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at \
          least `n`. Arrays are in the memory of the device."
             .to_owned(),
     ]);

@@ -148,7 +148,7 @@ impl Printer<'_> {
         let mut lines = vec![String::new(), String::new(), "@_dataclass".to_owned()];
         lines.push("class Parameters:".to_owned());
         let doc = format!(
-            "The parameters of {title}; those with a nominal value have it if nothing is said."
+            "The parameters of {title}; those with a nominal value have it by default."
         );
         lines.extend(docstring(&[doc], "    "));
         lines.push(String::new());

@@ -101,7 +101,7 @@ pub(super) fn model(scope: &mut Scope<'_>) -> Vec<Item> {
         return vec![
             parse_quote!(#(#docs)* #[derive(Clone, Copy, Debug, Default, PartialEq)] pub struct Model;),
             parse_quote!(impl Model {
-                /// The model: there is one only.
+                /// The only model.
                 pub const NOMINAL: Model = Model;
             }),
         ];

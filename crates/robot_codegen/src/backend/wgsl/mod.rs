@@ -130,7 +130,7 @@ impl Printer<'_> {
             ["inputs", "outputs", "size", "model"].map(|name| self.private(name));
         let (size_type, model_type) = (self.private("size_of"), self.private("model_of"));
         let text = format!(
-            "// The buffers of all kernels. Entry j of state i stands at `[j * stride + i]`: a column for each entry, `stride` \
+            "// The buffers of all kernels. Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` \
              apart. Entries of
 // all inputs are counted together, and so are those of all outputs. `stride` is at least `n`.
 @group(0) @binding(0) var<storage, read> {inputs}: array<f32>;

@@ -144,7 +144,7 @@ def _expm1(y):
 
 @_dataclass
 class Parameters:
-    """The parameters of python; those with a nominal value have it if nothing is said."""
+    """The parameters of python; those with a nominal value have it by default."""
 
     # p; nominally 0.75.
     p: float = 0.75

@@ -4,7 +4,7 @@
 // - Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for larger angles the sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without bound.
 // - WGSL leaves the rounding of sums of products open, and what is not a number: last bits differ from machine to machine.
 
-// The buffers of all kernels. Entry j of state i stands at `[j * stride + i]`: a column for each entry, `stride` apart. Entries of
+// The buffers of all kernels. Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart. Entries of
 // all inputs are counted together, and so are those of all outputs. `stride` is at least `n`.
 @group(0) @binding(0) var<storage, read> wgsl__inputs_: array<f32>;
 @group(0) @binding(1) var<storage, read_write> wgsl__outputs_: array<f32>;

@@ -4,7 +4,7 @@
 // - Angles may be of any size: sines and cosines come from the standard library.
 // - WGSL leaves the rounding of sums of products open, and what is not a number: last bits differ from machine to machine.
 
-// The buffers of all kernels. Entry j of state i stands at `[j * stride + i]`: a column for each entry, `stride` apart. Entries of
+// The buffers of all kernels. Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart. Entries of
 // all inputs are counted together, and so are those of all outputs. `stride` is at least `n`.
 @group(0) @binding(0) var<storage, read> wgsl_standard_inputs_: array<f32>;
 @group(0) @binding(1) var<storage, read_write> wgsl_standard_outputs_: array<f32>;
