@@ -184,11 +184,7 @@ pub(crate) fn constants(programs: &Programs) -> Vec<ConstantItem> {
     let names = coordinates.iter().map(|coordinate| coordinate.joint.clone());
     let mut items = vec![
         item("ROBOT", "The robot's name.", ConstantValue::Text(robot.name.clone())),
-        item(
-            "DOF",
-            "The number of coordinates.",
-            ConstantValue::Size(coordinates.len()),
-        ),
+        item("DOF", "The number of coordinates.", ConstantValue::Size(coordinates.len())),
         item(
             "JOINT_NAMES",
             "The names of the joints, in the order of the coordinates.",

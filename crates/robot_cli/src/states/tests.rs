@@ -84,8 +84,10 @@ fn everything_that_is_wrong_with_json_is_named() {
     ];
     assert_eq!(errors(text), expected);
     let twice = r#"[{"q": [1, 2], "q": [3, 4], "qd": [1, {"a": 1, "a": 2}]}]"#;
-    let expected =
-        ["state 1: `q` is given twice; leave one out", "state 1: `qd` has an object at entry 2, not a number"];
+    let expected = [
+        "state 1: `q` is given twice; leave one out",
+        "state 1: `qd` has an object at entry 2, not a number",
+    ];
     assert_eq!(errors(twice), expected);
     assert!(errors("{}")[0].contains("expected an array of states"));
     assert!(errors("[{")[0].contains("the text ends too early, at line 1, column 2"));

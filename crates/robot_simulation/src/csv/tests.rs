@@ -154,5 +154,8 @@ fn what_is_not_text_is_reported_with_its_place_in_the_whole() {
 #[test]
 fn a_line_without_end_is_refused() {
     let mut lines = Lines::new("a", std::io::BufReader::new(std::io::repeat(b'1')));
-    assert_eq!(lines.next_line().unwrap_err().to_string(), "a: line 1 has more than 1 MiB; write one state per line");
+    assert_eq!(
+        lines.next_line().unwrap_err().to_string(),
+        "a: line 1 has more than 1 MiB; write one state per line"
+    );
 }

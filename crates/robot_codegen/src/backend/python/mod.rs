@@ -147,9 +147,8 @@ impl Printer<'_> {
         let title = common::markdown_line(&self.tree.module.name);
         let mut lines = vec![String::new(), String::new(), "@_dataclass".to_owned()];
         lines.push("class Parameters:".to_owned());
-        let doc = format!(
-            "The parameters of {title}; those with a nominal value have it by default."
-        );
+        let doc =
+            format!("The parameters of {title}; those with a nominal value have it by default.");
         lines.extend(docstring(&[doc], "    "));
         lines.push(String::new());
         let specs = self.tree.module.parameters.iter();
