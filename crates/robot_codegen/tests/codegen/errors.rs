@@ -64,7 +64,7 @@ fn of_specifications() {
 
     let (other, mut spec) = (Graph::new(), module(value));
     spec.functions[0].outputs.push(vector("far", "", vec![other.symbol("q1")]));
-    let found = one(compiled(&spec), &["`far`", "another graph"]);
+    let found = one(compiled(&spec), &["`far`", "a different graph"]);
     assert!(matches!(found, Error::ForeignGraph { .. }));
 
     let undefined = value / (graph.symbol("q1") - graph.symbol("q1"));
