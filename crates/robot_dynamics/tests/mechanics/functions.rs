@@ -2,7 +2,7 @@
 
 use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
 use robot_dynamics::economical::{Plan, Solver};
-use robot_dynamics::functions::{Derivation, Output};
+use robot_dynamics::functions::{Derivation, Output, undetermined};
 use robot_dynamics::matrix::Pivots;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::functions::{Bundle, Effects, FunctionKind, coupled};
@@ -10,7 +10,7 @@ use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
 use robot_numeric::random::{Random, Recipe};
 use robot_numeric::robots;
-use robot_symbolic::{Expr, Graph, operations};
+use robot_symbolic::{Expr, Graph, operations, walk};
 
 use crate::{STATES, TOLERANCE};
 use robot_testing::place::{Layout, Off};
@@ -320,6 +320,60 @@ fn forward_dynamics_says_how_it_solves() {
         assert!(said.contains("Uses the articulated-body algorithm"), "{said}");
         assert!(said.contains("are NaN"), "{said}");
     }
+}
+
+/// A function takes the wrenches of the tips if its values depend on them, and all else on which they depend.
+#[test]
+fn functions_take_what_they_depend_on() {
+    for name in ["scara", "stanford"] {
+        let robot = robot_testing::robot(name);
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let wrenches: Vec<&str> =
+            robot.tips().flat_map(|(_, wrench)| wrench.components()).collect();
+        let (mut with, mut without) = (0, 0);
+        for function in
+            FunctionKind::of_robot(&robot).iter().flat_map(|kind| derivation.functions(*kind))
+        {
+            let values: Vec<Expr<'_>> =
+                function.outputs.iter().flat_map(|output| output.values.clone()).collect();
+            let used: Vec<String> = walk::symbols(&values)
+                .into_iter()
+                .map(|symbol| graph.symbol_name(symbol))
+                .collect();
+            let taken: Vec<&String> =
+                function.inputs.iter().flat_map(|input| &input.symbols).collect();
+            for symbol in &used {
+                let known = taken.contains(&symbol) || robot.parameter(symbol).is_some();
+                assert!(known, "{name}, {}: {symbol}", function.name);
+            }
+            let uses_wrenches = used.iter().any(|symbol| wrenches.contains(&symbol.as_str()));
+            let takes_wrenches = taken.iter().any(|symbol| wrenches.contains(&symbol.as_str()));
+            assert_eq!(takes_wrenches, uses_wrenches, "{name}, {}", function.name);
+            *(if takes_wrenches { &mut with } else { &mut without }) += 1;
+        }
+        assert!(with > 2 && without > 10, "{name}: {with} {without}");
+    }
+}
+
+/// The joint torques do not determine the acceleration of a joint that moves no mass, nor those of two joints about one
+/// axis with no mass between them.
+#[test]
+fn joints_whose_accelerations_are_not_determined() {
+    let body = "mass = 0.8\ncenter_of_mass = [0.03, 0.02, 0.05]\ninertia = { xx = 0.004, yy = 0.003, zz = 0.002 }";
+    let of = |links: &[(&str, &str)]| {
+        let links = (1..).zip(links).map(|(number, (axis, body))| {
+            let joint = format!("joint = {{ type = \"revolute\", axis = \"{axis}\" }}");
+            format!("[[link]]\nname = \"link{number}\"\n{joint}\n{body}\n")
+        });
+        let text = format!("format = 1\n[robot]\nname = \"arm\"\n{}", links.collect::<String>());
+        undetermined(&robot_testing::read("arm", &text))
+    };
+    let idle = "massless = true";
+    assert_eq!(of(&[("z", body)]), [0; 0]);
+    assert_eq!(of(&[("z", idle), ("y", body)]), [0; 0]);
+    assert_eq!(of(&[("z", body), ("y", idle)]), [1]);
+    assert_eq!(of(&[("y", body), ("z", idle), ("z", body)]), [1, 2]);
 }
 
 /// Outputs of a bundle have the names of their functions, of functions with several outputs the outputs' own, with the
