@@ -82,7 +82,7 @@ pub(crate) fn rust_text(
 /// The names of the items of the printed module.
 #[must_use]
 pub fn names(programs: &Programs) -> Names {
-    rust::names(&programs.module, &setters(&programs.robot))
+    rust::names(&programs.module, &setters(&programs.robot), &constants(programs))
 }
 
 /// The options for printing the module.

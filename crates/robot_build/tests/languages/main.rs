@@ -72,6 +72,32 @@ fn functions_over_columns_of_a_single_joint_use_all_parameters() {
     }
 }
 
+/// Functions differ from the constants of their module, and parameters from the helpers that compute with them.
+#[test]
+fn names_of_robot_files_do_not_hide_those_that_printers_use() {
+    let text = ARM
+        .replace("m = {", "sqrt_ = { value = 4.0, unit = \"1\" }\nm = {")
+        .replace("\"l\"", "\"l*sqrt(sqrt_)\"")
+        + "[code]\nfunctions = [\"gravity\"]\n[code.bundles]\nDOF = [\"gravity\", \"energies\"]\n";
+    let source = Source { name: "a.toml".to_owned(), text };
+    let files = |language| package(&source, &Options::default(), language).unwrap();
+    let cases = [
+        (Language::JavaScript, "pendulum.mjs", "export function DOF_2(", "export function DOF("),
+        (Language::Python, "pendulum.py", "def DOF_2(", "def DOF("),
+        (Language::Rust, "lib.rs", "fn DOF_2(", "fn DOF("),
+        (Language::Matlab, "create_model.m", "sqrt_(sqrt__2)", "sqrt_(sqrt_)"),
+    ];
+    for (language, file, expected, wrong) in cases {
+        let files = files(language);
+        let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+        let texts = files.iter().filter_map(|file| file.contents.text());
+        let text: String = texts.collect();
+        assert!(paths.iter().any(|path| path.ends_with(file)), "{file} in {paths:?}");
+        assert!(text.contains(expected), "{}: {text}", language.name());
+        assert!(!text.contains(wrong), "{}: {text}", language.name());
+    }
+}
+
 /// A file of a package as text.
 fn text_of<'f>(files: &'f [robot_build::File], name: &str) -> &'f str {
     files.iter().find(|file| file.path.ends_with(name)).unwrap().contents.text().unwrap()

@@ -76,7 +76,11 @@ fn what_is_waived_is_waived_at_every_command() {
     for arguments in commands {
         let outcome = run_with(arguments, state.as_bytes());
         assert_eq!(outcome.code, 1, "{arguments:?}");
-        assert!(outcome.errors.contains("read the file with `--allow-unphysical`"), "{}", outcome.errors);
+        assert!(
+            outcome.errors.contains("read the file with `--allow-unphysical`"),
+            "{}",
+            outcome.errors
+        );
         let outcome = run_with(&[arguments, &["--allow-unphysical"]].concat(), state.as_bytes());
         assert_eq!(outcome.code, 0, "{arguments:?}: {}", outcome.errors);
         assert!(outcome.errors.contains("warning[R0503]"), "{}", outcome.errors);

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use robot_codegen::backend::common::{Setter, SetterArgument};
+use robot_codegen::backend::common::{ConstantItem, ConstantValue, Setter, SetterArgument};
 use robot_codegen::backend::rust::{RustOptions, generate, names, output_names};
 use robot_codegen::spec::*;
 use robot_codegen::{Interpreter, Module, Options};
@@ -35,9 +35,10 @@ const PARAMETERS: [&str; 20] = [
     "self_",
     "box",
 ];
-/// The names of the functions: reserved words, names of forms of other functions, and names of items of a model.
-const FUNCTIONS: [&str; 9] =
-    ["fn", "fn_", "f", "f_sc", "f_batch", "new", "NOMINAL", "model", "with_payload"];
+/// The names of the functions: reserved words, names of forms of other functions, of items of a model, and of a
+/// constant.
+const FUNCTIONS: [&str; 10] =
+    ["fn", "fn_", "f", "f_sc", "f_batch", "new", "NOMINAL", "model", "with_payload", "DOF"];
 const INPUTS: [(&str, [&str; 2]); 3] =
     [("self", ["as", "in"]), ("loop", ["loop_", "s"]), ("result", ["count", "half"])];
 const OUTPUTS: [&str; 3] = ["match", "match_", "self"];
@@ -96,12 +97,16 @@ fn setter() -> Setter {
     }
 }
 
+fn constant() -> ConstantItem {
+    ConstantItem { name: "dof".into(), doc: String::new(), value: ConstantValue::Size(2) }
+}
+
 /// Valid names stay as they are; the others are adapted to differ from them.
 #[test]
 fn names_that_can_stand_stand() {
     let graph = Graph::new();
     let module = Module::compile(&specification(&graph), &Options::default()).unwrap();
-    let found = names(&module, &[setter()]);
+    let found = names(&module, &[setter()], &[constant()]);
     assert_eq!(
         found.parameters.join(" "),
         "match__2 match_ match_2 fn_ self__2 Self_ crate_ gen_ f64_ f32_ core_ std_ T Model \
@@ -109,7 +114,7 @@ fn names_that_can_stand_stand() {
     );
     assert_eq!(
         found.functions.join(" "),
-        "fn__2 fn_ f f_sc f_batch new_2 NOMINAL_2 model with_payload_2"
+        "fn__2 fn_ f f_sc f_batch new_2 NOMINAL_2 model with_payload_2 DOF_2"
     );
     assert_eq!((found.module.as_str(), found.setters.join(" ")), ("core_", "with_payload".into()));
     assert_eq!(output_names(&module.functions[1]).join(" "), "match__2 match_ self_");
@@ -119,9 +124,10 @@ fn names_that_can_stand_stand() {
 fn code_with_reserved_names_compiles_and_gives_the_values() {
     let graph = Graph::new();
     let module = Module::compile(&specification(&graph), &Options::default()).unwrap();
-    let setters = vec![setter()];
-    let names = names(&module, &setters);
-    let options = RustOptions { setters, generic: true, batch: Some(4), ..RustOptions::default() };
+    let (setters, constants) = (vec![setter()], vec![constant()]);
+    let names = names(&module, &setters, &constants);
+    let options =
+        RustOptions { setters, constants, generic: true, batch: Some(4), ..RustOptions::default() };
     let code = generate(&module, &options).unwrap().to_text();
     let mut text = format!("#![deny(warnings)]\n{code}\nfn main() {{\n");
     let state = [[0.5, -1.25], [0.75, 2.0], [-0.5, 1.5]];

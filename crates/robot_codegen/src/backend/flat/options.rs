@@ -17,3 +17,12 @@ pub struct FlatOptions {
     /// Functions that set several parameters together.
     pub setters: Vec<Setter>,
 }
+
+impl FlatOptions {
+    /// Returns the names that functions of the module must not have: those in `used`, which the printer uses itself,
+    /// and those of the constants.
+    pub(in crate::backend) fn taken(&self, used: &[&str]) -> Vec<String> {
+        let constants = self.constants.iter().map(|item| item.name.to_uppercase());
+        used.iter().map(|name| (*name).to_owned()).chain(constants).collect()
+    }
+}

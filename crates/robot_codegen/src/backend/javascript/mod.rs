@@ -56,7 +56,9 @@ impl Target for JavaScript {
 /// The tree of a module as JavaScript prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
+    let taken = options.taken(TAKEN);
+    let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
+    Tree::new(module, &LANGUAGE, &taken, &[], &options.setters)
 }
 
 pub(in crate::backend) struct Printer<'a> {

@@ -27,8 +27,22 @@ pub const LANGUAGE: Language = Language {
 };
 
 /// Names that printed functions use in addition to those of the module.
-const TAKEN: &[&str] =
-    &["model", "parameters", "nominal", "create_model", "n", "mass", "center_of_mass", "inertia"];
+const TAKEN: &[&str] = &[
+    "model",
+    "parameters",
+    "nominal",
+    "create_model",
+    "n",
+    "mass",
+    "center_of_mass",
+    "inertia",
+    "sin_cos_",
+    "sin_",
+    "cos_",
+    "sqrt_",
+    "recip_positive_",
+    "tanh_",
+];
 
 /// The printer of MATLAB.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -55,7 +55,9 @@ impl Target for Python {
 /// The tree of a module as Python prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
+    let taken = options.taken(TAKEN);
+    let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
+    Tree::new(module, &LANGUAGE, &taken, &[], &options.setters)
 }
 
 struct Printer<'a> {

@@ -1,7 +1,7 @@
 //! The names of a module's items, for code that calls them.
 
 use super::namer::{Namer, identifier};
-use crate::backend::common::Setter;
+use crate::backend::common::{ConstantItem, Setter};
 use crate::module::{Function, Module};
 
 /// The names of a module's items. A name that is reserved or taken is adapted, so code that calls the module must take
@@ -22,10 +22,17 @@ pub struct Names {
 
 impl Names {
     /// Makes the names, and the namer for further functions of `Model`.
-    pub(super) fn new(module: &Module, setters: &[Setter]) -> (Names, Namer) {
+    pub(super) fn new(
+        module: &Module,
+        setters: &[Setter],
+        constants: &[ConstantItem],
+    ) -> (Names, Namer) {
         let parameters = module.parameters.iter().map(|parameter| parameter.name.as_str());
         // For a robot without parameters, `Model` is also a value.
         let mut methods = Namer::with(&["new", "new_lanes", "NOMINAL", "Model"]);
+        for constant in constants {
+            methods.name(&constant.name.to_uppercase());
+        }
         let setters = setters.iter().map(|setter| methods.name(&setter.name).to_string());
         let setters = setters.collect();
         let functions = module.functions.iter().map(|function| function.name.as_str());
@@ -40,10 +47,10 @@ impl Names {
     }
 }
 
-/// Returns the names of the items of a module that is printed with these setters.
+/// Returns the names of the items of a module that is printed with these setters and constants.
 #[must_use]
-pub fn names(module: &Module, setters: &[Setter]) -> Names {
-    Names::new(module, setters).0
+pub fn names(module: &Module, setters: &[Setter], constants: &[ConstantItem]) -> Names {
+    Names::new(module, setters, constants).0
 }
 
 /// Returns the names of the fields of the type that holds a function's outputs, if it has several.

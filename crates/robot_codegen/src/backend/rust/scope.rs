@@ -63,7 +63,7 @@ impl<'a> Scope<'a> {
             (function.outputs.len() > 1).then(|| values.name(&type_name(&function.name)))
         };
         let output_types = module.functions.iter().map(output_type).collect();
-        let (names, methods) = Names::new(module, &options.setters);
+        let (names, methods) = Names::new(module, &options.setters, &options.constants);
         let idents = |names: &[String]| names.iter().map(|name| ident(name)).collect();
         let number = Number::scalar(options.scalar, &runtime, options.trigonometry);
         Ok(Scope {
