@@ -42,9 +42,9 @@ pub(crate) enum Command {
     Document(document::Arguments),
     /// Print the base inertial parameters of a robot
     Base(base::Arguments),
-    /// Write the Rust module of a robot
+    /// Write the module of a robot, in Rust or another language
     Generate(generate::Arguments),
-    /// Write a whole crate with the functions of a robot
+    /// Write a crate, or a package in another language, with the functions of a robot
     Crate(package::Arguments),
     /// Compute a function of a robot at given states
     Eval(eval::Arguments),

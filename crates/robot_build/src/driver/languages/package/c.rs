@@ -120,11 +120,8 @@ add_test(NAME {name} COMMAND {name}_test)
         let name = &self.tree.name;
         let mut usage = String::new();
         if let Some(check) = self.parts.checks.first() {
-            let example = self.block(check).map(|lines| lines.join("\n")).unwrap_or_default();
-            usage = format!(
-                "```c\n#include \"{name}.h\"\n\n{}\n{example}\n```\n\n",
-                self.model().join("\n")
-            );
+            let example = [self.model(), self.block(check).unwrap_or_default()].concat().join("\n");
+            usage = format!("```c\n#include \"{name}.h\"\n\n{example}\n```\n\n");
         }
         usage.push_str(&format!(
             "Every function is in the header `{name}.h`, which needs only the C library's mathematical functions. Arrays have \
