@@ -14,23 +14,19 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontStyle, ShapeStyle, TextStyle, register_font};
 
 use super::axis::{Axis, label};
+use super::panels::{MARGIN, PANEL, ROW, Shown, panels};
 use super::simplify::simplified;
-use super::strokes::{COLORS, Stroke, dashed, strokes};
-use super::{Curve, Figure, Panel, SCALE};
+use super::strokes::{COLORS, Stroke, dashed};
+use super::{Curve, Figure, SCALE};
 
 /// The width of a figure and the sizes of its parts, in px.
 const WIDTH: u32 = 900;
 const TITLE: u32 = 44;
-const PANEL: u32 = 190;
 const TIME_LABELS: u32 = 42;
 const VALUE_LABELS: u32 = 76;
 const LEGEND: u32 = 110;
-const MARGIN: u32 = 12;
-/// The height of a row of a legend, and the length of the line before its name.
-const ROW: u32 = 21;
+/// The length of the line before a name in a legend.
 const SAMPLE: f64 = 24.0;
-/// The most rows of a legend; robots have at most 64 coordinates.
-const MOST_ROWS: u32 = 64;
 
 /// The largest numbers of ticks of the axes.
 const TIME_TICKS: usize = 11;
@@ -58,14 +54,8 @@ const TOLERANCE: f64 = 0.1;
 
 /// The width and height of a figure, in px.
 pub(super) fn size(figure: &Figure) -> (u32, u32) {
-    let panels = figure.panels.iter().map(height).sum::<u32>().max(PANEL);
+    let panels = panels(figure).iter().map(|shown| shown.height).sum::<u32>().max(PANEL);
     (WIDTH, TITLE + panels + TIME_LABELS)
-}
-
-/// The height of a panel, in px, in which the names of all curves have room.
-fn height(panel: &Panel) -> u32 {
-    let rows = u32::try_from(panel.curves.len()).unwrap_or(u32::MAX).min(MOST_ROWS);
-    PANEL.max(2 * MARGIN + rows * ROW)
 }
 
 /// Draws a figure at [`SCALE`] times its size.
@@ -88,11 +78,12 @@ fn fill<D: DrawingBackend>(figure: &Figure, area: &DrawingArea<D, Shift>) -> Dra
     let place = ((middle * SCALE) as i32, (TITLE * SCALE / 2) as i32);
     head.draw(&Text::new(figure.title.as_str(), place, centered))?;
     let mut rest = rest;
-    for (index, panel) in figure.panels.iter().enumerate() {
-        let last = index + 1 == figure.panels.len();
-        let height = height(panel) + if last { TIME_LABELS } else { 0 };
+    let panels = panels(figure);
+    for (index, shown) in panels.iter().enumerate() {
+        let is_last = index + 1 == panels.len();
+        let height = shown.height + if is_last { TIME_LABELS } else { 0 };
         let (here, below) = rest.split_vertically(height * SCALE);
-        draw_panel(&figure.t, panel, last, &here)?;
+        draw_panel(&figure.t, shown, is_last, &here)?;
         rest = below;
     }
     area.present()
@@ -100,12 +91,12 @@ fn fill<D: DrawingBackend>(figure: &Figure, area: &DrawingArea<D, Shift>) -> Dra
 
 fn draw_panel<D: DrawingBackend>(
     t: &[f64],
-    panel: &Panel,
-    last: bool,
+    shown: &Shown,
+    is_last: bool,
     area: &DrawingArea<D, Shift>,
 ) -> Drawn<D> {
     let (left, right) = area.split_horizontally((WIDTH - LEGEND) * SCALE);
-    let axis = Axis::of(panel.curves.iter().flat_map(|curve| curve.values.iter().copied()));
+    let Shown { panel, axis, strokes, order, .. } = shown;
     let time = Axis::of_times(t);
     let mut chart = ChartBuilder::on(&left)
         .margin_top(MARGIN / 2 * SCALE)
@@ -113,8 +104,8 @@ fn draw_panel<D: DrawingBackend>(
         .margin_left(MARGIN / 2 * SCALE)
         .margin_right(MARGIN * SCALE)
         .y_label_area_size(VALUE_LABELS * SCALE)
-        .x_label_area_size(if last { TIME_LABELS * SCALE } else { 0 })
-        .build_cartesian_2d(Ticked::of(&time, TIME_TICKS), Ticked::of(&axis, VALUE_TICKS))?;
+        .x_label_area_size(if is_last { TIME_LABELS * SCALE } else { 0 })
+        .build_cartesian_2d(Ticked::of(&time, TIME_TICKS), Ticked::of(axis, VALUE_TICKS))?;
     let value_label = format!("{} ({})", panel.quantity, axis.unit(&panel.unit));
     chart
         .configure_mesh()
@@ -129,19 +120,20 @@ fn draw_panel<D: DrawingBackend>(
         .draw()?;
     let width = f64::from(WIDTH - LEGEND - VALUE_LABELS);
     let across = width / (time.high - time.low);
-    let up = f64::from(height(panel)) / (axis.high - axis.low);
-    let (strokes, order) = strokes(t, &panel.curves, &axis, up);
     for index in order {
-        let stroke = &strokes[index];
-        let pixels = points(t, &panel.curves[index], &axis, across, up);
+        let stroke = &strokes[*index];
+        let pixels = points(t, &panel.curves[*index], axis, across, shown.up);
         let pieces = pieces(&pixels, stroke).into_iter();
-        let values = |(x, y): (f64, f64)| (x / across, y / up);
+        let values = |(x, y): (f64, f64)| (x / across, y / shown.up);
         chart.draw_series(pieces.map(|piece| {
             let points: Vec<_> = piece.into_iter().map(values).collect();
             PathElement::new(points, line(stroke))
         }))?;
     }
-    draw_legend(&panel.curves, &strokes, &right)
+    match &shown.legend {
+        Some(strokes) => draw_legend(&panel.curves, strokes, &right),
+        None => Ok(()),
+    }
 }
 
 /// The coordinates of an axis and its ticks.
@@ -236,6 +228,7 @@ fn register() -> Result<(), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plot::Panel;
 
     #[test]
     fn the_legend_names_every_curve() {

@@ -7,6 +7,7 @@ mod axis;
 mod draw;
 mod figures;
 mod letters;
+mod panels;
 mod simplify;
 mod strokes;
 

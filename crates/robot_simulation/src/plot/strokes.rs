@@ -60,19 +60,27 @@ pub(super) fn strokes(
         let below = below.filter(|below| hides(t, &curves[*index], &curves[**below], axis, up));
         layers[*index] = below.map(|below| layers[*below] + 1).max().unwrap_or(0);
     }
-    let stroke = |(curve, layer): (&Curve, i32)| {
-        let again = curve.color / COLORS;
-        let dashes = match (layer, again) {
-            (0, 0) => None,
-            (0, again) => AGAIN.get((again - 1).min(AGAIN.len() - 1)).copied(),
-            (layer, again) => {
-                let period = PERIOD + LONGER * again as f64;
-                Some(Dashes { length: period / 2_f64.powi(layer.min(LAYERS)), period })
-            }
-        };
-        Stroke { color: curve.color % COLORS, is_sum: curve.is_sum, dashes }
+    let strokes = curves.iter().zip(layers).map(|(curve, layer)| stroke(curve, layer));
+    (strokes.collect(), order)
+}
+
+/// The stroke of a curve that lies on no other.
+pub(super) fn bare(curve: &Curve) -> Stroke {
+    stroke(curve, 0)
+}
+
+/// The stroke of a curve with as many curves below it as `layer` says.
+fn stroke(curve: &Curve, layer: i32) -> Stroke {
+    let again = curve.color / COLORS;
+    let dashes = match (layer, again) {
+        (0, 0) => None,
+        (0, again) => AGAIN.get((again - 1).min(AGAIN.len() - 1)).copied(),
+        (layer, again) => {
+            let period = PERIOD + LONGER * again as f64;
+            Some(Dashes { length: period / 2_f64.powi(layer.min(LAYERS)), period })
+        }
     };
-    (curves.iter().zip(layers).map(stroke).collect(), order)
+    Stroke { color: curve.color % COLORS, is_sum: curve.is_sum, dashes }
 }
 
 /// Whether a curve, drawn solid, would hide another for more than [`SHARE`] of the time.
