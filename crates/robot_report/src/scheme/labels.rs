@@ -2,6 +2,8 @@
 
 use nalgebra::Vector2;
 
+use super::settling;
+
 type Point = Vector2<f64>;
 
 /// A rectangle with horizontal and vertical sides.
@@ -87,15 +89,18 @@ const FAR: f64 = 12.0;
 /// The distance that labels keep from lines.
 const PAD: f64 = 2.0;
 /// The cost of a line through a label, per px. A label on another costs so much that any other place is better.
-const CROSSED: f64 = 8.0;
+pub(super) const CROSSED: f64 = 30.0;
 const ON_LABEL: f64 = 1e4;
+/// The cost of a leader along a line of the drawing, per px, and across one, and across another leader or along it, where nobody can tell to
+/// which point it leads.
+const ALONG: f64 = 2.0;
+const ACROSS: f64 = 30.0;
+const ON_LEADER: f64 = 400.0;
 /// The distance within which two lines look like one, and that of the points at which this is tested.
 const CLOSE: f64 = 4.0;
 const PIECE: f64 = 6.0;
 /// The cost of a line across an axis of a frame, as a fraction of that across another line.
 const ON_AXIS: f64 = 0.3;
-/// The most passes in which labels move to better places.
-const PASSES: usize = 4;
 
 impl Room {
     /// Reserves the area of a symbol.
@@ -146,6 +151,18 @@ impl Room {
         symbols + close.sum::<f64>()
     }
 
+    /// The cost of a leader: its length on symbols and along lines, and the lines that it crosses.
+    fn cost_of_leader(&self, leader: [Point; 2]) -> f64 {
+        let symbols: f64 = self.symbols.iter().map(|symbol| symbol.length_within(&leader)).sum();
+        let across = |lines: &[[Point; 2]]| {
+            lines.iter().filter(|line| do_cross(&leader, line)).count() as f64
+        };
+        let crossed = across(&self.lines) + ON_AXIS * across(&self.axes);
+        // The line's own cost has the symbols already.
+        let symbols = (CROSSED - 1.0) * symbols;
+        20.0 + ALONG * self.cost_of_line(leader) + symbols + ACROSS * crossed
+    }
+
     fn all_lines(&self) -> impl Iterator<Item = &[Point; 2]> {
         self.lines.iter().chain(&self.axes)
     }
@@ -162,10 +179,12 @@ impl Room {
                 let center = point + away + Point::new(cos * size.x, sin * size.y) / 2.0;
                 let label = Rectangle::about(center, size);
                 let nearest = point.sup(&label.low).inf(&label.high);
-                let is_far = (nearest - point).norm() > gap + FAR;
+                let distance = (nearest - point).norm();
+                // A leader ends at the symbol around the point.
+                let start = point + (nearest - point) * (gap / distance.max(gap));
                 places.push(Candidate {
                     label,
-                    leader: is_far.then_some([point, nearest]),
+                    leader: (distance > gap + FAR).then_some([start, nearest]),
                     cost: 1.2 * ring + 0.2 * step as f64,
                 });
             }
@@ -173,40 +192,13 @@ impl Room {
         places
     }
 
-    /// Chooses one of the places of each label. Each label first takes the best place beside the labels before it; then
-    /// labels move while this makes them better.
+    /// Chooses one of the places of each label.
     pub(crate) fn settled(&self, labels: &[Vec<Candidate>]) -> Vec<Candidate> {
         let own = |candidate: &Candidate| {
-            let leader = candidate.leader.map_or(0.0, |leader| 20.0 + self.cost_of_line(leader));
+            let leader = candidate.leader.map_or(0.0, |leader| self.cost_of_leader(leader));
             Candidate { cost: candidate.cost + leader + self.cost(&candidate.label), ..*candidate }
         };
-        let labels: Vec<Vec<Candidate>> =
-            labels.iter().map(|places| places.iter().map(own).collect()).collect();
-        let mut chosen: Vec<Option<Candidate>> = vec![None; labels.len()];
-        for _ in 0..PASSES {
-            let mut has_moved = false;
-            for (index, places) in labels.iter().enumerate() {
-                let others = chosen.iter().enumerate().filter(|(other, _)| *other != index);
-                let others: Vec<Candidate> = others.filter_map(|(_, other)| *other).collect();
-                let whole = |place: &Candidate| place.cost + conflict(place, &others);
-                let mut best = (f64::INFINITY, chosen[index].or(places.first().copied()));
-                for place in places {
-                    // Conflicts only add to the cost.
-                    let cost = if place.cost < best.0 { whole(place) } else { f64::INFINITY };
-                    if cost < best.0 {
-                        best = (cost, Some(*place));
-                    }
-                }
-                if chosen[index].is_none_or(|place| best.0 < whole(&place)) {
-                    has_moved |= chosen[index] != best.1;
-                    chosen[index] = best.1;
-                }
-            }
-            if !has_moved {
-                break;
-            }
-        }
-        chosen.into_iter().flatten().collect()
+        settling::settled(labels.iter().map(|places| places.iter().map(own).collect()).collect())
     }
 
     /// The smallest rectangle around the reserved areas and the labels.
@@ -217,16 +209,29 @@ impl Room {
     }
 }
 
-/// The cost of a label and its line on or across other labels and their lines.
-fn conflict(place: &Candidate, others: &[Candidate]) -> f64 {
-    let cost = |other: &Candidate| {
-        let labels = ON_LABEL * other.label.overlap(&place.label);
-        let crossed = |leader: &Option<[Point; 2]>, label: &Rectangle| {
-            leader.map_or(0.0, |leader| CROSSED * label.length_within(&leader))
-        };
-        labels + crossed(&place.leader, &other.label) + crossed(&other.leader, &place.label)
+/// The cost of two labels and their leaders on or across each other.
+pub(super) fn conflict(one: &Candidate, other: &Candidate) -> f64 {
+    let crossed = |leader: &Option<[Point; 2]>, label: &Rectangle| {
+        leader.map_or(0.0, |leader| CROSSED * label.length_within(&leader))
     };
-    others.iter().map(cost).sum()
+    let leaders = one.leader.zip(other.leader);
+    let leaders = leaders.is_some_and(|(one, other)| are_confused(&one, &other));
+    let leaders = if leaders { ON_LEADER } else { 0.0 };
+    let labels = ON_LABEL * one.label.overlap(&other.label);
+    labels + leaders + crossed(&one.leader, &other.label) + crossed(&other.leader, &one.label)
+}
+
+/// Whether two leaders cross or come so close that one looks like the continuation of the other.
+fn are_confused(one: &[Point; 2], other: &[Point; 2]) -> bool {
+    let is_close = |ends: &[Point; 2], line| ends.iter().any(|end| distance(*end, line) < CLOSE);
+    do_cross(one, other) || is_close(one, other) || is_close(other, one)
+}
+
+/// Whether two lines between points cross; lines that only touch do not.
+pub(super) fn do_cross(one: &[Point; 2], other: &[Point; 2]) -> bool {
+    let side = |[from, to]: &[Point; 2], point: Point| (to - from).perp(&(point - from));
+    let parts = |line, ends: &[Point; 2]| side(line, ends[0]) * side(line, ends[1]) < 0.0;
+    parts(one, other) && parts(other, one)
 }
 
 /// The distance of a point from a line between two others.

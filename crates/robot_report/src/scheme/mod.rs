@@ -2,13 +2,15 @@
 //! their axes, offsets as dimension lines, and links with their names.
 //!
 //! `layout` places the robot at q = 0 on the page, `view` chooses the direction from which it is seen, `symbols` draws
-//! the symbols, `writing` writes dimensions and labels, and `labels` finds space for them.
+//! the symbols, `writing` writes dimensions and labels, `labels` finds space for them, and
+//! `settling` chooses among the places.
 
 mod draw;
 mod labels;
 mod layout;
 mod pdf;
 mod picture;
+mod settling;
 mod shape;
 mod style;
 mod symbols;
@@ -114,6 +116,27 @@ mod tests {
             for (words, _, crossed) in draw::Drawing::of(&robot, &layout, view).labels() {
                 let is_letter = ["x", "y", "z"].contains(&words.as_str());
                 assert!(is_letter || crossed < 2.0, "{}: {words}, {crossed}", robot.name);
+            }
+        }
+    }
+
+    /// Nobody could tell to which frame leaders belong that cross each other, or one that runs through another joint.
+    #[test]
+    fn leaders_cross_no_leader_and_no_joint() {
+        for robot in robots() {
+            let (layout, view) = best(&robot);
+            let leaders = draw::Drawing::of(&robot, &layout, view).leaders();
+            for (index, (words, leader)) in leaders.iter().enumerate() {
+                for (others, other) in &leaders[index + 1..] {
+                    let cross = labels::do_cross(leader, other);
+                    assert!(!cross, "{}: {words} and {others}", robot.name);
+                }
+                let length = (leader[1] - leader[0]).norm();
+                assert!(length < 90.0, "{}: {words}, {length}", robot.name);
+                for link in &layout.links {
+                    let distance = labels::distance(view.point(&link.position), leader);
+                    assert!(distance > 12.0, "{}: {words}, {distance}", robot.name);
+                }
             }
         }
     }

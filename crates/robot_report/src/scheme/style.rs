@@ -56,7 +56,7 @@ impl Style {
             "hand" => Style { width: 3.0, ..self },
             "way" => Style { width: 2.5, ..self },
             "dimension" => Style { color: FAINT, width: 1.0, text: INK, ..self },
-            "leader" => Style { color: FAINT, ..self },
+            "leader" => Style { width: 1.0, ..self },
             "name" => Style { is_bold: true, ..self },
             "axis-x" => colored(AXES[0], self),
             "axis-y" => colored(AXES[1], self),

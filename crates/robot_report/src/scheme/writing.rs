@@ -8,7 +8,7 @@ use robot_model::variable::JointVariable;
 use robot_symbolic::{Formula, Graph};
 
 use super::draw::{Drawing, hue};
-use super::labels::{Candidate, Rectangle, Room};
+use super::labels::{CROSSED, Candidate, Rectangle, Room};
 use super::layout::{BASE, Segment};
 use super::shape::{Group, Shape, Words, arrow, group, line};
 use super::symbols;
@@ -66,8 +66,10 @@ impl Drawing<'_> {
                 segments.push(segment);
             }
         }
-        let mut labels: Vec<Label> =
-            segments.into_iter().filter_map(|segment| self.dimension(segment)).collect();
+        let mut labels: Vec<Label> = vec![];
+        for segment in segments {
+            labels.extend(self.dimension(segment, &labels));
+        }
         for index in 0..self.layout.links.len() {
             labels.extend(self.names(index));
         }
@@ -111,8 +113,9 @@ impl Drawing<'_> {
         vec![coordinate, label(&link.name, name, point, gap, "name", Some(index))]
     }
 
-    /// A dimension line beside a piece of a link, with the length. It reserves the space of its lines.
-    fn dimension(&mut self, segment: &Segment) -> Option<Label> {
+    /// A dimension line beside a piece of a link, with the length. It reserves the space of its lines, and leaves room for
+    /// the lengths at the dimension lines before it.
+    fn dimension(&mut self, segment: &Segment, before: &[Label]) -> Option<Label> {
         let length = segment.length.as_ref()?;
         let [from, to] = segment.ends.each_ref().map(|end| self.view.point(end));
         let along = (to - from).try_normalize(8.0)?;
@@ -125,13 +128,22 @@ impl Drawing<'_> {
             [ends, [from, ends[0] + over], [to, ends[1] + over]]
         };
         let places = |offset: f64| beside(&lines(offset)[0], size);
+        let best_of = |label: &Label| {
+            let cost = |place: &Candidate| place.cost + self.room.cost(&place.label);
+            label.places.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).map(|place| place.label)
+        };
+        let lengths: Vec<Rectangle> = before.iter().filter_map(best_of).collect();
+        let covered = |line: &[Point; 2]| {
+            CROSSED * lengths.iter().map(|length| length.length_within(line)).sum::<f64>()
+        };
         let cost = |offset: &f64| {
             let [dimension, first, second] = lines(*offset);
+            let covered: f64 = lines(*offset).iter().map(covered).sum();
             let witnesses = self.room.cost_of_line(first) + self.room.cost_of_line(second);
             let label = places(*offset).into_iter();
             let label = label.map(|place| place.cost + self.room.cost(&place.label));
             let label = label.fold(f64::INFINITY, f64::min);
-            3.0 * self.room.cost_of_line(dimension) + witnesses + label + offset.abs()
+            3.0 * self.room.cost_of_line(dimension) + witnesses + label + covered + offset.abs()
         };
         let best = BESIDE.into_iter().min_by(|a, b| cost(a).total_cmp(&cost(b)))?;
         let [ends, witnesses @ ..] = lines(best);
@@ -163,6 +175,15 @@ impl Drawing<'_> {
             [Math::Sign('-'), bare @ Math::Symbol(_)] => Inline::Math(bare.clone()),
             _ => Inline::Math(formula),
         }
+    }
+
+    /// The leaders of labels.
+    #[cfg(test)]
+    pub(crate) fn leaders(mut self) -> Vec<(String, [Point; 2])> {
+        self.reserve_room();
+        let (labels, placed) = self.placed();
+        let shown = labels.into_iter().zip(placed);
+        shown.filter_map(|(label, place)| Some((label.words, place.leader?))).collect()
     }
 
     /// The places of all labels, and how far each is crossed by lines, in px.
