@@ -440,9 +440,13 @@ fn each_tip_has_one_wrench_on_the_command_line() {
     assert_eq!((both.code, both.errors.as_str()), (0, ""));
     assert_eq!(run(&two, &[right, left]).output, both.output);
     for (file, wrenches, message) in [
-        (&one, &["0,1,0,0,0,0"; 2][..], "--wrench: `wrench` is given twice"),
-        (&two, &[left, right, left], "--wrench: `wrench_left` is given twice"),
-        (&two, &[right, left, "right=0,20,0,0,0,0"], "--wrench: `wrench_right` is given twice"),
+        (&one, &["0,1,0,0,0,0"; 2][..], "--wrench: `wrench` is given twice; leave one out"),
+        (&two, &[left, right, left], "--wrench: `wrench_left` is given twice; leave one out"),
+        (
+            &two,
+            &[right, left, "right=0,20,0,0,0,0"],
+            "--wrench: `wrench_right` is given twice; leave one out",
+        ),
         (
             &two,
             &["0,1,0,0,0,0"],

@@ -334,8 +334,8 @@ CUDA_INLINE_ void cuda_plain(const cuda_model *model, const double q[2], double 
 /**
  * `cuda_plain` of `n` states, on a grid of any size of one dimension.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`. Arrays are in the memory of the device.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`. Arrays are in the memory of the device.
  */
 CUDA_KERNEL_ void cuda_plain_kernel(const cuda_model model_, size_t n, size_t stride, const double *CUDA_RESTRICT_ q, double *CUDA_RESTRICT_ values)
 {
@@ -442,8 +442,8 @@ CUDA_INLINE_ void cuda_turned(const cuda_model *model, const double q[2], double
 /**
  * `cuda_turned` of `n` states, on a grid of any size of one dimension.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`. Arrays are in the memory of the device.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`. Arrays are in the memory of the device.
  */
 CUDA_KERNEL_ void cuda_turned_kernel(const cuda_model model_, size_t n, size_t stride, const double *CUDA_RESTRICT_ q, double *CUDA_RESTRICT_ values)
 {

@@ -469,8 +469,8 @@ CUDA_SINGLE_INLINE_ void cuda_single_plain(const cuda_single_model *model, const
 /**
  * `cuda_single_plain` of `n` states, on a grid of any size of one dimension.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`. Arrays are in the memory of the device.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`. Arrays are in the memory of the device.
  */
 CUDA_SINGLE_KERNEL_ void cuda_single_plain_kernel(const cuda_single_model model_, size_t n, size_t stride, const float *CUDA_SINGLE_RESTRICT_ q, float *CUDA_SINGLE_RESTRICT_ values)
 {
@@ -577,8 +577,8 @@ CUDA_SINGLE_INLINE_ void cuda_single_turned(const cuda_single_model *model, cons
 /**
  * `cuda_single_turned` of `n` states, on a grid of any size of one dimension.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`. Arrays are in the memory of the device.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`. Arrays are in the memory of the device.
  */
 CUDA_SINGLE_KERNEL_ void cuda_single_turned_kernel(const cuda_single_model model_, size_t n, size_t stride, const float *CUDA_SINGLE_RESTRICT_ q, float *CUDA_SINGLE_RESTRICT_ values)
 {

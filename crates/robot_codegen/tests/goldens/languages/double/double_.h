@@ -335,8 +335,8 @@ DOUBLE__INLINE_ void double__plain(const double__model *model, const double q[2]
 /**
  * `double__plain` of `n` states.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`.
  */
 static inline void double__plain_batch(const double__model *model, size_t n, size_t stride, const double *DOUBLE__RESTRICT_ q, double *DOUBLE__RESTRICT_ values)
 {
@@ -441,8 +441,8 @@ DOUBLE__INLINE_ void double__turned(const double__model *model, const double q[2
 /**
  * `double__turned` of `n` states.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`.
  */
 static inline void double__turned_batch(const double__model *model, size_t n, size_t stride, const double *DOUBLE__RESTRICT_ q, double *DOUBLE__RESTRICT_ values)
 {

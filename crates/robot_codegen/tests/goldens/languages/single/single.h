@@ -469,8 +469,8 @@ SINGLE_INLINE_ void single_plain(const single_model *model, const float q[2], fl
 /**
  * `single_plain` of `n` states.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`.
  */
 static inline void single_plain_batch(const single_model *model, size_t n, size_t stride, const float *SINGLE_RESTRICT_ q, float *SINGLE_RESTRICT_ values)
 {
@@ -575,8 +575,8 @@ SINGLE_INLINE_ void single_turned(const single_model *model, const float q[2], f
 /**
  * `single_turned` of `n` states.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`.
  */
 static inline void single_turned_batch(const single_model *model, size_t n, size_t stride, const float *SINGLE_RESTRICT_ q, float *SINGLE_RESTRICT_ values)
 {

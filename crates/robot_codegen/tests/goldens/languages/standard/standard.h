@@ -270,8 +270,8 @@ STANDARD_INLINE_ void standard_plain(const standard_model *model, const double q
 /**
  * `standard_plain` of `n` states.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`.
  */
 static inline void standard_plain_batch(const standard_model *model, size_t n, size_t stride, const double *STANDARD_RESTRICT_ q, double *STANDARD_RESTRICT_ values)
 {
@@ -378,8 +378,8 @@ STANDARD_INLINE_ void standard_turned(const standard_model *model, const double 
 /**
  * `standard_turned` of `n` states.
  *
- * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride`
- * is at least `n`.
+ * Entry j of state i is at `[j * stride + i]`: a column for each entry, `stride` apart; `stride` is at
+ * least `n`.
  */
 static inline void standard_turned_batch(const standard_model *model, size_t n, size_t stride, const double *STANDARD_RESTRICT_ q, double *STANDARD_RESTRICT_ values)
 {
