@@ -1,6 +1,6 @@
 //! Compares machine code in memory with the same functions compiled by rustc for this processor, and by cranelift.
-//! All are called in turn within one process, and the least time of many short repetitions counts. The sines of all
-//! three round once, and all bits must be the same. With `portable`, the sines of machine code are the
+//! All are called in turn within one process, and the least time of many short repetitions counts. In all three,
+//! the multiply-adds of the sines round once, and all bits must be the same. With `portable`, the sines of machine code are the
 //! interpreter's, which take longer.
 //!
 //! ```text

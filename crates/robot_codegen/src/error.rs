@@ -187,8 +187,8 @@ pub enum Error {
         /// The function or the constructor.
         place: String,
     },
-    /// A number type that a language does not have.
-    #[error("{language} computes only in f64; leave out the option `scalar`")]
+    /// A number type in which no code is printed in a language.
+    #[error("code in {language} is printed only in f64; leave out the option `scalar`")]
     Scalar {
         /// The language.
         language: &'static str,

@@ -10,8 +10,8 @@ use robot_symbolic::nearest_word;
 use crate::entry::system::system_reason;
 use crate::error::{Error, Errors, shown};
 
-/// The reason why a robot is not read from a pipe or a device: the plan of a robot and the files that are made from it
-/// are stored beside its file.
+/// The message about a pipe or a device. A robot is not read from one, because its pinned plan is stored beside the robot
+/// file.
 const NOT_REGULAR: &str = "it is not a regular file; save the robot in a file";
 
 /// A robot file that has been read.

@@ -27,7 +27,7 @@ const MAX_REFUSED: usize = 3;
 const FARTHER_OUT: &str =
     "not expanded, because three joint torques farther out are already too long";
 
-/// A joint torque whose terms differ.
+/// A joint torque whose terms differ or cannot be compared.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Equation {
     /// The name of the joint torque, such as `Q1`.

@@ -442,11 +442,7 @@ fn each_tip_has_one_wrench_on_the_command_line() {
     for (file, wrenches, message) in [
         (&one, &["0,1,0,0,0,0"; 2][..], "--wrench: `wrench` is given twice; leave one out"),
         (&two, &[left, right, left], "--wrench: `wrench_left` is given twice; leave one out"),
-        (
-            &two,
-            &[right, left, "right=0,20,0,0,0,0"],
-            "--wrench: `wrench_right` is given twice; leave one out",
-        ),
+        (&two, &[right, left, right], "--wrench: `wrench_right` is given twice; leave one out"),
         (
             &two,
             &["0,1,0,0,0,0"],

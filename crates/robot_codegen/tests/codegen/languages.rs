@@ -93,7 +93,7 @@ fn languages_of_double_precision_refuse_single() {
     ];
     for printer in printers {
         let errors = printer.files(&module("single")).unwrap_err().to_string();
-        assert!(errors.contains("computes only in f64"), "{errors}");
+        assert!(errors.contains("is printed only in f64"), "{errors}");
     }
 }
 

@@ -101,6 +101,6 @@ fn not_positive(value: f64, moving: bool) -> Diagnostic {
         (false, _) => "correct the value",
     };
     Diagnostic::error(code::MASS, format!("the mass is {value} kg"))
-        .because("no body has such a mass: the equations become singular or unstable")
+        .because("the mass of a body is positive; otherwise the mass matrix may not be positive definite")
         .help(help)
 }

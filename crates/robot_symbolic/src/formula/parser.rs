@@ -308,7 +308,7 @@ impl Parser<'_> {
                 exponent.span,
                 format!("the exponent {value} is beyond ±{MAX_EXPONENT}"),
             )
-            .help("write it as a product of smaller powers"));
+            .help("write the power as a product of powers, such as `x^64*x^36`"));
         }
         base.span.end = exponent.span.end;
         base.integer = base

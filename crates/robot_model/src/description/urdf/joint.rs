@@ -218,7 +218,7 @@ fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
                 Diagnostic::warning(code::LIMIT_SIGN, message)
                     .at(&attribute.span, "below 0")
                     .because("the limit bounds the magnitude, in both directions")
-                    .help("correct the value; it is not used here"),
+                    .help("correct the value, or remove it; it does not affect the equations"),
             );
         }
         unread.push(Unread { name, span: attribute.span });

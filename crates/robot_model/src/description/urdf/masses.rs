@@ -98,7 +98,7 @@ fn massless(link: &UrdfLink<'_>, options: &Options) -> Diagnostic {
 
 fn negative_mass(mass: f64) -> Diagnostic {
     Diagnostic::error(code::MASS, format!("the mass is {mass} kg"))
-        .because("no body has such a mass: the equations become singular or unstable")
+        .because("the mass of a body is positive; otherwise the mass matrix may not be positive definite")
         .help("correct the value")
 }
 

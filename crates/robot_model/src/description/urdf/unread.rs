@@ -53,7 +53,7 @@ fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
         reader.report(
             diagnostic
                 .at(spans.first().copied().unwrap_or(&(0..0)), "")
-                .because("limits on forces and velocities are not used here"),
+                .because("limits on forces and velocities do not affect the equations"),
         );
     }
 }
