@@ -8,7 +8,9 @@ use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
 use super::naming::{Named, is_leaf};
-use super::{Equation, Group, Writer, angle_sums, arranged, numbers, of_joint_torque, vectors};
+use super::{
+    Equation, Group, Writer, angle_sums, arranged, canceled, numbers, of_joint_torque, vectors,
+};
 use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
 use crate::math::Math;
@@ -25,6 +27,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let values = with_short_parameters(writer, &values);
     let values = numbers::rounded(writer, &values);
+    let values = canceled::without_canceled_terms(&values, writer.graph);
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;
     }

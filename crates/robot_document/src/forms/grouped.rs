@@ -58,7 +58,7 @@ fn terms<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = (Term, &'s
 }
 
 fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
-    let rates = match writer.options.christoffel {
+    let rates = match writer.options.has_christoffel() {
         true => "Christoffel symbols of the first kind for the Coriolis and centrifugal terms",
         false => {
             "Coriolis and centrifugal terms or the coefficients of the velocity products in them"
@@ -107,7 +107,7 @@ fn velocities<'g>(
     forces: &[Expr<'g>],
     sums: &mut [Sum<'g>],
 ) -> Section<'g> {
-    let christoffel = writer.options.christoffel;
+    let christoffel = writer.options.has_christoffel();
     let (letters, title) = match christoffel {
         true => (&candidates::CHRISTOFFEL, "Christoffel symbols"),
         false => (&candidates::VELOCITY, "Coriolis and centrifugal terms"),

@@ -9,6 +9,9 @@ use super::{Equation, Writer};
 use crate::error::Error;
 use crate::math::{Math, Script};
 
+/// The usual letter of the matrix of the Coriolis and centrifugal terms.
+pub(super) const VELOCITY_MATRIX: &str = "C";
+
 /// Letters of what the forms define, the preferred one first: the first that no symbol of the robot has is taken.
 pub(super) mod candidates {
     pub(in crate::forms) const MASS_MATRIX: [&str; 6] = ["M", "H", "A", "D", "B", "W"];
@@ -17,7 +20,7 @@ pub(super) mod candidates {
     pub(in crate::forms) const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];
     /// The column of the Coriolis and centrifugal terms, and their matrix.
     pub(in crate::forms) const VELOCITY_COLUMN: [&str; 5] = ["h", "n", "v", "u", "V"];
-    pub(in crate::forms) const VELOCITY_MATRIX: [&str; 5] = ["C", "K", "N", "Z", "V"];
+    pub(in crate::forms) const VELOCITY_MATRIX: [&str; 5] = [super::VELOCITY_MATRIX, "K", "N", "Z", "V"];
     pub(in crate::forms) const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
     /// Contributions of the tips' wrenches.
     pub(in crate::forms) const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
@@ -39,7 +42,7 @@ pub struct Letters {
     /// The letter of the mass matrix and its entries.
     pub mass: Option<String>,
     /// The letter of the Coriolis and centrifugal terms: of their column, their matrix, and the coefficients of
-    /// products of velocities.
+    /// products of velocities. C is the letter of the matrix; the grouped form then has Christoffel symbols.
     pub velocity: Option<String>,
     /// The letter of the gravity terms.
     pub gravity: Option<String>,
@@ -59,7 +62,7 @@ impl Letters {
         if text == paper {
             return Ok(Letters::default());
         }
-        let usual = [JointVariable::Torque.name(), "M", "C", "g"];
+        let usual = [JointVariable::Torque.name(), "M", VELOCITY_MATRIX, "g"];
         let letters: Vec<&str> = match text == field {
             true => usual.into(),
             false => text.split(',').map(str::trim).collect(),

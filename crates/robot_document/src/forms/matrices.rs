@@ -140,7 +140,7 @@ pub(super) fn attach<'g>(
         let Some(group) = groups.iter_mut().find(|group| group.title == section.title) else {
             continue;
         };
-        let (array, summand) = match (term, writer.options.christoffel) {
+        let (array, summand) = match (term, writer.options.has_christoffel()) {
             (Term::Accelerations, _) => masses(writer, section, known)?,
             (Term::Velocities, true) => christoffel(writer, section, known)?,
             (term, _) => column(writer, *term, section, known)?,

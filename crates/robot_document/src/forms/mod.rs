@@ -4,6 +4,7 @@ mod aliases;
 mod angle_sums;
 mod arranged;
 mod arrays;
+mod canceled;
 mod coefficients;
 mod compact;
 mod definitions;

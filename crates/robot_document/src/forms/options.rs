@@ -3,6 +3,7 @@
 use robot_dynamics::quantity::Kind;
 use robot_symbolic::AngleSums;
 
+use super::letters::VELOCITY_MATRIX;
 use super::{Letters, TermOrder};
 use crate::layout::Trigonometry;
 
@@ -73,7 +74,8 @@ pub struct EquationOptions {
     /// Whether a coefficient in the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a
     /// remainder, if that is at most two thirds as long.
     pub references: bool,
-    /// Whether the grouped form has Christoffel symbols instead of the coefficients of products of velocities.
+    /// Whether the grouped form has Christoffel symbols instead of the coefficients of products of velocities. It has
+    /// them in any case if the letter of the Coriolis and centrifugal terms is C.
     pub christoffel: bool,
     /// Whether quantities are printed as in the paper: forces and moments in the joints from the last link to the
     /// first, vectors with the number of their link as the lower index too, Q with the index m, terms and factors in
@@ -89,6 +91,14 @@ pub struct EquationOptions {
     /// Whether long sums of numbers with roots, or with sines of constant angles, become the nearest double. The
     /// equations, also as text, are then exact only to the digits of doubles.
     pub rounds_roots: bool,
+}
+
+impl EquationOptions {
+    /// Whether the grouped form has Christoffel symbols: if they are requested, or if the letter of the Coriolis and
+    /// centrifugal terms is C, which robotics uses for the matrix in C(q, q̇) q̇.
+    pub(super) fn has_christoffel(&self) -> bool {
+        self.christoffel || self.letters.velocity.as_deref() == Some(VELOCITY_MATRIX)
+    }
 }
 
 /// The default options: the joint torques, expanded, without friction.

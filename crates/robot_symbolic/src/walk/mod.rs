@@ -112,21 +112,54 @@ pub fn rebuild_above<'g, 'h>(
     }
     kept.sort_unstable_by_key(|expr| expr.id());
     for expr in kept {
-        let at = |operand: Expr<'_>| built[&operand.id()];
-        let result = match expr.view() {
-            View::Number(number) => graph.number(number),
-            View::Pi => graph.pi(),
-            View::Symbol(symbol) => graph.symbol(&expr.graph().symbol_name(symbol)),
-            View::Add(a, b) => at(a) + at(b),
-            View::Sub(a, b) => at(a) - at(b),
-            View::Mul(a, b) => at(a) * at(b),
-            View::Div(a, b) => at(a) / at(b),
-            View::Neg(a) => -at(a),
-            View::Call(function, a) => at(a).apply(function),
-        };
+        let result = with_operands(expr, graph, |operand| built[&operand.id()]);
         built.insert(expr.id(), result);
     }
     roots.iter().map(|root| built[&root.id()]).collect()
+}
+
+/// Rebuilds `roots` in `graph`, operands before results; each rebuilt expression is replaced by what `change` returns
+/// for it. The local rules apply again.
+///
+/// ```
+/// use robot_symbolic::{Graph, print, walk};
+/// let graph = Graph::new();
+/// let value = graph.parse("(x + y)*z").unwrap();
+/// let (sum, name) = (graph.parse("x + y").unwrap(), graph.symbol("s"));
+/// let renamed = walk::rebuild_upward(&[value], &graph, |part| if part == sum { name } else { part });
+/// assert_eq!(print::to_text(renamed[0]).unwrap(), "s*z");
+/// ```
+#[must_use]
+pub fn rebuild_upward<'h>(
+    roots: &[Expr<'_>],
+    graph: &'h Graph,
+    change: impl Fn(Expr<'h>) -> Expr<'h>,
+) -> Vec<Expr<'h>> {
+    let mut built: FxHashMap<_, Expr<'h>> = FxHashMap::default();
+    for expr in reachable(roots) {
+        let result = change(with_operands(expr, graph, |operand| built[&operand.id()]));
+        built.insert(expr.id(), result);
+    }
+    roots.iter().map(|root| built[&root.id()]).collect()
+}
+
+/// The expression in `graph`, with the operands that `at` returns.
+fn with_operands<'g, 'h>(
+    expr: Expr<'g>,
+    graph: &'h Graph,
+    at: impl Fn(Expr<'g>) -> Expr<'h>,
+) -> Expr<'h> {
+    match expr.view() {
+        View::Number(number) => graph.number(number),
+        View::Pi => graph.pi(),
+        View::Symbol(symbol) => graph.symbol(&expr.graph().symbol_name(symbol)),
+        View::Add(a, b) => at(a) + at(b),
+        View::Sub(a, b) => at(a) - at(b),
+        View::Mul(a, b) => at(a) * at(b),
+        View::Div(a, b) => at(a) / at(b),
+        View::Neg(a) => -at(a),
+        View::Call(function, a) => at(a).apply(function),
+    }
 }
 
 /// Returns the partial derivatives of `roots` with respect to one symbol.
