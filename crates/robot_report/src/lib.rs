@@ -211,12 +211,10 @@ fn kinematics(robot: &Robot, symbols: &Symbols, notes: [Option<Element>; 2]) -> 
     let tables = std::iter::once(tables::kinematics(robot))
         .chain(tables::dh(robot, symbols))
         .chain(tables::frames(robot));
-    let parts = std::iter::once(Some(figure)).chain(notes).chain(tables.map(Some));
-    Section {
-        id: "kinematics",
-        title: "Kinematics",
-        body: parts.flatten().map(Node::from).collect(),
-    }
+    let beside = element("div").with_all(notes.into_iter().flatten()).with_all(tables);
+    let body = element("div").with(figure).with(beside);
+    let body = if tables::is_narrow(robot) { body.class("beside") } else { body };
+    Section { id: "kinematics", title: "Kinematics", body: vec![body.into()] }
 }
 
 fn parameters(robot: &Robot, symbols: &Symbols) -> Section {

@@ -37,6 +37,21 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
+/// The largest number of characters of the names in a row with which the table of links and joints fits beside the
+/// scheme.
+const NARROW: usize = 40;
+
+/// Whether the table of links and joints is narrow enough to stand beside the scheme.
+pub(crate) fn is_narrow(robot: &Robot) -> bool {
+    let longest = |name: fn(&LinkRow<'_>) -> usize| {
+        rows::links(robot).map(|row| name(&row)).max().unwrap_or(0)
+    };
+    let names = longest(|row| row.link.name.chars().count())
+        + longest(|row| row.parent.chars().count())
+        + longest(|row| row.link.joint.name.chars().count());
+    names <= NARROW
+}
+
 /// The tables of Denavit–Hartenberg parameters, one for each convention that the robot file uses.
 pub(crate) fn dh<'r>(
     robot: &'r Robot,

@@ -178,6 +178,15 @@
       return line(corners) + "Z";
     }).join("");
   }
+  // Moves a label off those that are placed already.
+  const STEPS = [[0, 0], [0, 15], [0, -15], [22, 0], [22, 15], [22, -15], [0, 30], [0, -30], [22, 30], [22, -30]];
+  let places = [];
+  function free(x) {
+    const isFree = (step) => places.every((place) => Math.abs(place[0] - x[0] - step[0]) > 20 || Math.abs(place[1] - x[1] - step[1]) > 13);
+    const place = plus(x, STEPS.find(isFree) ?? [0, 0]);
+    places.push(place);
+    return place;
+  }
   function joint(link, i) {
     const own = make("g", hue(i), group);
     const axis = make("path", "", make("g", "axis", own));
@@ -192,7 +201,7 @@
       sign.setAttribute("d", link.kind === "revolute" ? cylinder(x, along, dot(direction, axes[2])) : box(x, R, direction));
       // Beside a joint whose axis is upright or points at the viewer, where links would cover a label at its end.
       const beside = 0.5 > Math.abs(along[0]) || Math.abs(along[1]) > Math.abs(along[0]);
-      const [a, b] = beside ? plus(x, [RADIUS + 7, 0]) : plus(x, along, 52);
+      const [a, b] = free(beside ? plus(x, [RADIUS + 7, 0]) : plus(x, along, 52));
       label.setAttribute("text-anchor", beside ? "start" : "middle");
       label.setAttribute("x", a.toFixed(1));
       label.setAttribute("y", (b + 4).toFixed(1));
@@ -236,6 +245,7 @@
     const all = poses(values);
     fit(all);
     look();
+    places = [];
     const base = project([0, 0, 0]);
     ground.setAttribute("d", `M${at(plus(base, [-24, 9]))}h48` + [0, 1, 2, 3, 4].map((k) => `M${at(plus(base, [10 * k - 16, 9]))}l-7 8`).join(""));
     const depths = pieces.map((piece, i) => [piece.draw(all) - (piece.own.firstChild.getAttribute("class") === "body" ? 1e-3 * extent : 0), i]);
