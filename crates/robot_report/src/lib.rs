@@ -207,13 +207,16 @@ fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> 
 
 fn kinematics(robot: &Robot, symbols: &Symbols, notes: [Option<Element>; 2]) -> Section {
     let caption = holding("figcaption", scheme::CAPTION);
-    let figure = element("figure").with(scheme::scheme(robot)).with(caption);
+    let scheme = scheme::scheme(robot);
+    let width = scheme.get("width").and_then(|width| width.parse().ok());
+    let is_beside = width.is_some_and(|width| tables::fits_beside(robot, width));
+    let figure = element("figure").with(scheme).with(caption);
     let tables = std::iter::once(tables::kinematics(robot))
         .chain(tables::dh(robot, symbols))
         .chain(tables::frames(robot));
     let beside = element("div").with_all(notes.into_iter().flatten()).with_all(tables);
     let body = element("div").with(figure).with(beside);
-    let body = if tables::is_narrow(robot) { body.class("beside") } else { body };
+    let body = if is_beside { body.class("beside") } else { body };
     Section { id: "kinematics", title: "Kinematics", body: vec![body.into()] }
 }
 

@@ -37,19 +37,22 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
-/// The largest number of characters of the names in a row with which the table of links and joints fits beside the
-/// scheme.
-const NARROW: usize = 40;
+/// The width of a page's text on a wide screen, in pixels.
+const PAGE: f64 = 1190.0;
+/// The width of the other columns of the table of links and joints.
+const OTHERS: f64 = 430.0;
+/// The width of a character of a name.
+const CHARACTER: f64 = 8.0;
 
-/// Whether the table of links and joints is narrow enough to stand beside the scheme.
-pub(crate) fn is_narrow(robot: &Robot) -> bool {
+/// Whether the table of links and joints fits beside a scheme of this width in pixels.
+pub(crate) fn fits_beside(robot: &Robot, width: f64) -> bool {
     let longest = |name: fn(&LinkRow<'_>) -> usize| {
         rows::links(robot).map(|row| name(&row)).max().unwrap_or(0)
     };
     let names = longest(|row| row.link.name.chars().count())
         + longest(|row| row.parent.chars().count())
         + longest(|row| row.link.joint.name.chars().count());
-    names <= NARROW
+    width + OTHERS + CHARACTER * names as f64 <= PAGE
 }
 
 /// The tables of Denavit–Hartenberg parameters, one for each convention that the robot file uses.

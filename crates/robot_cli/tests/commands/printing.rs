@@ -86,7 +86,10 @@ fn letters_are_those_of_the_field() {
     assert!(usual.contains("Q1 = M_1_1*qdd1") && usual.contains("g_1 = "), "{usual}");
     assert_eq!(of(&["--letters", "paper"]), usual);
     let field = of(&["--letters", "field"]);
-    assert!(field.contains("tau1 = M_1_1*qdd1 + M_1_2*qdd2 + C_1_1_2*(2*qd1 + qd2)*qd2"), "{field}");
+    assert!(
+        field.contains("tau1 = M_1_1*qdd1 + M_1_2*qdd2 + C_1_1_2*(2*qd1 + qd2)*qd2"),
+        "{field}"
+    );
     assert!(field.contains("\nC_1_1_2 = -m2*l1*r2*sin(q2)\n"), "{field}");
     assert_eq!(of(&["--letters", "field", "--christoffel"]), field);
     assert!(of(&["--letters", "tau,M,h,g"]).contains("h_1_1_2*qd1*qd2 + h_1_2_2*qd2^2"));

@@ -20,7 +20,8 @@ pub(super) mod candidates {
     pub(in crate::forms) const CHRISTOFFEL: [&str; 5] = ["c", "C", "e", "f", "E"];
     /// The column of the Coriolis and centrifugal terms, and their matrix.
     pub(in crate::forms) const VELOCITY_COLUMN: [&str; 5] = ["h", "n", "v", "u", "V"];
-    pub(in crate::forms) const VELOCITY_MATRIX: [&str; 5] = [super::VELOCITY_MATRIX, "K", "N", "Z", "V"];
+    pub(in crate::forms) const VELOCITY_MATRIX: [&str; 5] =
+        [super::VELOCITY_MATRIX, "K", "N", "Z", "V"];
     pub(in crate::forms) const GRAVITY: [&str; 4] = ["g", "G", "f", "P"];
     /// Contributions of the tips' wrenches.
     pub(in crate::forms) const WRENCH: [&str; 4] = ["w", "r", "e", "R"];
