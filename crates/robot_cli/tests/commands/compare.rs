@@ -101,7 +101,7 @@ fn what_is_wrong_has_its_code_and_place() {
 }
 
 /// The row that the page adds to a difference: its grade and the reason.
-fn grade<'p>(row: &'p str) -> [&'p str; 3] {
+fn grade(row: &str) -> [&str; 3] {
     let parts = || {
         let (grade, rest) = row.strip_prefix("| grade | ")?.strip_suffix(" |")?.split_once(": ")?;
         let (apart, relation) = rest.strip_prefix("apart by ")?.split_once("; contradicted by ")?;
