@@ -1,5 +1,5 @@
 // Sets the formulas of pages as MathML: FOLDER TOOLS. Blocks of the language `math` are replaced; above LaTeX that the
-// command printed its equations are shown; in tables, terms in infix text such as `-qd2^2*l5*cos(q2)` are formulas. A
+// command printed its equations are shown; in tables, formulas are written as GitHub reads them, between $` and `$. A
 // formula that Temml cannot read is an error.
 import { readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -25,36 +25,11 @@ const printed = (latex) =>
     [...latex.matchAll(/(?:^% (.*)\n)?(\\begin\{(align\*?)\}[^]*?\\end\{\3\})/gm)].map(([, heading, display]) =>
         (heading ? `\n*${heading}*\n\n` : "") + set(display.replaceAll("{align}", "{align*}").replace(/\\label\{[^}]*\}/g, ""))).join("\n");
 
-// A product of symbols of the paper, of sines and of cosines as LaTeX; undefined if the text is something else.
-const symbol = (name) => {
-    const rules = [
-        [/^q(d{0,2})(\d)$/, (dots, joint) => ["q", "\\dot{q}", "\\ddot{q}"][dots.length] + `_${joint}`],
-        [/^([lM])(\d)$/, (letter, link) => `${letter}_${link}`],
-        [/^J([xyz])(\d)$/, (axis, link) => `J_${axis}^{*${link}}`],
-        [/^([FM])(?:_l)?([xyz]?)(\d)(?:\.([xyz]))?$/, (letter, axis, link, other) => axis || other ? `${letter}_{l_${axis || other}}^{${link}}` : undefined],
-    ];
-    for (const [pattern, latex] of rules) {
-        const parts = pattern.exec(name);
-        if (parts) return latex(...parts.slice(1));
-    }
-};
-const product = (text) => {
-    const [, sign, factors] = /^(-?)(.*)$/.exec(text);
-    const all = factors.split("*").map((factor) => {
-        const [, , called, name, , power] = /^((sin|cos)\((\w+)\)|[\w.]+)(\^(\d))?$/.exec(factor) ?? [];
-        const exponent = power ? `^${power}` : "";
-        if (called) return symbol(name) && `\\${called}${exponent} ${symbol(name)}`;
-        const plain = symbol(factor.replace(/\^\d$/, ""));
-        return plain && !(power && plain.includes("^")) ? plain + exponent : undefined;
-    });
-    return all.includes(undefined) ? undefined : sign + all.join(" \\, ");
-};
+// Formulas between $` and `$ in a row of a table; a bar would end the cell.
 const inline = (row) =>
-    row.replace(/`([^`|]+)`/g, (code, text) => {
-        const latex = product(text);
-        if (latex === undefined) return code;
+    row.replace(/\$`([^`]+)`\$/g, (_, latex) => {
         count += 1;
-        return temml.renderToString(latex, { throwOnError: true, strict: true }).replace(/\s*\n\s*/g, " ");
+        return temml.renderToString(latex, { throwOnError: true, strict: true }).replace(/\s*\n\s*/g, " ").replaceAll("|", "&#124;");
     });
 
 for (const page of pages(folder)) {
@@ -62,7 +37,7 @@ for (const page of pages(folder)) {
     const shown = text
         .replace(/^```latex output\n([^]*?)^```$/gm, (block, latex) =>
             latex.includes("…") ? block : `${printed(latex)}\n<details><summary>LaTeX</summary>\n\n${block}\n\n</details>`)
-        .replace(/^\| \(\d+\) .*$/gm, inline)
+        .replace(/^\| .*$/gm, inline)
         .replace(/^```math\n([^]*?)^```$/gm, (_, latex) => set(latex));
     if (shown !== text) writeFileSync(page, shown);
 }

@@ -118,6 +118,11 @@ def forms(pictures):
     pictures.add("gallery-compact", card(aligned(found)), "TRTTR1: compact equations")
 
 
+def schemes(pictures):
+    drawing = scheme(pictures.printed("document robots/ur5.toml --format typst --form recursive"))
+    pictures.add("scheme-ur5", drawing + card("#scheme"), "The kinematic scheme of the UR5")
+
+
 def author(pictures):
     document = pictures.printed("document robots/trttr1.toml --form grouped --trig paper --format typst")
     pictures.add_all(["author-1", "author-2"], typst.compile(document.encode(), format="svg"), "A page of the document about TRTTR1")
@@ -132,7 +137,7 @@ def speed(pictures):
 
 def main():
     pictures = Pictures(sys.argv[1])
-    for make in (readme, gallery, forms, author, speed):
+    for make in (readme, gallery, forms, schemes, author, speed):
         make(pictures)
     stale = []
     for name, drawing in pictures.made.items():

@@ -44,7 +44,7 @@ fn equations() -> Vec<(String, String)> {
     equations
 }
 
-/// A row of the table in `docs/trttr1.md`.
+/// A difference in `docs/trttr1.md` with its grade.
 struct Grade {
     equation: String,
     printed: String,
@@ -54,22 +54,64 @@ struct Grade {
 
 fn grades() -> Vec<Grade> {
     let page = project("docs/trttr1.md");
-    let (_, table) = page.split_once("| equation | term of the text |").unwrap();
-    let rows = table.lines().skip(2).take_while(|line| line.starts_with('|'));
-    let rows = rows.map(|line| {
+    let (mut grades, mut equation, mut printed, mut derived) = (vec![], "", "", "");
+    for line in page.lines().filter(|line| line.starts_with("| ")) {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
-        let term = |cell: &str| match cell {
-            "—" => "0".to_owned(),
-            term => term.trim_matches('`').to_owned(),
-        };
-        Grade {
-            equation: cells[0].to_owned(),
-            printed: term(cells[1]),
-            derived: term(cells[2]),
-            relations: cells[4].to_owned(),
+        match cells[..] {
+            ["printed", term] => printed = term,
+            ["derived", term] => derived = term,
+            ["grade", grade] => grades.push(Grade {
+                equation: equation.to_owned(),
+                printed: infix(printed),
+                derived: infix(derived),
+                relations: grade.split_once("contradicted by ").unwrap().1.to_owned(),
+            }),
+            [name, _] if name.starts_with('(') => equation = name,
+            _ => {}
         }
-    });
-    rows.collect()
+    }
+    grades
+}
+
+/// A typeset term as infix text: ``$`-\dot{q}_2^{2} \, l_5`$`` is `-qd2^2*l5`.
+fn infix(term: &str) -> String {
+    let Some(latex) = term.strip_prefix("$`").and_then(|rest| rest.strip_suffix("`$")) else {
+        assert_eq!(term, "—");
+        return "0".to_owned();
+    };
+    let latex = latex.replace(r"\textcolor{red}", "").replace(r"\textcolor{teal}", "");
+    let kept = |factor: &str| -> String {
+        factor.chars().filter(|sign| !r"\{}_* +".contains(*sign)).collect()
+    };
+    let factors: Vec<String> = latex.split(r" \, ").map(kept).collect();
+    let (sign, first) = match factors[0].strip_prefix('-') {
+        Some(first) => ("-", first),
+        None => ("", &*factors[0]),
+    };
+    let rest = factors[1..].iter().map(String::as_str);
+    let factors: Vec<String> = std::iter::once(first).chain(rest).map(factor).collect();
+    format!("{sign}{}", factors.join("*"))
+}
+
+/// A factor without the marks of LaTeX as infix text: `cos^2q5` is `cos(q5)^2`, and `Fly^6` is `Fy6`.
+fn factor(text: &str) -> String {
+    if text.starts_with("sin") || text.starts_with("cos") {
+        let (function, power) = text.split_once('q').map(|(head, _)| head.split_at(3)).unwrap();
+        let angle = &text[3 + power.len()..];
+        return format!("{function}({angle}){power}");
+    }
+    let (base, upper) = text.split_once('^').unwrap_or((text, ""));
+    match base.as_bytes() {
+        [b'J', _] => format!("{base}{upper}"),
+        [letter, b'l', axis] => {
+            let (letter, axis) = (char::from(*letter), char::from(*axis));
+            match upper {
+                "6" => format!("{letter}{axis}6"),
+                _ => format!("{letter}_l{upper}.{axis}"),
+            }
+        }
+        _ => text.replace("ddotq", "qdd").replace("dotq", "qd"),
+    }
 }
 
 /// The values of the paper's equations, with some terms corrected.

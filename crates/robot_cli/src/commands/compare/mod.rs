@@ -1,5 +1,6 @@
 //! `compare`: comparison of published equations with derived ones.
 
+mod blocks;
 mod show;
 
 use std::path::PathBuf;
@@ -7,6 +8,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use robot_build::RobotFile;
 use robot_check::errata::{Comparison, Notation, Options, compare};
+use robot_model::robot::Robot;
 
 use crate::Terminal;
 use crate::delivery::answered;
@@ -56,18 +58,18 @@ enum Format {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let comparison = self.comparison(terminal).map_err(Failure::refused)?;
+        let (robot, comparison) = self.comparison(terminal).map_err(Failure::refused)?;
         let shown = match self.format {
             Format::Text if is_colored(terminal.screen) => show::colored(&show::text(&comparison)),
             Format::Text => show::text(&comparison),
             Format::Json => show::json(&comparison),
-            Format::Markdown => show::markdown(&comparison),
+            Format::Markdown => blocks::markdown(&comparison, &robot),
         };
         answered(&shown, terminal)?;
         if comparison.differences.is_empty() { Ok(()) } else { Err(Failure::Shown) }
     }
 
-    fn comparison(&self, terminal: &mut Terminal<'_>) -> Result<Comparison, Failure> {
+    fn comparison(&self, terminal: &mut Terminal<'_>) -> Result<(Robot, Comparison), Failure> {
         let robot = self.robot.read(terminal)?.robot;
         self.robot.check_base_frames(&[], terminal)?;
         let printed = RobotFile::read(&self.printed)?.source;
@@ -77,6 +79,7 @@ impl Arguments {
         });
         let options = Options { notation, snap: self.robot.snap() };
         let found = compare(&robot, &printed, &options);
-        found.map_err(|errors| Failure::Robot(errors.into()))
+        let found = found.map_err(|errors| Failure::Robot(errors.into()))?;
+        Ok((robot, found))
     }
 }

@@ -1,4 +1,4 @@
-//! Printing of a comparison as text, JSON and Markdown.
+//! Printing of a comparison as text and JSON.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -48,7 +48,7 @@ pub(super) fn colored(text: &str) -> String {
 }
 
 /// The name of an equation: `(31) F_l5.x`.
-fn name(difference: &Difference) -> String {
+pub(super) fn name(difference: &Difference) -> String {
     match difference.number.as_str() {
         "" => difference.quantity.clone(),
         number => format!("({number}) {}", difference.quantity),
@@ -61,7 +61,7 @@ fn mistakes(difference: &Difference) -> String {
 }
 
 /// Prints a summary such as `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`.
-fn summary(comparison: &Comparison) -> String {
+pub(super) fn summary(comparison: &Comparison) -> String {
     let Comparison { equations, names, terms, wrench, differences } = comparison;
     let mut kinds: BTreeMap<MistakeKind, usize> = BTreeMap::new();
     for mistake in differences.iter().flat_map(|difference| &difference.mistakes) {
@@ -123,36 +123,6 @@ pub(super) fn json(comparison: &Comparison) -> String {
     format!("{shown:#}\n")
 }
 
-/// Prints a table and a summary.
-pub(super) fn markdown(comparison: &Comparison) -> String {
-    let mut shown = String::new();
-    if !comparison.differences.is_empty() {
-        shown.push_str("| equation | mistake | printed term | derived term | evidence |\n");
-        shown.push_str("|---|---|---|---|---|\n");
-    }
-    let term = |term: &Option<String>| match term {
-        Some(term) => format!("`{term}`"),
-        None => "—".to_owned(),
-    };
-    for difference in &comparison.differences {
-        let evidence: Vec<String> = difference.evidence.iter().map(ToString::to_string).collect();
-        let derived = match &difference.nearest {
-            Some(nearest) => format!("— (nearest: `{nearest}`)"),
-            None => term(&difference.derived),
-        };
-        // Writing to a string does not fail.
-        let _ = writeln!(
-            shown,
-            "| {} | {} | {} | {derived} | {} |",
-            name(difference).replace('|', "\\|"),
-            mistakes(difference),
-            term(&difference.printed),
-            evidence.join("; ").replace('|', "\\|"),
-        );
-    }
-    shown + "\n" + &summary(comparison) + "\n"
-}
-
 #[cfg(test)]
 mod tests {
     use robot_check::errata::Mistake;
@@ -195,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn differences_are_paragraphs_rows_and_objects() {
+    fn differences_are_paragraphs_and_objects() {
         let extra = Difference {
             derived: None,
             nearest: Some("m3".to_owned()),
@@ -209,19 +179,6 @@ mod tests {
         assert_eq!(lines[1..3], ["    printed  m1", "    nearest  m3"]);
         assert!(lines[3].starts_with("Q1, line 7: missing term"), "{shown}");
         assert_eq!(lines[4..], ["    derived  m2", &summary(&all)]);
-        let shown = markdown(&all);
-        let rows: Vec<&str> = shown.lines().collect();
-        assert!(rows[0].starts_with("| equation |") && rows[1].starts_with("|---"), "{shown}");
-        assert!(
-            rows[2].starts_with("| (3\\|4) Q1 | ")
-                && rows[2].contains(" | `m1` | — (nearest: `m3`) | "),
-            "{shown}"
-        );
-        assert!(rows[3].starts_with("| Q1 | ") && rows[3].contains(" | — | `m2` | "), "{shown}");
-        assert_eq!(rows[4..], ["", &summary(&all)]);
-        // Without differences there is no table.
-        let none = comparison(vec![]);
-        assert_eq!(markdown(&none), format!("\n{}\n", summary(&none)));
         let shown: Value = serde_json::from_str(&json(&all)).unwrap();
         assert_eq!(shown["differences"][0]["nearest"], "m3");
         assert_eq!(shown["differences"][1]["printed"], Value::Null);
