@@ -433,7 +433,7 @@ mod tests {
             (r"\frac{0.96}{a} + \frac{1.03 b}{a}", r"\frac{1}{a}+\frac{b}{a}"),
             (r"a / 1.04 b", "a/1 b"),
             (r"0.0123 q", "0.01 q"),
-            (r"0.0000096 q", r"{10^{-5}}q"),
+            (r"0.0000096 q", r"10^{-5}q"),
         ] {
             let shown = formula(&tidied(&read(given).unwrap(), Some(1)));
             assert_eq!(shown.replace(' ', ""), expected.replace(' ', ""), "{given}");
