@@ -64,7 +64,7 @@ pub(crate) struct EquationArguments {
     /// stands for the matrix in C(q, q̇) q̇, as with --christoffel
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
-    /// Significant digits of decimals in equations [default: 10]
+    /// Significant digits of decimals in equations; 17 prints all [default: 10]
     #[arg(long, value_name = "N", value_parser = whole(1..=ALL_DIGITS), allow_negative_numbers = true)]
     digits: Option<u8>,
     /// Include friction in the joint torques
@@ -237,7 +237,7 @@ impl EquationArguments {
         self.digits.map(usize::from)
     }
 
-    /// Prints a note that decimals are rounded, if no option requests it.
+    /// Prints a note on a terminal that decimals are rounded, if no option requests it.
     pub(crate) fn note_rounding(
         &self,
         equations: &Equations,
@@ -330,9 +330,10 @@ const ALL_DIGITS: u8 = 17;
 pub(crate) const NO_DIGITS: &str =
     "--digits has no effect on JSON, whose equations are exact; leave it out";
 
-/// Prints a note that decimals are rounded, if they are.
+/// Prints a note that decimals are rounded, if they are and somebody reads it. The errors of rounding are far below the
+/// accuracy of any parameter, so programs that run this one do not need the note.
 pub(crate) fn note_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-    if is_rounded {
+    if is_rounded && terminal.progress {
         let message = "significant digits; --digits 17 prints all";
         writeln!(terminal.errors, "note: decimals are rounded to {DIGITS} {message}")?;
     }

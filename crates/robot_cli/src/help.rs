@@ -82,7 +82,7 @@ fn indent(line: &str) -> usize {
 
 /// Wraps a text into lines of at most `columns` columns. The first `hanging` bytes are the start of the first line, and
 /// further lines are indented by this length. Longer words are not broken.
-fn wrapped(text: &str, columns: usize, hanging: usize) -> String {
+pub(crate) fn wrapped(text: &str, columns: usize, hanging: usize) -> String {
     let (start, words) = text.split_at_checked(hanging).unwrap_or(("", text));
     let (mut lines, mut line, mut has_words) = (vec![], start.to_owned(), false);
     for word in words.split_whitespace() {

@@ -82,7 +82,7 @@ pub struct Terminal<'a> {
     pub errors: &'a mut dyn Write,
     /// Whether standard error shows colors; see [`colors`].
     pub colors: bool,
-    /// Whether standard error shows the progress of long runs, as it does on a terminal.
+    /// Whether standard error is a terminal: it then shows the progress of long runs, and notes that only a reader needs.
     pub progress: bool,
     /// The terminal, if standard output is one; results are then formatted for people.
     pub screen: Option<Screen>,

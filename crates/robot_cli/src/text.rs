@@ -150,28 +150,36 @@ pub(crate) fn table(rows: &[Vec<String>]) -> String {
     text
 }
 
-/// Describes how angles close to multiples of π/2 were snapped, and the effect of larger tolerances.
+/// Describes which angles are taken as multiples of π/2, and the effect of larger tolerances.
 pub(crate) fn snapping(snapping: &Snapping) -> String {
     let Snapping { taken, larger } = snapping;
-    let mut text = format!(
-        "angles snapped to a multiple of π/2, --snap {:e}: {}",
-        taken.tolerance,
-        taken.snapped.len()
-    );
+    let mut text = match taken.tolerance > 0.0 {
+        false => "angles have the values in the file (--snap 0)".to_owned(),
+        true => format!(
+            "angles within {:e} rad of a multiple of π/2 are taken as that multiple (--snap); {} changed",
+            taken.tolerance,
+            match taken.snapped.len() {
+                0 => "none is".to_owned(),
+                1 => "1 is".to_owned(),
+                count => format!("{count} are"),
+            }
+        ),
+    };
     // Writing to a string does not fail.
     if let Some(Snap { name, angle, change }) = taken.largest() {
         let change = change.abs();
-        let _ = write!(text, "; the largest change is {change:.1e} rad, from {angle} at {name}");
+        let _ = write!(text, "\nthe largest change is {change:.1e} rad, from {angle} at {name}");
     }
     for tried in larger {
         let change = tried.largest().map_or(0.0, |snap| snap.change.abs());
         let saved = match taken.operations.checked_sub(tried.operations) {
-            Some(saved) => format!("{saved} fewer operations of inverse dynamics"),
+            Some(0) => "as many operations".to_owned(),
+            Some(saved) => format!("{saved} fewer operations"),
             None => format!("{} more operations", tried.operations - taken.operations),
         };
         let _ = write!(
             text,
-            "\n--snap {:e} would snap {}, with a largest change of {change:.1e} rad: {saved}",
+            "\n--snap {:e} would change {} by up to {change:.1e} rad; inverse dynamics would need {saved}",
             tried.tolerance,
             tried.snapped.len()
         );
@@ -269,23 +277,27 @@ mod tests {
                 .collect(),
             operations,
         };
-        let start = "angles snapped to a multiple of π/2, --snap 1e-9: ";
+        let start =
+            "angles within 1e-9 rad of a multiple of π/2 are taken as that multiple (--snap); ";
         let taken = tried(1e-9, &[], 10);
         let alone = Snapping { taken: taken.clone(), larger: vec![] };
-        assert_eq!(snapping(&alone), format!("{start}0"));
+        assert_eq!(snapping(&alone), format!("{start}none is changed"));
+        let exact = Snapping { taken: tried(0.0, &[], 10), larger: vec![] };
+        assert_eq!(snapping(&exact), "angles have the values in the file (--snap 0)");
         let larger = vec![tried(1e-6, &[-1e-7, 1e-8], 7), tried(1e-4, &[2e-5], 12)];
         assert_eq!(
             snapping(&Snapping { taken, larger }),
             format!(
-                "{start}0\n--snap 1e-6 would snap 2, with a largest change of 1.0e-7 rad: 3 fewer operations of inverse \
-                 dynamics\n--snap 1e-4 would snap 1, with a largest change of 2.0e-5 rad: 2 more operations"
+                "{start}none is changed\n--snap 1e-6 would change 2 by up to 1.0e-7 rad; inverse dynamics would \
+                 need 3 fewer operations\n--snap 1e-4 would change 1 by up to 2.0e-5 rad; inverse dynamics would need 2 \
+                 more operations"
             )
         );
         let taken = tried(1e-9, &[1e-10, -4e-10], 10);
         let shown = snapping(&Snapping { taken, larger: vec![] });
         assert_eq!(
             shown,
-            format!("{start}2; the largest change is 4.0e-10 rad, from 1.5 at elbow")
+            format!("{start}2 are changed\nthe largest change is 4.0e-10 rad, from 1.5 at elbow")
         );
     }
 

@@ -159,7 +159,7 @@ fn check_values(text: &mut String, sections: &Sections<'_>) {
         }
     }
     for check in sections.checks {
-        line_of(text, format_args!("```text\n{}", check.function));
+        line_of(text, format_args!("```text\n{}", name_of(sections, &check.function)));
         for (name, entries) in &check.inputs {
             line_of(text, format_args!("  {name} = {entries:?}"));
         }

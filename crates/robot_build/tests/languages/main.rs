@@ -98,6 +98,18 @@ fn names_of_robot_files_do_not_hide_those_that_printers_use() {
     }
 }
 
+/// A bundle with the name of a constant is listed in the README by its name in the code, also beside its check values.
+#[test]
+fn a_readme_has_the_names_of_the_code() {
+    let text = ARM.to_owned() + "[code.bundles]\nDOF = [\"gravity\", \"energies\"]\n";
+    let source = Source { name: "a.toml".to_owned(), text };
+    for language in [Language::Rust, Language::Python, Language::JavaScript] {
+        let files = package(&source, &Options::default(), language).unwrap();
+        let readme = text_of(&files, "README.md");
+        assert!(readme.contains("| `DOF_2` |") && readme.contains("```text\nDOF_2\n"), "{readme}");
+    }
+}
+
 /// A file of a package as text.
 fn text_of<'f>(files: &'f [robot_build::File], name: &str) -> &'f str {
     files.iter().find(|file| file.path.ends_with(name)).unwrap().contents.text().unwrap()

@@ -37,7 +37,7 @@ pub(crate) struct Arguments {
     /// Output format; LaTeX needs amsmath
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Significant digits of decimals [default: 10]
+    /// Significant digits of decimals; 17 prints all [default: 10]
     #[arg(long, value_name = "N", value_parser = whole(1..=17_u8), allow_negative_numbers = true)]
     digits: Option<u8>,
     #[command(flatten)]

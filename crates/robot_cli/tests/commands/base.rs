@@ -3,7 +3,7 @@
 use robot_symbolic::Formula;
 use serde_json::Value;
 
-use crate::{complaint, folder, output, robot, rounded_output};
+use crate::{complaint, folder, output, robot};
 
 fn base(name: &str, frames: &str) -> Value {
     let robot = robot(name);
@@ -83,8 +83,7 @@ fn latex_is_an_environment_of_amsmath() {
     let formula =
         r"  \mathit{ZZR}_1 &= \mathit{ZZ}_1 + l_1^{2} M_2 = m_1 r_1^{2} + I_1 + m_2 l_1^{2} \\";
     assert!(lines.contains(&formula), "{shown}");
-    let narrow =
-        rounded_output(&["base", &robot("puma560"), "--format", "latex", "--width", "8cm"]);
+    let narrow = output(&["base", &robot("puma560"), "--format", "latex", "--width", "8cm"], "");
     assert!(narrow.contains(r"    &\quad "), "{narrow}");
 }
 

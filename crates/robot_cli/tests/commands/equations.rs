@@ -7,7 +7,7 @@ use robot_numeric::{Loads, Mechanism, Wrench};
 use robot_symbolic::Formula;
 use serde_json::{Map, Value};
 
-use crate::{complaint, output, robot, rounded_output};
+use crate::{complaint, output, robot};
 
 const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
 const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
@@ -281,7 +281,7 @@ fn the_regrouped_form_is_linear_in_base_parameters() {
         assert!(shown.lines().any(|shown| shown == line), "{line} is not in {shown}");
     }
     let arguments = ["equations", &robot("puma560"), "--form", "regrouped", "--format", "latex"];
-    let latex = rounded_output(&arguments);
+    let latex = output(&arguments, "");
     assert!(latex.contains(r"  \mathit{XXR}_4 &= \mathit{XX}_4 + "), "{latex}");
     assert!(latex.contains(r" Q_6 &= \mathit{ZZ}_6\, Y_{6,21} + w_6"), "{latex}");
 }

@@ -66,6 +66,22 @@ fn run_on(screen: Option<robot_cli::Screen>, arguments: &[&str]) -> Outcome {
     Outcome { code, output, errors }
 }
 
+/// The messages of a command whose standard error is a terminal without colors.
+fn messages_on_terminal(arguments: &[&str]) -> String {
+    let (mut input, mut output, mut errors) = (&b""[..], vec![], vec![]);
+    let mut terminal = robot_cli::Terminal {
+        input: &mut input,
+        output: &mut output,
+        errors: &mut errors,
+        colors: false,
+        progress: true,
+        screen: None,
+    };
+    let arguments = std::iter::once("robot-symbolic").chain(arguments.iter().copied());
+    assert_eq!(robot_cli::run(arguments, &mut terminal), 0);
+    String::from_utf8(errors).unwrap()
+}
+
 fn run_shown(
     screen: Option<robot_cli::Screen>,
     arguments: &[&str],
@@ -104,18 +120,6 @@ fn output(arguments: &[&str], input: &str) -> String {
     assert_eq!((code, errors.as_str()), (0, ""), "{arguments:?}");
     output
 }
-
-/// The output of a command that succeeds with no message except the note about rounded decimals.
-#[track_caller]
-fn rounded_output(arguments: &[&str]) -> String {
-    let Outcome { code, output, errors } = run(arguments);
-    assert_eq!((code, errors.as_str()), (0, ROUNDED), "{arguments:?}");
-    output
-}
-
-/// The note about rounded decimals.
-const ROUNDED: &str =
-    "note: decimals are rounded to 10 significant digits; --digits 17 prints all\n";
 
 /// The output of a command that writes files and has no other messages.
 #[track_caller]

@@ -92,6 +92,18 @@ fn masses_and_limits_are_shown() {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }
     assert!(!shown.contains(" yes"), "{shown}");
+    for pose in [
+        "frame  from   pose\nlink1  base   the same\nlink2  link1  rotated about x by pi/2\n",
+        "link4  link3  to (0.0203, 0, 0.15005), rotated about x by -pi/2\n",
+        "\ntool0  link6  the same\n",
+    ] {
+        assert!(shown.contains(pose), "{pose} is not in {shown}");
+    }
+    for name in ["puma560", "panda"] {
+        let shown = output(&["show", &robot(name)], "");
+        let wide = shown.lines().find(|line| line.chars().count() > 100);
+        assert_eq!(wide, None, "{name}");
+    }
     // A file without inertias has no columns of zeros.
     let planar = output(&["show", &robot("planar_2r")], "");
     assert!(planar.contains("\nlink  mass    x    zz\n"), "{planar}");

@@ -1,6 +1,6 @@
 //! Output for people: angles, letters, numbers.
 
-use crate::{ROUNDED, complaint, folder, output, robot, rounded_output, run};
+use crate::{complaint, folder, messages_on_terminal, output, robot, run};
 
 /// An arm with angles that are rounded as in exported files.
 const ROUNDED_ANGLES: &str = r#"<robot name="rounded">
@@ -259,8 +259,8 @@ fn digits_are_rounded_for_people_alone() {
     assert!(!output(&["document", &robot("planar_2r")], "").contains("significant digits"));
 }
 
-/// The rounding noise of doubles that a program wrote into a robot file is printed only for machines; a note says that
-/// decimals are rounded.
+/// The rounding noise of doubles that a program wrote into a robot file is printed only for machines; on a terminal, a
+/// note says that decimals are rounded, unless an option requests it.
 #[test]
 fn the_noise_of_doubles_is_not_printed() {
     let folder = folder("noise");
@@ -278,8 +278,14 @@ fn the_noise_of_doubles_is_not_printed() {
         &["base", file, "--format", "typst"],
     ] {
         let done = run(arguments);
-        assert_eq!((done.code, done.errors.as_str()), (0, ROUNDED), "{arguments:?}");
+        assert_eq!((done.code, done.errors.as_str()), (0, ""), "{arguments:?}");
         assert!(!done.output.contains("00000"), "{}", done.output);
+        let note = "note: decimals are rounded to 10 significant digits; --digits 17 prints all\n";
+        assert!(messages_on_terminal(arguments).ends_with(note), "{arguments:?}");
+        for digits in ["4", "17"] {
+            let messages = messages_on_terminal(&[arguments, &["--digits", digits]].concat());
+            assert!(!messages.contains("rounded"), "{messages}");
+        }
         let all = run(&[arguments, &["--digits", "17"]].concat());
         assert_eq!((all.code, all.errors.as_str()), (0, ""), "{arguments:?}");
         assert!(all.output.contains("00000000"), "{}", all.output);
@@ -341,7 +347,7 @@ fn no_number_is_a_quotient_of_long_ones_and_constants_are_a_table() {
     assert!(!shown.contains("k_{1} &=") && !shown.contains("k_1 &="), "{shown}");
     let recursive = output(&["document", &robot("trttr1"), "--form", "recursive"], "");
     assert!(!recursive.contains("Constants."), "zeros of vectors are not constants");
-    let shown = rounded_output(&["equations", &robot("panda"), "--form", "compact"]);
+    let shown = output(&["equations", &robot("panda"), "--form", "compact"], "");
     let quotient = |line: &str| line.contains('/');
     assert!(!shown.lines().any(quotient), "{shown}");
 }
@@ -483,7 +489,7 @@ fn compact_equations_are_those_of_mechanics() {
     assert!(shown.contains("(l4 + q4)*x_2") && !shown.contains("l4*x_2"), "{shown}");
     // Roots of numbers belong to the coefficient.
     let arguments = ["equations", &robot("panda"), "--form", "recursive", "--format", "latex"];
-    let shown = rounded_output(&arguments);
+    let shown = output(&arguments, "");
     assert!(
         shown.contains(r"\frac{\sqrt{2}}{2} F_x") && !shown.contains(r"F_x \sqrt{2}"),
         "{shown}"

@@ -109,8 +109,9 @@ fn what_snapping_changes_is_told() {
     let path = path.to_str().unwrap();
     let shown = output(&["show", path], "");
     for part in [
-        "angles snapped to a multiple of π/2, --snap 1e-9: 1; the largest change is 3.0e-10 rad",
-        "--snap 1e-4 would snap 2, with a largest change of 3.7e-6 rad: 0 fewer operations",
+        "angles within 1e-9 rad of a multiple of π/2 are taken as that multiple (--snap); 1 is changed\n",
+        "the largest change is 3.0e-10 rad",
+        "--snap 1e-4 would change 2 by up to 3.7e-6 rad; inverse dynamics would need as many operations",
     ] {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }

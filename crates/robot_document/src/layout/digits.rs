@@ -77,8 +77,9 @@ pub(crate) fn has_longer(math: &Math, digits: usize) -> bool {
     longer.get()
 }
 
-/// Writes the numbers of a text for readers. With `digits`, decimals and long quotients are rounded to that many
-/// significant digits; otherwise only those change that nobody would write.
+/// Writes the numbers of a text for readers, as [`tidied`] does in a formula: `sqrt(2)/2` for `0.5*sqrt(2)`, and no
+/// factor 1. With `digits`, decimals and long quotients are rounded to that many significant digits; otherwise only those
+/// change that nobody would write.
 pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
     let mut shown = String::new();
     let mut rest = text;
@@ -90,26 +91,85 @@ pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
             rest = &rest[first.len_utf8()..];
             continue;
         }
-        let (number, after) = split_number(rest);
-        let below = after.strip_prefix('/').map(split_number);
-        let is_power = shown.ends_with('^');
-        match below.filter(|(below, _)| !below.is_empty() && !after.starts_with("/(") && !is_power)
-        {
-            Some((below, after)) if is_long(number, below) => {
-                shown.push_str(&short(&quotient(number, below), digits));
-                rest = after;
-            }
-            _ => {
-                let short = short(number, digits.filter(|_| !is_power));
-                match power_of_ten(&short) {
-                    Some((mantissa, exponent)) => shown.push_str(&format!("{mantissa}e{exponent}")),
-                    None => shown.push_str(&short),
-                }
-                rest = after;
-            }
+        let (number, after) = text_number(rest, &shown, digits);
+        rest = after;
+        if shown.ends_with(['^', '/']) {
+            shown.push_str(&number);
+        } else if let Some((product, after)) = times_constant(&number, rest, digits) {
+            shown.push_str(&product);
+            rest = after;
+        } else if let Some(after) = rest.strip_prefix('*').filter(|_| number == "1") {
+            rest = after;
+        } else {
+            shown.push_str(&number);
         }
     }
     shown
+}
+
+/// The number at the beginning of a text, for readers, and the text after it; `before` is the text before it.
+fn text_number<'t>(text: &'t str, before: &str, digits: Option<usize>) -> (String, &'t str) {
+    let (number, after) = split_number(text);
+    let is_power = before.ends_with('^');
+    let below = after.strip_prefix('/').map(split_number);
+    let below = below.filter(|(below, after)| {
+        !below.is_empty() && !after.starts_with('^') && !is_power && !before.ends_with('/')
+    });
+    match below {
+        Some((below, after)) if is_long(number, below) => {
+            (short(&quotient(number, below), digits), after)
+        }
+        Some((below, after)) if fraction_of(number, below).is_some() => {
+            (format!("{number}/{below}"), after)
+        }
+        _ => {
+            let short = short(number, digits.filter(|_| !is_power));
+            let number = match power_of_ten(&short) {
+                Some((mantissa, exponent)) => format!("{mantissa}e{exponent}"),
+                None => short,
+            };
+            (number, after)
+        }
+    }
+}
+
+/// The product of a number with the root or π at the beginning of a text, if the number is a fraction, and the text
+/// after the product.
+fn times_constant<'t>(
+    number: &str,
+    after: &'t str,
+    digits: Option<usize>,
+) -> Option<(String, &'t str)> {
+    let [above, below] = match number.split_once('/') {
+        Some((above, below)) => fraction_of(above, below)?,
+        None => fraction(number)?,
+    };
+    let factor = after.strip_prefix('*')?;
+    let end = match factor.strip_prefix("sqrt(") {
+        Some(inside) => "sqrt(".len() + closing(inside)? + 1,
+        None => factor.strip_prefix("pi").map(|_| "pi".len())?,
+    };
+    let (factor, after) = factor.split_at_checked(end)?;
+    let goes_on = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '.' | '^');
+    if after.starts_with(goes_on) {
+        return None;
+    }
+    let times = if above > 1 { format!("{above}*") } else { String::new() };
+    Some((format!("{times}{}/{below}", tidied_text(factor, digits)), after))
+}
+
+/// The place of the parenthesis that closes the one before a text.
+fn closing(text: &str) -> Option<usize> {
+    let mut open = 1_usize;
+    let found = text.char_indices().find(|(_, character)| {
+        match character {
+            '(' => open += 1,
+            ')' => open -= 1,
+            _ => {}
+        }
+        open == 0
+    });
+    found.map(|(place, _)| place)
 }
 
 /// Splits off the number at the beginning of a text, with its point and exponent.
@@ -243,6 +303,11 @@ fn row(pieces: Vec<Math>, simple: bool) -> Vec<Math> {
     let simple = simple && !pieces.iter().all(is_value);
     let mut pieces = pieces.into_iter().peekable();
     while let Some(piece) = pieces.next() {
+        let is_first = tidy.last().is_none_or(|piece| matches!(piece, Math::Sign('+' | '-')));
+        let is_factor = pieces.peek().is_some_and(|next| !matches!(next, Math::Sign(_)));
+        if is_first && is_factor && piece == Math::Number("1".to_owned()) {
+            continue;
+        }
         let Some([above, below]) = parts(&piece) else {
             tidy.push(piece);
             continue;
@@ -273,14 +338,16 @@ fn parts(piece: &Math) -> Option<[u64; 2]> {
     match piece {
         Math::Number(digits) => fraction(digits),
         Math::Fraction(parts) => match parts.as_ref() {
-            [Math::Number(above), Math::Number(below)] => {
-                Some([above.parse().ok()?, below.parse().ok()?])
-                    .filter(|[_, below]| *below <= LARGEST)
-            }
+            [Math::Number(above), Math::Number(below)] => fraction_of(above, below),
             _ => None,
         },
         _ => None,
     }
+}
+
+/// A quotient of integers with a denominator up to [`LARGEST`].
+fn fraction_of(above: &str, below: &str) -> Option<[u64; 2]> {
+    Some([above.parse().ok()?, below.parse().ok()?]).filter(|[_, below]| *below <= LARGEST)
 }
 
 /// A decimal as a fraction with a denominator up to [`LARGEST`]; `None` if there is none or it is an integer.
@@ -324,6 +391,64 @@ mod tests {
         ] {
             let shown = formula(&tidied(&read(given).unwrap(), None));
             assert_eq!(shown.replace(' ', ""), expected.replace(' ', ""), "{given}");
+        }
+    }
+
+    #[test]
+    fn texts_have_the_fractions_of_formulas() {
+        for (given, expected) in [
+            ("0.5*sqrt(2)", "sqrt(2)/2"),
+            ("-1.5*sqrt(2)*l1", "-3*sqrt(2)/2*l1"),
+            ("a - 2/3*sqrt(3)*b", "a - 2*sqrt(3)/3*b"),
+            ("q1 + 0.75*pi", "q1 + 3*pi/4"),
+            ("0.25*sqrt(1 + 0.5*sqrt(3))", "sqrt(1 + sqrt(3)/2)/4"),
+            ("a*0.5*sqrt(2)/b", "a*sqrt(2)/2/b"),
+        ] {
+            let shown = tidied_text(given, None);
+            assert_eq!(shown, expected);
+            let value = |text: &str| {
+                let value = |name: &str| match name {
+                    "a" => 0.3,
+                    "b" => 0.7,
+                    "l1" => 1.1,
+                    _ => -0.4,
+                };
+                robot_symbolic::Formula::parse(text).unwrap().evaluate(value)
+            };
+            assert!((value(given) - value(&shown)).abs() < 1e-15, "{given}");
+        }
+        for same in ["a/0.5*sqrt(2)", "0.123*sqrt(2)", "0.5*sqrt(2)^3", "x^0.5*sqrt(2)", "0.5*pi_2"]
+        {
+            assert_eq!(tidied_text(same, None), same);
+        }
+    }
+
+    #[test]
+    fn a_factor_that_rounds_to_one_is_left_out() {
+        for (given, expected) in [
+            (r"0.96 q - 1.04 \sin q", r"q-\sin q"),
+            (r"-0.96 \left(a + 1.02 b\right)", r"-\left(a+b\right)"),
+            (r"0.96", "1"),
+            (r"a + 0.96", "a+1"),
+            (r"\frac{0.96}{a} + \frac{1.03 b}{a}", r"\frac{1}{a}+\frac{b}{a}"),
+            (r"a / 1.04 b", "a/1 b"),
+            (r"0.0123 q", "0.01 q"),
+            (r"0.0000096 q", r"10^{-5}q"),
+        ] {
+            let shown = formula(&tidied(&read(given).unwrap(), Some(1)));
+            assert_eq!(shown.replace(' ', ""), expected.replace(' ', ""), "{given}");
+        }
+        for (given, expected) in [
+            ("0.96*q1 - 1.04*sin(q2)", "q1 - sin(q2)"),
+            ("-0.96*(a + 1.02*b)", "-(a + b)"),
+            ("0.96", "1"),
+            ("a + 0.96", "a + 1"),
+            ("0.96/a + 1.03*b/a", "1/a + b/a"),
+            ("a/1.04*b + 2^1.04*c", "a/1*b + 2^1.04*c"),
+            ("0.0123*q1", "0.01*q1"),
+            ("0.0000096*q1", "1e-5*q1"),
+        ] {
+            assert_eq!(tidied_text(given, Some(1)), expected);
         }
     }
 

@@ -1,8 +1,8 @@
-//! Groups of warnings and notes of the same kind, each of which is shown as one.
+//! Groups of diagnostics of the same kind, each of which is shown as one.
 
 use std::collections::{HashMap, HashSet};
 
-use super::{Diagnostic, Severity, Source};
+use super::{Diagnostic, Label, Severity, Source};
 
 /// Up to this many diagnostics of the same kind are shown separately.
 const FEW: usize = 2;
@@ -53,22 +53,44 @@ impl Group<'_> {
         let further = self.others.iter().flat_map(|other| names(&other.message));
         let also: Vec<String> =
             further.filter(|name| known.insert(name)).map(|name| format!("`{name}`")).collect();
-        let starts = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
-        let starts: Vec<usize> = starts.map(|(place, _)| place).collect();
-        let line = |byte: usize| starts.partition_point(|newline| *newline < byte) + 1;
-        let others = self.others.iter();
-        let mut lines: Vec<usize> =
-            others.filter_map(|other| Some(line(other.primary.as_ref()?.span.start))).collect();
-        lines.sort_unstable();
-        lines.dedup();
-        let plural = if lines.len() == 1 { "" } else { "s" };
-        let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
-        let parts = [(also, "also ".to_owned()), (lines, format!("on line{plural} "))];
+        let others = self.others.iter().filter_map(|other| other.primary.as_ref());
+        let (on, lines) = lines(source, others);
+        let parts = [(also, "also ".to_owned()), (lines, on)];
         let parts = parts.into_iter().filter(|(list, _)| !list.is_empty());
         let parts: Vec<String> =
             parts.map(|(list, before)| format!("{before}{}", shortened(&list))).collect();
         (!parts.is_empty()).then(|| parts.join("; "))
     }
+
+    /// The secondary places of the first diagnostic that are shown with their lines, and a list of the others, such as
+    /// `and here on lines 12, 15, 20`: if several places have the same remark, only their lines are listed.
+    pub(super) fn secondary(&self, source: &Source) -> (Vec<&Label>, Vec<String>) {
+        let all = &self.first.secondary;
+        let (mut shown, mut listed): (Vec<&Label>, Vec<String>) = (vec![], vec![]);
+        let mut known: HashSet<&str> = HashSet::new();
+        for label in all {
+            let alike: Vec<&Label> = all.iter().filter(|other| other.text == label.text).collect();
+            if label.text.is_empty() || alike.len() <= FEW {
+                shown.push(label);
+            } else if known.insert(&label.text) {
+                let (on, lines) = lines(source, alike.into_iter());
+                listed.push(format!("{} {on}{}", label.text, shortened(&lines)));
+            }
+        }
+        (shown, listed)
+    }
+}
+
+/// The lines at which labels begin, in order and each once, and the words before them.
+fn lines<'l>(source: &Source, labels: impl Iterator<Item = &'l Label>) -> (String, Vec<String>) {
+    let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+    let ends: Vec<usize> = ends.map(|(place, _)| place).collect();
+    let line = |label: &Label| ends.partition_point(|end| *end < label.span.start) + 1;
+    let mut lines: Vec<usize> = labels.map(line).collect();
+    lines.sort_unstable();
+    lines.dedup();
+    let plural = if lines.len() == 1 { "" } else { "s" };
+    (format!("on line{plural} "), lines.iter().map(ToString::to_string).collect())
 }
 
 fn shortened(list: &[String]) -> String {
@@ -79,17 +101,14 @@ fn shortened(list: &[String]) -> String {
     }
 }
 
-/// Groups the diagnostics, in the order of their first members. Errors are never grouped, because each must be
-/// corrected, nor are kinds with only a few diagnostics.
+/// Groups the diagnostics, in the order of their first members. Kinds with only a few diagnostics are not grouped, nor
+/// are errors with different remedies, because each error must be corrected.
 pub(super) fn groups(list: &[Diagnostic]) -> Vec<Group<'_>> {
     let mut places: HashMap<Kind<'_>, usize> = HashMap::new();
     let mut found: Vec<Vec<(usize, &Diagnostic)>> = vec![];
     for member in list.iter().enumerate() {
         let new = found.len();
-        let place = match member.1.severity {
-            Severity::Error => new,
-            _ => *places.entry(kind(member.1)).or_insert(new),
-        };
+        let place = *places.entry(kind(member.1)).or_insert(new);
         match found.get_mut(place) {
             Some(members) => members.push(member),
             None => found.push(vec![member]),
@@ -110,22 +129,33 @@ pub(super) fn groups(list: &[Diagnostic]) -> Vec<Group<'_>> {
     groups.into_iter().map(|(_, group)| group).collect()
 }
 
-/// The properties that diagnostics of the same kind share: the code, and the texts without names and numbers.
-type Kind<'d> = (&'d str, String, String, String, String);
+/// The properties that diagnostics of the same kind share: severity, code, and the texts without names and numbers.
+type Kind<'d> = (Severity, &'d str, [String; 4]);
 
 fn kind(one: &Diagnostic) -> Kind<'_> {
     let label = one.primary.as_ref().map_or("", |label| label.text.as_str());
-    let [why, help] =
-        [&one.why, &one.help].map(|text| pattern(text.as_deref().unwrap_or_default()));
-    (one.code, pattern(&one.message), pattern(label), why, help)
+    let [why, help] = [&one.why, &one.help].map(|text| text.as_deref().unwrap_or_default());
+    let message = pattern(&one.message, |_| None);
+    let texts = match one.severity {
+        Severity::Error => {
+            // A name in a remedy is part of the correction, unless the list of names has it.
+            let listed = names(&one.message);
+            let literal = |name: &str| (!listed.contains(&name)).then(|| name.to_owned());
+            [label, why, help].map(|text| pattern(text, literal))
+        }
+        _ => [label, why, help].map(|text| pattern(text, |_| None)),
+    };
+    let [label, why, help] = texts;
+    (one.severity, one.code, [message, label, why, help])
 }
 
-/// The text with all names in backquotes, and all numbers, replaced by the same placeholder.
-fn pattern(text: &str) -> String {
+/// The text with numbers, and names in backquotes that `literal` does not keep, replaced by the same placeholder.
+fn pattern(text: &str, literal: impl Fn(&str) -> Option<String>) -> String {
     let mut shown = String::new();
     for (index, part) in text.split('`').enumerate() {
         if index % 2 == 1 {
             shown.push('`');
+            shown.push_str(&literal(part).unwrap_or_default());
             continue;
         }
         let mut in_number = false;
@@ -183,18 +213,55 @@ mod tests {
     }
 
     #[test]
-    fn errors_and_few_of_a_kind_are_alone() {
+    fn few_of_a_kind_are_alone() {
         let few = vec![warning("R0603", "`a`", 0), warning("R0603", "`b`", 2)];
         assert_eq!(all(few).render(Style::Plain).matches("warning[").count(), 2);
-        let error = |place: usize| Diagnostic::error("R0101", "`a`").at(&(place..place + 1), "");
-        let errors = all(vec![error(0), error(2), error(4)]).render(Style::Plain);
-        assert_eq!(errors.matches("error[").count(), 3, "{errors}");
         let other = vec![
             warning("R0603", "`a` is not read", 0),
             warning("R0603", "`a` is twice", 2),
             warning("R0604", "`a` is not read", 4),
         ];
         assert_eq!(all(other).render(Style::Plain).matches("warning[").count(), 3);
+    }
+
+    #[test]
+    fn errors_with_the_same_remedy_are_one() {
+        let error = |name: &str, help: &str, place: usize| {
+            let message = format!("`{name}` is unknown");
+            Diagnostic::error("R0101", message).at(&(place..place + 1), "here").help(help)
+        };
+        let list = ["a", "b", "a"].into_iter().enumerate();
+        let list = list.map(|(line, name)| error(name, &format!("define `{name}`"), 2 * line));
+        let shown = all(list.collect()).render(Style::Plain);
+        assert!(shown.starts_with("error[R0101]: `a` is unknown (3 times like this)\n"), "{shown}");
+        assert!(shown.contains("= note: also `b`; on lines 2, 3\n"), "{shown}");
+        assert_eq!(shown.matches("define").count(), 1, "{shown}");
+        assert!(shown.ends_with("arm: 3 errors\n"), "{shown}");
+        // Each of these must be corrected in its own way.
+        let list = ["a", "b", "c"].into_iter().enumerate();
+        let list = list.map(|(line, name)| error(name, &format!("write `{name}_1`"), 2 * line));
+        let shown = all(list.collect()).render(Style::Plain);
+        assert_eq!(shown.matches("error[").count(), 3, "{shown}");
+        // An error is not hidden behind a warning.
+        let graded = |place: usize| error("a", "", place).graded(Severity::Warning);
+        let shown = all(vec![graded(0), graded(2), error("a", "", 4)]).render(Style::Plain);
+        assert_eq!(shown.matches("error[").count(), 1, "{shown}");
+    }
+
+    #[test]
+    fn many_places_with_the_same_remark_are_listed() {
+        let of = |places: &[usize]| {
+            let first = Diagnostic::warning("R0607", "`a`, `b`").at(&(0..1), "here");
+            let one = places.iter().fold(first, |one, place| {
+                let place = 2 * place;
+                one.and_at(&(place..place + 1), "and here")
+            });
+            all(vec![one]).render(Style::Plain)
+        };
+        assert_eq!(of(&[1, 2]).matches(" and here\n").count(), 2);
+        let shown = of(&[1, 2, 4]);
+        assert!(shown.contains("= note: and here on lines 2, 3, 5\n"), "{shown}");
+        assert_eq!(shown.matches("here").count(), 2, "{shown}");
     }
 
     #[test]

@@ -205,7 +205,8 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The diagnostics in groups: warnings and notes that differ only in names, numbers and places form one group.
+    /// The diagnostics in groups: those that differ only in names, numbers and places form one group, errors only if
+    /// their remedy is the same.
     #[must_use]
     pub fn groups(&self) -> Vec<Group<'_>> {
         group::groups(&self.list)

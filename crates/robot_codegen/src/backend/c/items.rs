@@ -25,7 +25,7 @@ pub(super) fn constants(header: &Header<'_>) -> Vec<String> {
         };
         let doc = common::paragraphs(std::slice::from_ref(&item.doc), &item.name);
         lines.extend(comment::of_paragraphs(&doc));
-        lines.push(format!("#define {} {value}", header.names.upper(&item.name)));
+        lines.push(format!("#define {} {value}", header.names.upper(&item.printed_name())));
     }
     lines.push(String::new());
     lines

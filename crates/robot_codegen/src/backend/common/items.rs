@@ -27,12 +27,19 @@ pub struct SetterArgument {
 /// A constant of the printed module.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantItem {
-    /// The name; printed in capitals.
+    /// The name; [`ConstantItem::printed_name`] is the printed one.
     pub name: String,
     /// Its meaning, in Markdown.
     pub doc: String,
     /// Its value.
     pub value: ConstantValue,
+}
+
+impl ConstantItem {
+    /// The name in printed code, which is in capitals. C and WGSL print the name of the module before it.
+    pub(in crate::backend) fn printed_name(&self) -> String {
+        self.name.to_uppercase()
+    }
 }
 
 /// The value of a [`ConstantItem`].

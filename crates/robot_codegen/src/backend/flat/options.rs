@@ -22,7 +22,7 @@ impl FlatOptions {
     /// Returns the names that functions of the module must not have: those in `used`, which the printer uses itself,
     /// and those of the constants.
     pub(in crate::backend) fn taken(&self, used: &[&str]) -> Vec<String> {
-        let constants = self.constants.iter().map(|item| item.name.to_uppercase());
+        let constants = self.constants.iter().map(ConstantItem::printed_name);
         used.iter().map(|name| (*name).to_owned()).chain(constants).collect()
     }
 }

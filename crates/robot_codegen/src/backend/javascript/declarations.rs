@@ -35,7 +35,7 @@ pub(in crate::backend) fn constants(printer: &Printer<'_>) -> Vec<String> {
             ConstantValue::Numbers(_) => "number[]",
         };
         lines.push(format!("// {}", comment_line(&item.doc)));
-        lines.push(format!("export declare const {}: {ty};", item.name.to_uppercase()));
+        lines.push(format!("export declare const {}: {ty};", item.printed_name()));
     }
     lines.push(String::new());
     lines

@@ -313,7 +313,7 @@ pub(in crate::backend) fn constant(item: &ConstantItem) -> Vec<String> {
     };
     vec![
         format!("// {}", comment_line(&item.doc)),
-        format!("export const {} = {value};", item.name.to_uppercase()),
+        format!("export const {} = {value};", item.printed_name()),
     ]
 }
 

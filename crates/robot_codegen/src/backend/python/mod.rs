@@ -304,7 +304,7 @@ fn constant(item: &ConstantItem) -> Vec<String> {
     vec![
         String::new(),
         format!("# {}", comment_line(&item.doc)),
-        format!("{} = {value}", item.name.to_uppercase()),
+        format!("{} = {value}", item.printed_name()),
     ]
 }
 

@@ -31,7 +31,7 @@ impl Names {
         // For a robot without parameters, `Model` is also a value.
         let mut methods = Namer::with(&["new", "new_lanes", "NOMINAL", "Model"]);
         for constant in constants {
-            methods.name(&constant.name.to_uppercase());
+            methods.name(&constant.printed_name());
         }
         let setters = setters.iter().map(|setter| methods.name(&setter.name).to_string());
         let setters = setters.collect();

@@ -58,7 +58,7 @@ impl<'a> Scope<'a> {
             values.name("P");
         }
         let constants = options.constants.iter();
-        let constants = constants.map(|item| values.name(&item.name.to_uppercase())).collect();
+        let constants = constants.map(|item| values.name(&item.printed_name())).collect();
         let output_type = |function: &Function| {
             (function.outputs.len() > 1).then(|| values.name(&type_name(&function.name)))
         };

@@ -160,7 +160,7 @@ struct {size_type} {{
             ConstantValue::Number(value) => format!("f32 = {}", number(*value)),
             _ => return None,
         };
-        Some(format!("const {}: {value};", self.private(&item.name).to_ascii_uppercase()))
+        Some(format!("const {}: {value};", self.private(&item.printed_name()).to_ascii_uppercase()))
     }
 }
 

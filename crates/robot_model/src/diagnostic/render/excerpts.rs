@@ -10,6 +10,7 @@ use super::Style;
 pub(super) fn group(source: &Source, found: &Group<'_>, style: Style) -> String {
     let diagnostic = found.first;
     let (message, others) = (found.message(), found.others(source));
+    let (secondary, listed) = found.secondary(source);
     let level = match diagnostic.severity {
         Severity::Error => Level::ERROR,
         Severity::Warning => Level::WARNING,
@@ -21,8 +22,7 @@ pub(super) fn group(source: &Source, found: &Group<'_>, style: Style) -> String 
     match &diagnostic.primary {
         Some(primary) => {
             let mut labels = vec![(primary, AnnotationKind::Primary)];
-            let others = diagnostic.secondary.iter();
-            labels.extend(others.map(|label| (label, AnnotationKind::Context)));
+            labels.extend(secondary.iter().map(|label| (*label, AnnotationKind::Context)));
             for (text, line, labels) in excerpts(source, &labels) {
                 group = group.element(
                     Snippet::source(text).path(quote(&source.name)).line_start(line).annotations(
@@ -38,11 +38,8 @@ pub(super) fn group(source: &Source, found: &Group<'_>, style: Style) -> String 
             group = group.element(annotate_snippets::Origin::path(quote(&source.name)));
         }
     }
-    if let Some(others) = &others {
-        group = group.element(Level::NOTE.message(others.as_str()));
-    }
-    if let Some(why) = &diagnostic.why {
-        group = group.element(Level::NOTE.message(why.as_str()));
+    for note in listed.iter().chain(&others).chain(&diagnostic.why) {
+        group = group.element(Level::NOTE.message(note.as_str()));
     }
     if let Some(help) = &diagnostic.help {
         group = group.element(Level::HELP.message(help.as_str()));

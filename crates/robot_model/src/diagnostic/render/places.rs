@@ -15,15 +15,15 @@ pub(super) fn group(source: &Source, found: &Group<'_>, _: Style) -> String {
         let gap = if label.text.is_empty() { "" } else { ": " };
         format!("\n --> {name}:{line}:{column}{gap}{}", label.text)
     };
+    let (secondary, listed) = found.secondary(source);
     match &diagnostic.primary {
         Some(primary) => {
-            let labels = std::iter::once(primary).chain(&diagnostic.secondary);
+            let labels = std::iter::once(primary).chain(secondary);
             text.extend(labels.map(place));
         }
         None => text.push_str(&format!("\n --> {name}")),
     }
-    let notes = [found.others(source), diagnostic.why.as_ref().map(ToString::to_string)];
-    for note in notes.into_iter().flatten() {
+    for note in listed.iter().chain(&found.others(source)).chain(&diagnostic.why) {
         text.push_str(&format!("\n = note: {note}"));
     }
     if let Some(help) = &diagnostic.help {
