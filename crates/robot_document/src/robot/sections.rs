@@ -45,14 +45,19 @@ const FEWEST: usize = 4;
 /// The number of constants in one row of the table.
 const ACROSS: usize = 2;
 
-/// Whether the right side is a number, such as `√2/2`, and the left side is not a component of a vector.
+/// Whether the right side is a number, such as `√2/2` or `2·10⁻⁵`, and the left side is not a component of a vector.
 fn is_constant(equation: &Equation) -> bool {
     !equation.name.contains('.') && equation.right.pieces().iter().all(is_number)
 }
 
 fn is_number(piece: &Math) -> bool {
     match piece {
-        Math::Number(_) | Math::Sign('-') => true,
+        Math::Number(_) | Math::Sign('-' | '·') => true,
+        // A power, such as that of ten.
+        Math::Script(script) => {
+            let parts = std::iter::once(&script.base).chain(&script.lower).chain(&script.upper);
+            parts.flat_map(Math::pieces).all(is_number)
+        }
         Math::Root(inside) => inside.pieces().iter().all(is_number),
         Math::Fraction(parts) => parts.iter().flat_map(Math::pieces).all(is_number),
         _ => false,
