@@ -13,8 +13,8 @@ const PAGE: f64 = 683.0;
 const MOST: f64 = 38.0;
 /// The lines of the title, of the heading above a figure and of the spaces beside a figure.
 const TITLE: f64 = 3.0;
-const AROUND: f64 = 6.0;
-/// The smallest scale to which a figure is reduced so that it fits below the front, relative to its usual one.
+const AROUND: f64 = 5.0;
+/// The smallest scale of a figure in a column below the tables, relative to its usual one.
 const SMALLEST: f64 = 0.55;
 
 /// The blocks of a document that stand across all columns, and the other ones.
@@ -23,45 +23,64 @@ pub(super) struct Front<'d> {
     pub(super) paragraphs: &'d [Block],
     /// The tables across the columns.
     pub(super) tables: Vec<&'d Placed>,
-    /// The other blocks, with all tables.
+    /// The figure with its scale, if it is too high for the columns below the tables.
+    pub(super) figure: Option<(&'d Figure, f64)>,
+    /// The other blocks, with all tables and figures.
     pub(super) rest: &'d [Block],
     /// The height, in pt.
     height: f64,
+    /// Whether the front is too high to stand above columns.
+    pub(super) is_long: bool,
 }
 
 impl<'d> Front<'d> {
-    /// The front of a document with these tables, whose columns together are `across` points wide.
+    /// The front of a document with these tables, with columns of `column` points, together `across` points wide.
     pub(super) fn new(
         document: &'d Document,
         tables: &'d [Placed],
         columns: u8,
-        across: f64,
+        [column, across]: [f64; 2],
     ) -> Front<'d> {
         let is_paragraph = |block: &Block| matches!(block, Block::Paragraph(_));
         let other = document.blocks.iter().position(|block| !is_paragraph(block));
         let end = if columns > 1 { other.unwrap_or(document.blocks.len()) } else { 0 };
         let (paragraphs, rest) = document.blocks.split_at(end);
         let tables: Vec<&Placed> = tables.iter().filter(|table| table.spans).collect();
-        let text = paragraphs.iter().map(|block| (wide(block) / across).ceil() + 1.0).sum::<f64>();
-        let lines = TITLE + text + tables.iter().map(|table| table.lines()).sum::<f64>();
-        Front { paragraphs, tables, rest, height: lines * LINE }
+        let text = paragraphs.iter().map(|block| (wide(block) / across).ceil() + 0.5).sum::<f64>();
+        let rows = tables.iter().map(|table| table.lines(across)).sum::<f64>();
+        let height = (TITLE + text + rows) * LINE;
+        let mut front =
+            Front { paragraphs, tables, figure: None, rest, height, is_long: rows > MOST };
+        let figure = rest.iter().find_map(|block| match block {
+            Block::Figure(figure) => Some(figure),
+            _ => None,
+        });
+        if let Some(figure) = figure
+            && front.is_above()
+            && front.room(figure, column) < SMALLEST * figure.scale(column)
+        {
+            let [usual, room] = [figure.scale(across), front.room(figure, across)];
+            front.figure = (room > SMALLEST * usual).then_some((figure, usual.min(room)));
+            front.is_long = true;
+        }
+        front
     }
 
-    /// Whether the front is too high to stand above columns.
-    pub(super) fn is_long(&self) -> bool {
-        self.tables.iter().map(|table| table.lines()).sum::<f64>() > MOST
+    /// Whether tables stand above columns.
+    fn is_above(&self) -> bool {
+        !self.tables.is_empty() && !self.is_long
     }
 
-    /// The scale of a figure, which is reduced if it then fits below the front in a column of `column` points.
+    /// The largest scale of a figure that fits below the tables with a caption of this width.
+    fn room(&self, figure: &Figure, width: f64) -> f64 {
+        let caption = (text_width(&figure.caption) / width).ceil() + 1.0;
+        (PAGE - self.height - (caption + AROUND) * LINE) / figure.size()[1].max(1.0)
+    }
+
+    /// The scale of a figure in a column of `column` points, which is reduced so that it fits below the tables.
     pub(super) fn scale(&self, figure: &Figure, column: f64) -> f64 {
         let usual = figure.scale(column);
-        if self.tables.is_empty() || self.is_long() {
-            return usual;
-        }
-        let caption = (text_width(&figure.caption) / column).ceil() + 1.0;
-        let room = PAGE - self.height - (caption + AROUND) * LINE;
-        let reduced = room / figure.size()[1].max(1.0);
-        if reduced < SMALLEST * usual { usual } else { usual.min(reduced) }
+        if self.is_above() { usual.min(self.room(figure, column)) } else { usual }
     }
 }
 

@@ -45,9 +45,10 @@ pub(super) struct Placed {
 }
 
 impl Placed {
-    /// The estimated number of lines, with the captions and the heads.
-    pub(super) fn lines(&self) -> f64 {
-        self.parts.iter().map(|part| part.lines + HEAD).sum()
+    /// The estimated number of lines of `available` points, with the captions and the heads.
+    pub(super) fn lines(&self, available: f64) -> f64 {
+        let caption = |part: &Part| (text_width(&part.table.caption) / available).floor();
+        self.parts.iter().map(|part| part.lines + HEAD + caption(part)).sum()
     }
 
     /// Whether some rows can stand on another page than the others.
@@ -56,8 +57,8 @@ impl Placed {
     }
 }
 
-/// The number of lines of a caption and a head with the spaces around the table.
-const HEAD: f64 = 5.0;
+/// The number of lines of a head and a short caption with the spaces around the table.
+const HEAD: f64 = 4.0;
 
 /// The tables of a document in their order, for columns of `column` points on a page of `page` points, in which each
 /// column of a table needs `gap` points for its distance.

@@ -135,3 +135,21 @@ fn recursion() -> Block {
         ),
     ])
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
+
+    use super::*;
+    use crate::latex::read;
+
+    #[test]
+    fn powers_of_ten_are_constants() {
+        let is_constant = |right: &str| {
+            let [left, right] = ["k_1", right].map(|text| read(text).unwrap());
+            is_constant(&Equation { name: "k1".to_owned(), text: String::new(), left, right })
+        };
+        assert!(is_constant(r"9.356 \cdot 10^{-5}") && is_constant(r"-\frac{\sqrt{2}}{2}"));
+        assert!(!is_constant(r"2 \cdot l_1^{2}") && !is_constant("2 q_1"));
+    }
+}

@@ -26,7 +26,7 @@ const MARGIN: f64 = 1.0;
 /// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
 /// The command for the rows of a long table after the first ones.
-const MORE_ROWS: &str = r"% The rows #3 of a table, which stand on a new page if there is no room: below the caption #1 and the head #2.
+const MORE_ROWS: &str = r"% The rows #3 of a table: if there is no room, on a new page with the caption #1 and the head #2.
 \newsavebox{\rows}
 \newcommand{\morerows}[3]{%
   \sbox{\rows}{#3}%
@@ -62,7 +62,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
     let across = Layout::of_centimeters(page.text_width()).width;
     let tables = tables(document, layout.width, across, COLUMN_GAP);
-    let front = Front::new(document, &tables, page.columns, across);
+    let front = Front::new(document, &tables, page.columns, [layout.width, across]);
     let mut writer = Writer { page, layout, latex: String::new() };
     writer.head(document, &tables);
     writer.title(document, &front)?;
@@ -73,7 +73,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
                 let table = tables.next().filter(|table| !table.spans);
                 table.into_iter().for_each(|table| writer.table(table));
             }
-            Block::Figure(figure) => {
+            Block::Figure(figure) if front.figure.is_none() => {
                 let scale = front.scale(figure, layout.width);
                 writer.latex.push_str(&super::figure::figure(figure, scale));
             }
@@ -127,10 +127,9 @@ impl Writer {
 
     /// The title with the front of the document.
     fn title(&mut self, document: &Document, front: &Front<'_>) -> Result<(), Error> {
-        let is_long = front.is_long();
         let [begin, end] = match self.page.columns {
             1 => ["", ""],
-            _ if is_long => ["\\onecolumn\n", "\\twocolumn\n"],
+            _ if front.is_long => ["\\onecolumn\n", "\\twocolumn\n"],
             _ => ["\\twocolumn[{%\n\\setlength{\\parskip}{4pt plus 2pt}\n", "\\bigskip}]\n"],
         };
         self.latex.push_str(begin);
@@ -140,8 +139,11 @@ impl Writer {
             self.block(block)?;
         }
         front.tables.iter().for_each(|table| self.table(table));
+        if let Some((figure, scale)) = front.figure {
+            self.latex.push_str(&super::figure::figure(figure, scale));
+        }
         self.latex.push_str(end);
-        if self.page.columns > 1 && !is_long {
+        if self.page.columns > 1 && !front.is_long {
             self.line("\\raggedright");
         }
         // A display at the start of a paragraph already has an empty line above it.

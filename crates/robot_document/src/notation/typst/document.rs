@@ -93,7 +93,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
     let all = Layout::of_centimeters(text_width(page)).width;
     let tables = tables(document, layout.width, all, CELL_GAP);
-    let front = Front::new(document, &tables, page.columns, all);
+    let front = Front::new(document, &tables, page.columns, [layout.width, all]);
     typst.push_str(&title(document, &front, page));
     let mut tables = tables.iter();
     for block in front.rest {
@@ -107,6 +107,7 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
                     typst.push_str(&self::table(table));
                 }
             }
+            Block::Figure(_) if front.figure.is_some() => {}
             Block::Figure(figure) => {
                 let scale = front.scale(figure, layout.width);
                 typst.push_str(&super::figure::figure(figure, scale));
@@ -133,7 +134,8 @@ fn title(document: &Document, front: &Front<'_>, page: Page) -> String {
     });
     title.extend(paragraphs);
     let tables = front.tables.iter().map(|one| table(one));
-    let all = std::iter::once(title).chain(tables);
+    let figure = front.figure.map(|(figure, scale)| super::figure::figure(figure, scale));
+    let all = std::iter::once(title).chain(tables).chain(figure);
     all.map(|one| format!("#place(top + start, scope: \"parent\", float: true)[\n{one}]\n"))
         .collect()
 }

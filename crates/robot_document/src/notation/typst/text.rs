@@ -31,8 +31,8 @@ pub fn text(text: &str) -> String {
     typst
 }
 
-/// Whether a character of ASCII would be markup after the source `before`. A text can stand at the start of a line, where
-/// lists and headings start, or after code, which it could continue.
+/// Whether a character of ASCII would be markup after the source `before`. A text can stand at the start of a line,
+/// where lists and headings start, or after code, which it could continue.
 fn is_markup(before: &str, character: char, next: Option<char>) -> bool {
     let is_first =
         before.trim_start_matches(|one: char| one == ' ' || one.is_ascii_digit()).is_empty();
