@@ -82,11 +82,11 @@ fn only_the_last_lines_of_a_long_equation_stay_together() {
 fn symbols_that_only_the_table_of_masses_has_are_left_out() {
     let document = described("trttr1");
     let blocks = document.blocks.iter();
-    let tables = blocks.filter_map(|block| match block {
+    let mut tables = blocks.filter_map(|block| match block {
         Block::Table(table) => Some(table),
         _ => None,
     });
-    let table = tables.filter(|table| table.caption.starts_with("Symbols")).next_back().unwrap();
+    let table = tables.rfind(|table| table.caption.starts_with("Symbols")).unwrap();
     let names: Vec<&str> = table
         .rows
         .iter()
