@@ -290,7 +290,7 @@ fn grouped(table: Table, mut widths: Vec<Option<f64>>, size: usize) -> Part {
 }
 
 /// The width of a cell on one line in the normal size, pt.
-fn natural_width(cell: &[Inline]) -> f64 {
+pub(super) fn natural_width(cell: &[Inline]) -> f64 {
     cell.iter().map(inline_width).sum()
 }
 

@@ -8,7 +8,7 @@ use crate::breaking::broken;
 use crate::document::{Block, Cell, Document, Inline};
 use crate::error::Error;
 use crate::notation::front::Front;
-use crate::notation::tabular::{Part, Placed, SIZES, tables};
+use crate::notation::tabular::{Part, Placed, SIZES, natural_width, tables};
 use crate::width::width;
 
 /// The layout of a document.
@@ -279,7 +279,7 @@ fn column(width: Option<f64>) -> String {
 fn shown(cell: &[Inline], width: Option<f64>, scale: f64) -> String {
     match width {
         None => line(cell),
-        Some(_) if cell.is_empty() => String::new(),
+        Some(width) if natural_width(cell) * scale <= width => line(cell),
         Some(width) => format!("\\raggedright {}", wrapped(cell, width / scale)),
     }
 }
