@@ -1,5 +1,6 @@
 //! The notations, each with its printer.
 
+mod front;
 pub mod html;
 pub mod latex;
 pub mod markdown;

@@ -1,14 +1,14 @@
 //! Tables that fit a column of text: in smaller type, with cells of several lines, in two halves side by side, across
 //! all columns of the page, or in parts.
 
-use crate::document::{Cell, Inline, Table};
+use crate::document::{Block, Cell, Document, Inline, Table};
 use crate::width::{text_width, width};
 
 /// The font sizes, as ratios to the normal size.
 pub(super) const SIZES: [(&str, f64); 3] =
     [("normalsize", 1.0), ("small", 0.92), ("footnotesize", 0.84)];
 
-/// A table, or a part of one with some of its columns and rows.
+/// A table, or a part of one with some of its columns.
 pub(super) struct Part {
     /// The headings and rows.
     pub(super) table: Table,
@@ -18,47 +18,82 @@ pub(super) struct Part {
     pub(super) size: usize,
     /// Whether another part precedes this one.
     pub(super) is_continued: bool,
+    /// The numbers of rows in the groups that are never broken across pages. A table of several groups has widths for
+    /// all columns.
+    pub(super) groups: Vec<usize>,
+    /// The estimated number of lines, without the caption and the head.
+    pub(super) lines: f64,
 }
 
 /// The number of rows from which a narrow table is set in two halves side by side.
 const LONG: usize = 14;
-/// The largest number of lines of a part.
+/// The largest number of lines of a table that is never broken across pages.
 const LINES: f64 = 28.0;
+/// The largest number of lines of a group of a longer table.
+const GROUP: f64 = 6.0;
 /// The number of letters after which words can be broken.
 const LONGEST_WORD: usize = 12;
 /// The smallest width of a column with broken cells, in pt, unless there is no other way.
 const NARROW: f64 = 70.0;
 
-/// The parts of a table and whether each is as wide as the page, not one of its columns.
+/// A table with its number and its parts.
 pub(super) struct Placed {
+    pub(super) number: usize,
     pub(super) parts: Vec<Part>,
+    /// Whether each part is as wide as the page, not one of its columns.
     pub(super) spans: bool,
 }
 
+impl Placed {
+    /// The estimated number of lines of `available` points, with the captions and the heads.
+    pub(super) fn lines(&self, available: f64) -> f64 {
+        let caption = |part: &Part| (text_width(&part.table.caption) / available).floor();
+        self.parts.iter().map(|part| part.lines + HEAD + caption(part)).sum()
+    }
+
+    /// Whether some rows can stand on another page than the others.
+    pub(super) fn is_breakable(&self) -> bool {
+        self.parts.iter().any(|part| part.groups.len() > 1)
+    }
+}
+
+/// The number of lines of a head and a short caption with the spaces around the table.
+const HEAD: f64 = 4.0;
+
+/// The tables of a document in their order, for columns of `column` points on a page of `page` points, in which each
+/// column of a table needs `gap` points for its distance.
+pub(super) fn tables(document: &Document, column: f64, page: f64, gap: f64) -> Vec<Placed> {
+    let tables = document.blocks.iter().filter_map(|block| match block {
+        Block::Table(table) => Some(table),
+        _ => None,
+    });
+    let placed = |(place, table)| Placed { number: place + 1, ..placed(table, column, page, gap) };
+    tables.enumerate().map(placed).collect()
+}
+
 /// Splits a table into parts for columns of `column` points on a page of `page` points. A table whose own columns would
-/// be divided among parts spans the page if it then has fewer; rows can be, because columns of text follow one another.
-pub(super) fn placed(table: &Table, column: f64, page: f64, gap: f64) -> Placed {
+/// be divided among parts spans the page if it then has fewer.
+fn placed(table: &Table, column: f64, page: f64, gap: f64) -> Placed {
     let narrow = parts(table, column, gap);
     let is_divided = narrow.iter().any(|part| part.table.head.len() < table.head.len());
     if page > column && is_divided {
         let wide = parts(table, page, gap);
         if wide.len() < narrow.len() {
-            return Placed { parts: wide, spans: true };
+            return Placed { number: 1, parts: wide, spans: true };
         }
     }
-    Placed { parts: narrow, spans: false }
+    Placed { number: 1, parts: narrow, spans: false }
 }
 
 /// Splits a table into parts for lines of `available` points, of which each column needs `gap` for its distance.
 fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
     let folded = folded(table);
     let columns = |table: &Table| 0..table.head.len();
-    if table.rows.len() >= LONG
-        && let Some(folded) = folded
-        && let Some((size, widths)) =
-            Measure::new(&folded, gap).natural(columns(&folded), available)
+    let long = folded.filter(|_| table.rows.len() >= LONG);
+    if let Some(folded) = &long
+        && let Some((size, widths)) = Measure::new(folded, gap).natural(columns(folded), available)
     {
-        return rows(&folded, &widths, size);
+        return vec![grouped(folded.clone(), widths, size)];
     }
     let measure = Measure::new(table, gap);
     let all: Vec<usize> = columns(table).collect();
@@ -66,7 +101,10 @@ fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
         (1..SIZES.len()).find_map(|size| measure.broken(&all, available, size, NARROW))
     });
     if let Some((size, widths)) = whole {
-        return rows(table, &widths, size);
+        let whole = grouped(table.clone(), widths, size);
+        return vec![
+            long.and_then(|long| shorter(long, available, gap, whole.lines)).unwrap_or(whole),
+        ];
     }
     let mut parts: Vec<Part> = vec![];
     for columns in measure.split(available) {
@@ -75,13 +113,18 @@ fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
             .natural(columns.iter().copied(), available)
             .or_else(|| measure.broken(&columns, available, last, 0.0))
             .unwrap_or_else(|| measure.forced(&columns, available));
-        let mut next = rows(&chosen(table, &columns), &widths, size);
-        if !parts.is_empty() {
-            next.iter_mut().for_each(|part| part.is_continued = true);
-        }
-        parts.extend(next);
+        let part = grouped(chosen(table, &columns), widths, size);
+        parts.push(Part { is_continued: !parts.is_empty(), ..part });
     }
     parts
+}
+
+/// The folded table with cells of several lines, if it takes less than two thirds of so many lines.
+fn shorter(folded: Table, available: f64, gap: f64, lines: f64) -> Option<Part> {
+    let all: Vec<usize> = (0..folded.head.len()).collect();
+    let (size, widths) = Measure::new(&folded, gap).broken(&all, available, 1, NARROW)?;
+    let part = grouped(folded, widths, size);
+    (part.lines < 2.0 / 3.0 * lines).then_some(part)
 }
 
 /// The natural widths of the columns in the normal size, and the widths of their widest words.
@@ -209,37 +252,45 @@ fn chosen(table: &Table, columns: &[usize]) -> Table {
     }
 }
 
-/// Divides the rows into parts that fit on a page.
-fn rows(table: &Table, widths: &[Option<f64>], size: usize) -> Vec<Part> {
+/// Divides the rows of a long table into groups.
+fn grouped(table: Table, mut widths: Vec<Option<f64>>, size: usize) -> Part {
     let scale = SIZES.get(size).map_or(1.0, |(_, scale)| *scale);
     let lines = |row: &Vec<Cell>| {
-        let cells = row.iter().zip(widths).filter_map(|(cell, width)| Some((cell, (*width)?)));
+        let cells = row.iter().zip(&widths).filter_map(|(cell, width)| Some((cell, (*width)?)));
         let lines = cells.map(|(cell, width)| (1.15 * scale * natural_width(cell) / width).ceil());
         lines.fold(1.0, f64::max)
     };
-    let mut chunks: Vec<Vec<Vec<Cell>>> = vec![vec![]];
-    let mut sum = 0.0;
-    for row in &table.rows {
-        sum += lines(row);
-        if sum > LINES {
-            chunks.push(vec![]);
-            sum = lines(row);
-        }
-        if let Some(chunk) = chunks.last_mut() {
-            chunk.push(row.clone());
+    let heights: Vec<f64> = table.rows.iter().map(lines).collect();
+    let all = heights.iter().sum();
+    let mut groups = vec![];
+    let mut sum = f64::INFINITY;
+    for height in heights {
+        sum += height;
+        match groups.last_mut() {
+            Some(count) if all <= LINES || sum <= GROUP => *count += 1,
+            _ => {
+                groups.push(1);
+                sum = height;
+            }
         }
     }
-    let part = |(place, rows): (usize, Vec<Vec<Cell>>)| Part {
-        table: Table { rows, caption: table.caption.clone(), head: table.head.clone(), ..*table },
-        widths: widths.to_vec(),
-        size,
-        is_continued: place > 0,
-    };
-    chunks.into_iter().enumerate().map(part).collect()
+    // No row is alone on a page.
+    if let [.., before, 1] = groups.as_mut_slice() {
+        *before += 1;
+        groups.pop();
+    }
+    if groups.len() > 1 {
+        let naturals = Measure::new(&table, 0.0).natural;
+        for (width, natural) in widths.iter_mut().zip(naturals) {
+            // Widths are rounded down.
+            width.get_or_insert(natural * scale + 1.0);
+        }
+    }
+    Part { table, widths, size, is_continued: false, groups, lines: all }
 }
 
 /// The width of a cell on one line in the normal size, pt.
-fn natural_width(cell: &[Inline]) -> f64 {
+pub(super) fn natural_width(cell: &[Inline]) -> f64 {
     cell.iter().map(inline_width).sum()
 }
 
@@ -299,8 +350,8 @@ mod tests {
         assert_eq!(spans(3, 2, 600.0), (false, 1));
         assert_eq!(spans(9, 2, 200.0), (false, 4));
         assert_eq!(spans(9, 2, 600.0), (true, 1));
-        // Two parts of rows fill a column each.
-        assert_eq!(spans(3, 40, 300.0), (false, 2));
+        // Rows can follow in the next column.
+        assert_eq!(spans(3, 40, 300.0), (false, 1));
     }
 
     #[test]
@@ -318,10 +369,9 @@ mod tests {
         let [part] = found.as_slice() else { panic!("{} parts", found.len()) };
         assert_eq!((part.table.head.len(), part.table.rows.len()), (5, 11));
         assert!(part.table.rows.iter().all(|row| row.len() == 5));
-        let rows: Vec<usize> = parts(&table(3, 50, "abcdefghij"), 200.0, 10.0)
-            .iter()
-            .map(|part| part.table.rows.len())
-            .collect();
-        assert_eq!(rows, [28, 22]);
+        let groups = |rows| parts(&table(3, rows, "abcdefghij"), 200.0, 10.0).remove(0).groups;
+        assert_eq!(groups(28), [28]);
+        assert_eq!(groups(32), [6, 6, 6, 6, 6, 2]);
+        assert_eq!(groups(31), [6, 6, 6, 6, 7]);
     }
 }

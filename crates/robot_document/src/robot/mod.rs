@@ -70,16 +70,16 @@ pub fn document(
     let Some((_, first)) = parts.first() else {
         return Ok(Document { title, blocks });
     };
-    let (tables, has_rounded_poses) =
-        tables::blocks(robot, &first.symbols, options.digits, extras.figure)?;
-    blocks.extend(tables);
-    let is_rounded = has_rounded_poses || parts.iter().any(|(_, part)| part.rounded);
+    let tables = tables::blocks(robot, &first.symbols, options.digits, extras.figure)?;
+    let masses = blocks.len() + tables.masses;
+    blocks.extend(tables.blocks);
+    let is_rounded = tables.is_rounded || parts.iter().any(|(_, part)| part.rounded);
     let rounded = options.digits.filter(|_| is_rounded);
     blocks.extend(conventions(options, rounded, extras.snaps)?);
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
     }
-    blocks.extend(symbols::blocks(robot, &parts, &blocks, &options.letters));
+    blocks.extend(symbols::blocks(robot, &parts, (&blocks, masses), &options.letters));
     if let Some(check) = extras.check {
         let has_tip = robot.tips().next().is_some();
         blocks.extend(check_value::blocks(check, has_tip, &first.symbols, &options.letters));

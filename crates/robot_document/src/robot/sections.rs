@@ -45,14 +45,19 @@ const FEWEST: usize = 4;
 /// The number of constants in one row of the table.
 const ACROSS: usize = 2;
 
-/// Whether the right side is a number, such as `√2/2`, and the left side is not a component of a vector.
+/// Whether the right side is a number, such as `√2/2` or `2·10⁻⁵`, and the left side is not a component of a vector.
 fn is_constant(equation: &Equation) -> bool {
     !equation.name.contains('.') && equation.right.pieces().iter().all(is_number)
 }
 
 fn is_number(piece: &Math) -> bool {
     match piece {
-        Math::Number(_) | Math::Sign('-') => true,
+        Math::Number(_) | Math::Sign('-' | '·') => true,
+        // A power, such as that of ten.
+        Math::Script(script) => {
+            let parts = std::iter::once(&script.base).chain(&script.lower).chain(&script.upper);
+            parts.flat_map(Math::pieces).all(is_number)
+        }
         Math::Root(inside) => inside.pieces().iter().all(is_number),
         Math::Fraction(parts) => parts.iter().flat_map(Math::pieces).all(is_number),
         _ => false,
@@ -129,4 +134,22 @@ fn recursion() -> Block {
             " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame; a bar marks the column of the components along x, y and z. Quantities that are 0 or equal to an earlier one are left out.",
         ),
     ])
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
+
+    use super::*;
+    use crate::latex::read;
+
+    #[test]
+    fn powers_of_ten_are_constants() {
+        let is_constant = |right: &str| {
+            let [left, right] = ["k_1", right].map(|text| read(text).unwrap());
+            is_constant(&Equation { name: "k1".to_owned(), text: String::new(), left, right })
+        };
+        assert!(is_constant(r"9.356 \cdot 10^{-5}") && is_constant(r"-\frac{\sqrt{2}}{2}"));
+        assert!(!is_constant(r"2 \cdot l_1^{2}") && !is_constant("2 q_1"));
+    }
 }

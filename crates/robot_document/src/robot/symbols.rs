@@ -12,16 +12,17 @@ use crate::layout::SymbolTable;
 use crate::math::Math;
 use crate::robot::rows::{self, ParameterRow};
 
-/// The table of the symbols of a robot that occur in the given blocks, and of those that the forms define.
+/// The table of the symbols of a robot that occur in the given blocks, and of those that the forms define. The table of
+/// masses, at the given place, explains its own symbols.
 pub(super) fn blocks(
     robot: &Robot,
     parts: &[(Form, Equations)],
-    document: &[Block],
+    (document, masses): (&[Block], usize),
     letters: &Letters,
 ) -> Vec<Block> {
     let Some((_, first)) = parts.first() else { return vec![] };
     let symbols = &first.symbols;
-    let occurring = Occurring::new(document);
+    let occurring = Occurring::new(document, masses);
     let mut rows = coordinates(robot, symbols, &occurring);
     rows.extend(rates(robot, symbols, &occurring));
     for row in rows::parameters(robot).filter(|row| occurring.has(&row.parameter.name)) {
@@ -54,15 +55,17 @@ pub(super) fn blocks(
 struct Occurring<'d>(FxHashSet<&'d str>);
 
 impl<'d> Occurring<'d> {
-    fn new(blocks: &'d [Block]) -> Occurring<'d> {
+    fn new(blocks: &'d [Block], masses: usize) -> Occurring<'d> {
         let mut formulas: Vec<&Math> = vec![];
-        for block in blocks {
+        for (place, block) in blocks.iter().enumerate() {
             match block {
                 Block::Heading(..) | Block::Figure(_) => {}
                 Block::Paragraph(inlines) => formulas.extend(of_inlines(inlines)),
                 Block::Table(table) => {
-                    let cells = table.rows.iter().flatten();
-                    formulas.extend(cells.flat_map(|cell| of_inlines(cell)));
+                    let cells = table.rows.iter().flatten().flat_map(|cell| of_inlines(cell));
+                    let is_explained =
+                        |math: &&Math| place == masses && matches!(math, Math::Symbol(_));
+                    formulas.extend(cells.filter(|math| !is_explained(math)));
                 }
                 Block::Equations(list) => formulas
                     .extend(list.iter().flat_map(|one| [&one.equation.left, &one.equation.right])),

@@ -13,14 +13,23 @@ use crate::math::Math;
 use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
 
-/// The figure and the tables of the links, of their masses and of the named frames; and whether decimals of poses were
-/// rounded to `digits`.
+/// The section of the robot.
+pub(super) struct Tables {
+    pub(super) blocks: Vec<Block>,
+    /// The place of the table of masses.
+    pub(super) masses: usize,
+    /// Whether decimals of poses were rounded.
+    pub(super) is_rounded: bool,
+}
+
+/// The figure and the tables of the links, of their masses and of the named frames. Decimals of poses are rounded to
+/// `digits`.
 pub(super) fn blocks(
     robot: &Robot,
     symbols: &SymbolTable,
     digits: Option<usize>,
     figure: Option<Figure>,
-) -> Result<(Vec<Block>, bool), Error> {
+) -> Result<Tables, Error> {
     let formulas =
         Formulas { graph: Graph::new(), symbols, digits, rounded: std::cell::Cell::new(false) };
     let mut blocks = vec![heading("The robot")];
@@ -31,11 +40,12 @@ pub(super) fn blocks(
         "T denotes a translation and R a rotation, each in the frame reached by the preceding ones.",
     ));
     blocks.extend(dh::blocks(robot, &formulas)?);
+    let place = blocks.len();
     blocks.push(Block::Table(masses(robot, symbols)?));
     if !robot.frames.is_empty() {
         blocks.push(Block::Table(frames(robot, &formulas)?));
     }
-    Ok((blocks, formulas.rounded.get()))
+    Ok(Tables { blocks, masses: place, is_rounded: formulas.rounded.get() })
 }
 
 /// Prints the formulas of tables.

@@ -175,6 +175,18 @@ mod tests {
         }
     }
 
+    /// A break before a term or within a sum is better.
+    #[test]
+    fn factors_have_no_line_of_their_own_behind_a_sum() {
+        let sum =
+            r"a_1 + \left(0.3839 + 0.0012 \cos q_5 + 0.0076 \sin q_4\right) \cos q_3 \sin q_5 + b";
+        for width in (110..200).map(f64::from) {
+            let broken = lines(sum, width, width);
+            let is_alone = |line: &String| line.starts_with(r"\cdot") && !line.contains('+');
+            assert!(!broken.iter().any(is_alone), "{width}: {broken:?}");
+        }
+    }
+
     #[test]
     fn a_short_sum_stays_whole() {
         let sum = r"2 \left(\left(M_4 + M_5\right) \left(l_4 + q_4\right) a + M_5 l_5 b\right) c";

@@ -30,6 +30,9 @@ const AFTER_NUMBER: u32 = 60;
 /// The additional cost of such a line if it is shorter than [`TAIL_WIDTH`] of a line.
 const TAIL: u32 = 35;
 const TAIL_WIDTH: f64 = 0.25;
+/// The additional cost of such a line if it has no sign of a sum and is shorter than [`ALONE_WIDTH`] of a line.
+const ALONE: u32 = 300;
+const ALONE_WIDTH: f64 = 0.4;
 
 /// A formula as a sequence of tokens: its pieces and the parentheses of its sums.
 #[derive(Default)]
@@ -192,6 +195,8 @@ impl<'m> Sequence<'m> {
                 _ => limits.rest - DEEPER,
             };
             let mut best: Option<(u32, usize)> = None;
+            let is_factor = start.connection != Connection::Sign;
+            let mut has_sign = false;
             for next in place + 1..=end {
                 let following = self.starts.get(next);
                 let width = self.width(*start, following);
@@ -199,11 +204,10 @@ impl<'m> Sequence<'m> {
                     break;
                 }
                 let fits = following.is_some() || width <= limit - limits.number;
+                let tail = if is_factor { self.tail(width, has_sign) } else { 0 };
+                has_sign |= following.is_some_and(|next| next.connection == Connection::Sign);
                 let rest = costs.get(next).copied().flatten().filter(|_| fits);
                 let Some((rest, _)) = rest else { continue };
-                let is_tail =
-                    start.connection != Connection::Sign && width < TAIL_WIDTH * self.line;
-                let tail = if is_tail { TAIL } else { 0 };
                 let cost = rest + tail + following.map_or(0, |next| next.cost_after(*start));
                 if best.is_none_or(|(least, _)| cost <= least) {
                     best = Some((cost, next));
@@ -214,6 +218,15 @@ impl<'m> Sequence<'m> {
             }
         }
         costs
+    }
+
+    /// The additional cost of a line of this width that starts at a factor.
+    fn tail(&self, width: f64, has_sign: bool) -> u32 {
+        match () {
+            () if !has_sign && width < ALONE_WIDTH * self.line => ALONE,
+            () if width < TAIL_WIDTH * self.line => TAIL,
+            () => 0,
+        }
     }
 
     /// The width of the widest piece without a place where a line can start.

@@ -1,11 +1,14 @@
 //! Whole documents in LaTeX.
 
+use std::ops::Range;
+
 use super::equations::{Layout, equations};
 use super::{formula, text};
 use crate::breaking::broken;
-use crate::document::{Block, Cell, Document, Inline, Table};
+use crate::document::{Block, Cell, Document, Inline};
 use crate::error::Error;
-use crate::notation::tabular::{Part, SIZES, placed};
+use crate::notation::front::Front;
+use crate::notation::tabular::{Part, Placed, SIZES, natural_width, tables};
 use crate::width::width;
 
 /// The layout of a document.
@@ -22,6 +25,16 @@ const A4: f64 = 21.0;
 const MARGIN: f64 = 1.0;
 /// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
+/// The command for the rows of a long table after the first ones.
+const MORE_ROWS: &str = r"% The rows #3 of a table: if there is no room, on a new page with the caption #1 and the head #2.
+\newsavebox{\rows}
+\newcommand{\morerows}[3]{%
+  \sbox{\rows}{#3}%
+  \ifdim\dimexpr\pagetotal+\pagedepth+\ht\rows+\dp\rows\relax>\pagegoal
+    \nointerlineskip\kern2pt\hrule width\wd\rows\newpage
+    #1\par\nobreak\smallskip{#2\par}\nointerlineskip\kern2pt
+  \fi
+  \nointerlineskip\box\rows}";
 /// The struts that separate the first row from a rule above it, and the last row from one below.
 const STRUTS: [&str; 2] = [r"\rule{0pt}{2.7ex}", r"\rule[-1.1ex]{0pt}{0pt}"];
 /// The gap between the columns of a table in all font sizes, in pt.
@@ -47,10 +60,25 @@ impl Page {
 /// If a piece of an equation does not fit in a column.
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
-    let mut writer = Writer { page, layout, latex: String::new(), tables: 0 };
-    writer.head(document);
-    for block in &document.blocks {
-        writer.block(block)?;
+    let across = Layout::of_centimeters(page.text_width()).width;
+    let tables = tables(document, layout.width, across, COLUMN_GAP);
+    let front = Front::new(document, &tables, page.columns, [layout.width, across]);
+    let mut writer = Writer { page, layout, latex: String::new() };
+    writer.head(document, &tables);
+    writer.title(document, &front)?;
+    let mut tables = tables.iter();
+    for block in front.rest {
+        match block {
+            Block::Table(_) => {
+                let table = tables.next().filter(|table| !table.spans);
+                table.into_iter().for_each(|table| writer.table(table));
+            }
+            Block::Figure(figure) if front.figure.is_none() => {
+                let scale = front.scale(figure, layout.width);
+                writer.latex.push_str(&super::figure::figure(figure, scale));
+            }
+            other => writer.block(other)?,
+        }
     }
     writer.latex.push_str("\\end{document}\n");
     Ok(writer.latex)
@@ -60,7 +88,6 @@ struct Writer {
     page: Page,
     layout: Layout,
     latex: String,
-    tables: usize,
 }
 
 impl Writer {
@@ -69,7 +96,7 @@ impl Writer {
         self.latex.push('\n');
     }
 
-    fn head(&mut self, document: &Document) {
+    fn head(&mut self, document: &Document, tables: &[Placed]) {
         let columns = if self.page.columns > 1 { ",twocolumn" } else { "" };
         let width = self.page.text_width();
         let paper = match width + 2.0 * MARGIN > A4 {
@@ -91,12 +118,38 @@ impl Writer {
         self.line("\\setlength{\\parskip}{4pt plus 2pt}");
         self.line("\\setcounter{secnumdepth}{0}");
         self.line("\\raggedbottom");
+        if tables.iter().any(Placed::is_breakable) {
+            self.line(MORE_ROWS);
+        }
+        self.line(&pdf_title(&document.title));
         self.line("\\begin{document}");
+    }
+
+    /// The title with the front of the document.
+    fn title(&mut self, document: &Document, front: &Front<'_>) -> Result<(), Error> {
+        let [begin, end] = match self.page.columns {
+            1 => ["", ""],
+            _ if front.is_long => ["\\onecolumn\n", "\\twocolumn\n"],
+            _ => ["\\twocolumn[{%\n\\setlength{\\parskip}{4pt plus 2pt}\n", "\\bigskip}]\n"],
+        };
+        self.latex.push_str(begin);
         self.line("\\raggedright");
+        self.line(&format!("{{\\LARGE {}\\par}}\\medskip", text(&document.title)));
+        for block in front.paragraphs {
+            self.block(block)?;
+        }
+        front.tables.iter().for_each(|table| self.table(table));
+        if let Some((figure, scale)) = front.figure {
+            self.latex.push_str(&super::figure::figure(figure, scale));
+        }
+        self.latex.push_str(end);
+        if self.page.columns > 1 && !front.is_long {
+            self.line("\\raggedright");
+        }
         // A display at the start of a paragraph already has an empty line above it.
         self.line("\\setlength{\\abovedisplayskip}{0pt}");
         self.line("\\setlength{\\belowdisplayskip}{4pt plus 2pt}");
-        self.line(&format!("{{\\LARGE {}\\par}}\\medskip", text(&document.title)));
+        Ok(())
     }
 
     fn block(&mut self, block: &Block) -> Result<(), Error> {
@@ -109,10 +162,8 @@ impl Writer {
                 let line = self.inlines(inlines);
                 self.line(&format!("\n{line}"));
             }
-            Block::Table(table) => self.table(table),
-            Block::Figure(figure) => {
-                self.latex.push_str(&super::figure::figure(figure, self.layout.width));
-            }
+            // Tables and figures have places of their own.
+            Block::Table(_) | Block::Figure(_) => {}
             Block::Equations(list) => self.latex.push_str(&equations(list, self.layout)?),
         }
         Ok(())
@@ -123,54 +174,100 @@ impl Writer {
         wrapped(inlines, self.layout.width - 20.0)
     }
 
-    /// A table in parts that are never broken across pages. They only float if they span columns, to the top of a page.
-    fn table(&mut self, table: &Table) {
-        self.tables += 1;
-        let page = Layout::of_centimeters(self.page.text_width()).width;
-        let placed = placed(table, self.layout.width, page, COLUMN_GAP);
-        for part in &placed.parts {
-            let [begin, end] = match placed.spans {
-                true => ["\n\\begin{table*}[tp!]\\raggedright", "\\end{table*}"],
-                false => [
-                    "\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright",
-                    "\\end{minipage}\\par\\medskip",
-                ],
-            };
-            self.line(begin);
-            self.part(part);
-            self.line(end);
+    /// A table in parts, of which only long ones are broken across pages.
+    fn table(&mut self, table: &Placed) {
+        for part in &table.parts {
+            self.part(part, table.number);
         }
     }
 
-    fn part(&mut self, part: &Part) {
-        let number = self.tables;
+    fn part(&mut self, part: &Part, number: usize) {
+        let continued = format!("\\textbf{{Table {number}}} (continued)");
         let caption = match part.is_continued {
-            true => format!("\\textbf{{Table {number}}} (continued)"),
+            true => continued.clone(),
             false => format!("\\textbf{{Table {number}.}} {}", text(&part.table.caption)),
         };
-        let (size, scale) = SIZES.get(part.size).copied().unwrap_or(("small", 1.0));
-        let columns: String = part.widths.iter().map(|width| column(*width)).collect();
-        let cells = |cells: &[Cell]| {
-            let cells = cells.iter().zip(&part.widths);
-            cells.map(|(cell, width)| shown(cell, *width, scale)).collect::<Vec<_>>().join(" & ")
-        };
+        let rows = Rows::new(part);
+        let Some((first, more)) = part.groups.split_first() else { return };
+        let (mut start, mut end) = (0, *first);
+        self.line("\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright");
+        self.line(&format!("{caption}\\par\\smallskip"));
+        self.line(&rows.tabular(&format!("{}{}", rows.head(), rows.lines(start..end))));
+        self.line("\\end{minipage}\\par");
+        for count in more {
+            (start, end) = (end, end + count);
+            let [head, lines] =
+                [rows.head(), rows.lines(start..end)].map(|rows_| rows.tabular(&rows_));
+            self.line(&format!("\\morerows{{{continued}}}{{{head}}}{{%\n{lines}}}"));
+        }
+        self.line("\\medskip");
+    }
+}
+
+/// The LaTeX of the rows of a table.
+struct Rows<'p> {
+    part: &'p Part,
+    scale: f64,
+    /// The end of a row.
+    end: &'static str,
+}
+
+impl Rows<'_> {
+    fn new(part: &Part) -> Rows<'_> {
         // In cells of several lines, `\\` would break a line within the cell.
         let end = match part.widths.iter().any(Option::is_some) {
             true => "\\tabularnewline",
             false => "\\\\",
         };
-        let [below, above] = STRUTS;
-        self.line(&format!("{caption}\\par\\smallskip"));
-        self.line(&format!("\\{size}\n\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n\\hline"));
-        self.line(&format!("{below}{}{above} {end}\n\\hline", cells(&part.table.head)));
-        let last = part.table.rows.len().saturating_sub(1);
-        for (place, row) in part.table.rows.iter().enumerate() {
-            let start = if place == 0 { below } else { "" };
-            let strut = if place == last { above } else { "" };
-            self.line(&format!("{start}{}{strut} {end}", cells(row)));
-        }
-        self.line("\\hline\n\\end{tabular}");
+        Rows { part, scale: SIZES.get(part.size).map_or(1.0, |(_, scale)| *scale), end }
     }
+
+    /// A `tabular` with these lines.
+    fn tabular(&self, lines: &str) -> String {
+        let size = SIZES.get(self.part.size).map_or("small", |(name, _)| name);
+        let columns: String = self.part.widths.iter().map(|width| column(*width)).collect();
+        format!("\\{size}\n\\begin{{tabular}}{{@{{}}{columns}@{{}}}}\n{lines}\\end{{tabular}}")
+    }
+
+    fn cells(&self, cells: &[Cell]) -> String {
+        let cells = cells.iter().zip(&self.part.widths);
+        cells.map(|(cell, width)| shown(cell, *width, self.scale)).collect::<Vec<_>>().join(" & ")
+    }
+
+    /// The head between its rules.
+    fn head(&self) -> String {
+        let [below, above] = STRUTS;
+        let cells = self.cells(&self.part.table.head);
+        format!("\\hline\n{below}{cells}{above} {}\n\\hline\n", self.end)
+    }
+
+    /// The rows at these places, with the rule below the last one of the table.
+    fn lines(&self, places: Range<usize>) -> String {
+        let [below, above] = STRUTS;
+        let rows = &self.part.table.rows;
+        let last = rows.len().saturating_sub(1);
+        let mut latex = String::new();
+        for (place, row) in rows.iter().enumerate().take(places.end).skip(places.start) {
+            let start = if place == 0 { below } else { "" };
+            let [strut, rule] = if place == last { [above, "\\hline\n"] } else { ["", ""] };
+            latex.push_str(&format!("{start}{}{strut} {}\n{rule}", self.cells(row), self.end));
+        }
+        latex
+    }
+}
+
+/// The title of the PDF file.
+fn pdf_title(title: &str) -> String {
+    let is_plain =
+        |one: char| matches!(one, ' ' | '-' | ',' | '.' | ':' | '+') || one.is_ascii_alphanumeric();
+    let string = match title.chars().all(is_plain) {
+        true => format!("({title})"),
+        false => {
+            let units: String = title.encode_utf16().map(|unit| format!("{unit:04X}")).collect();
+            format!("<FEFF{units}>")
+        }
+    };
+    format!("\\ifdefined\\pdfinfo\\pdfinfo{{/Title {string}}}\\fi")
 }
 
 /// The specification of a column for `tabular`.
@@ -182,7 +279,7 @@ fn column(width: Option<f64>) -> String {
 fn shown(cell: &[Inline], width: Option<f64>, scale: f64) -> String {
     match width {
         None => line(cell),
-        Some(_) if cell.is_empty() => String::new(),
+        Some(width) if natural_width(cell) * scale <= width => line(cell),
         Some(width) => format!("\\raggedright {}", wrapped(cell, width / scale)),
     }
 }

@@ -4,9 +4,8 @@ use super::document::line;
 use super::text;
 use crate::figure::{Color, Figure, Label, Path, Point, Segment, Shape, coordinate, hundredths};
 
-/// A figure with its caption, for lines of `available` points.
-pub(super) fn figure(figure: &Figure, available: f64) -> String {
-    let scale = figure.scale(available);
+/// A figure with its caption; `scale` is the length of its unit in points.
+pub(super) fn figure(figure: &Figure, scale: f64) -> String {
     let colors = figure.colors();
     let mut latex = String::from(
         "\n\\ifdefined\\tikzpicture\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright\n",

@@ -1,12 +1,15 @@
 //! Displayed equations and whole documents in Typst.
 
 use super::formula::{Place, continued};
+use super::text::quoted;
 use super::{formula, text};
 use crate::breaking::right_side;
-use crate::document::{Block, Cell, Document, Inline, NumberedEquation, Table};
+use crate::document::{Block, Cell, Document, Inline, NumberedEquation};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
-use crate::notation::tabular::{Part, SIZES, placed};
+use crate::math::Math;
+use crate::notation::front::Front;
+use crate::notation::tabular::{Part, Placed, SIZES, tables};
 use crate::width::width;
 
 /// An upper bound for the error of estimated widths, in pt.
@@ -16,8 +19,10 @@ const CELL_GAP: f64 = 7.0;
 /// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
 
-/// The number of lines that are kept together on a page. The last part of a longer equation has the number.
-const LINES: usize = 8;
+/// The largest number of lines of an equation that is never broken across pages, and the number of the last lines of a
+/// longer one, which stay together and have the number.
+const LINES: usize = 4;
+const LAST: usize = 2;
 
 /// Writes displayed equations one below the other; those with a label are numbered.
 ///
@@ -28,39 +33,53 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     let is_numbered = list.iter().any(|one| one.label.is_some());
     let numbering = if is_numbered { "\"(1)\"" } else { "none" };
     let mut typst = format!("#[\n#set math.equation(numbering: {numbering})\n");
-    for numbered in list {
-        let NumberedEquation { label, number: own, equation } = numbered;
-        let available = layout.width - width(&equation.left) - MARGIN;
-        let left = formula(&equation.left);
-        let lines = right_side(equation, available, layout.number(numbered))?;
-        let last = lines.len().saturating_sub(1) / LINES;
-        for (part, lines) in lines.chunks(LINES).enumerate() {
-            let mut shown = vec![];
-            for (place, line) in lines.iter().enumerate() {
-                shown.push(match (part, place) {
-                    (0, 0) if equation.is_name() => format!("{left} &"),
-                    (0, 0) => format!("{left} & = {}", formula(line)),
-                    (_, 0) => format!("#hide(${left}$) & quad {}", continued(line, Place::Free)),
-                    _ => format!("& quad {}", continued(line, Place::Free)),
-                });
-            }
-            let shown = shown.join(" \\\n    ");
-            typst.push_str(&match label {
-                Some(label) if part == last => match own {
-                    Some(own) => format!(
-                        "#[#set math.equation(numbering: _ => [({own})])\n$ {shown} $ <eq:{label}>]\n"
-                    ),
-                    None => format!("$ {shown} $ <eq:{label}>\n"),
-                },
-                Some(_) => format!("#[#set math.equation(numbering: none)\n$ {shown} $]\n"),
-                None if is_numbered => {
-                    format!("#[#set math.equation(numbering: none)\n$ {shown} $]\n")
-                }
-                None => format!("$ {shown} $\n"),
-            });
-        }
+    for one in list {
+        typst.push_str(&equation(one, layout, is_numbered)?);
     }
     typst.push_str("]\n");
+    Ok(typst)
+}
+
+/// An equation in one part, or in two if it is long: only the first one can be broken across pages, and only the last
+/// one has the number, which Typst would repeat on each page.
+fn equation(
+    numbered: &NumberedEquation,
+    layout: Layout,
+    is_numbered: bool,
+) -> Result<String, Error> {
+    let NumberedEquation { label, number: own, equation } = numbered;
+    let available = layout.width - width(&equation.left) - MARGIN;
+    let left = formula(&equation.left);
+    let lines = right_side(equation, available, layout.number(numbered))?;
+    let shown = |(place, line): (usize, &Math)| match place {
+        0 if equation.is_name() => format!("{left} &"),
+        0 => format!("{left} & = {}", formula(line)),
+        _ => format!("& quad {}", continued(line, Place::Free)),
+    };
+    let lines: Vec<String> = lines.iter().enumerate().map(shown).collect();
+    let joined = |lines: &[String]| lines.join(" \\\n    ");
+    let unnumbered = "#set math.equation(numbering: none)\n";
+    let breakable = "#show math.equation: set block(breakable: true)\n";
+    let before = match lines.len() {
+        ..=LINES => 0,
+        count => count - LAST,
+    };
+    let (first, last) = lines.split_at(before);
+    let mut typst = match (first, is_numbered) {
+        ([], _) => String::new(),
+        (_, true) => format!("#[{unnumbered}{breakable}$ {} $]\n", joined(first)),
+        (_, false) => format!("#[{breakable}$ {} $]\n", joined(first)),
+    };
+    let hidden = if first.is_empty() { String::new() } else { format!("#hide(${left}$) ") };
+    let last = format!("$ {hidden}{} $", joined(last));
+    typst.push_str(&match (label, own) {
+        (Some(label), Some(own)) => {
+            format!("#[#set math.equation(numbering: _ => [({own})])\n{last} <eq:{label}>]\n")
+        }
+        (Some(label), None) => format!("{last} <eq:{label}>\n"),
+        (None, _) if is_numbered => format!("#[{unnumbered}{last}]\n"),
+        (None, _) => format!("{last}\n"),
+    });
     Ok(typst)
 }
 
@@ -72,26 +91,53 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
 pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let mut typst = head(document, page);
     let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
-    let mut tables = 0;
-    for block in &document.blocks {
+    let all = Layout::of_centimeters(text_width(page)).width;
+    let tables = tables(document, layout.width, all, CELL_GAP);
+    let front = Front::new(document, &tables, page.columns, [layout.width, all]);
+    typst.push_str(&title(document, &front, page));
+    let mut tables = tables.iter();
+    for block in front.rest {
         match block {
             Block::Heading(level, title) => {
                 typst.push_str(&format!("#heading(level: {level})[{}]\n", text(title)));
             }
-            Block::Paragraph(inlines) => {
-                typst.push_str(&format!("#par[{}]\n", line(inlines)));
+            Block::Paragraph(inlines) => typst.push_str(&paragraph(inlines)),
+            Block::Table(_) => {
+                if let Some(table) = tables.next().filter(|table| !table.spans) {
+                    typst.push_str(&self::table(table));
+                }
             }
-            Block::Table(table) => {
-                tables += 1;
-                typst.push_str(&self::table(table, tables, page));
-            }
+            Block::Figure(_) if front.figure.is_some() => {}
             Block::Figure(figure) => {
-                typst.push_str(&super::figure::figure(figure, layout.width));
+                let scale = front.scale(figure, layout.width);
+                typst.push_str(&super::figure::figure(figure, scale));
             }
             Block::Equations(list) => typst.push_str(&equations(list, layout)?),
         }
     }
     Ok(typst)
+}
+
+fn paragraph(inlines: &[Inline]) -> String {
+    format!("#par[{}]\n", line(inlines))
+}
+
+/// The title with the front of the document.
+fn title(document: &Document, front: &Front<'_>, page: Page) -> String {
+    let mut title = format!("#par[#text(size: 17pt)[{}]]\n", text(&document.title));
+    if page.columns == 1 {
+        return title;
+    }
+    let paragraphs = front.paragraphs.iter().filter_map(|block| match block {
+        Block::Paragraph(inlines) => Some(paragraph(inlines)),
+        _ => None,
+    });
+    title.extend(paragraphs);
+    let tables = front.tables.iter().map(|one| table(one));
+    let figure = front.figure.map(|(figure, scale)| super::figure::figure(figure, scale));
+    let all = std::iter::once(title).chain(tables).chain(figure);
+    all.map(|one| format!("#place(top + start, scope: \"parent\", float: true)[\n{one}]\n"))
+        .collect()
 }
 
 /// The width of all columns of a page with their gaps, in cm.
@@ -104,9 +150,10 @@ fn head(document: &Document, page: Page) -> String {
     let width = text_width(page);
     let paper = (width + 2.0).max(21.0);
     let margin = (paper - width) / 2.0;
-    let title = text(&document.title);
+    let title = quoted(&document.title);
     format!(
-        "#set page(width: {paper:.3}cm, height: 29.7cm, margin: (x: {margin:.3}cm, y: 2.85cm), columns: {})
+        "#set document(title: {title})
+#set page(width: {paper:.3}cm, height: 29.7cm, margin: (x: {margin:.3}cm, y: 2.85cm), columns: {})
 #set columns(gutter: {GAP}cm)
 #set text(font: \"New Computer Modern\", size: 10pt, ligatures: false)
 #set par(spacing: 0.8em)
@@ -114,28 +161,14 @@ fn head(document: &Document, page: Page) -> String {
 #show math.equation.where(block: true): set align(start)
 #show math.equation.where(block: true): set block(breakable: false, spacing: 0.65em)
 #set math.equation(number-align: end + bottom)
-#par[#text(size: 17pt)[{title}]]
 ",
         page.columns
     )
 }
 
-/// A table in parts that are never broken across pages. They only float if they span columns, to the bottom of a page:
-/// at the top of the first one is the title.
-fn table(table: &Table, number: usize, page: Page) -> String {
-    let [column, all] =
-        [page.width, text_width(page)].map(|width| Layout::of_centimeters(width).width);
-    let placed = placed(table, column, all, CELL_GAP);
-    let part = |part: &Part| match placed.spans {
-        true => {
-            format!(
-                "#place(bottom, scope: \"parent\", float: true)[\n{}]\n",
-                self::part(part, number)
-            )
-        }
-        false => self::part(part, number),
-    };
-    placed.parts.iter().map(part).collect()
+/// A table in parts. Only long ones are broken across pages; then the head is repeated.
+fn table(table: &Placed) -> String {
+    table.parts.iter().map(|part| self::part(part, table.number)).collect()
 }
 
 fn part(part: &Part, number: usize) -> String {
@@ -143,6 +176,7 @@ fn part(part: &Part, number: usize) -> String {
         true => format!("*Table {number}* (continued)"),
         false => format!("*Table {number}.* {}", text(&part.table.caption)),
     };
+    let is_breakable = part.groups.len() > 1;
     let size = 10.0 * SIZES.get(part.size).map_or(1.0, |(_, scale)| *scale);
     let columns: Vec<String> = part.widths.iter().map(|width| column(*width)).collect();
     let cells = |cells: &[Cell]| -> String {
@@ -150,7 +184,7 @@ fn part(part: &Part, number: usize) -> String {
         cells.join(", ")
     };
     let mut typst = format!(
-        "#block(breakable: false)[
+        "#block(breakable: {is_breakable})[
 {caption}
 #set text(size: {size:.1}pt)
 #table(

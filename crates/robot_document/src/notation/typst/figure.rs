@@ -4,9 +4,8 @@ use super::document::line;
 use super::text;
 use crate::figure::{Color, Figure, Label, Path, Point, Segment, Shape, coordinate, hundredths};
 
-/// A figure with its caption, for lines of `available` points.
-pub(super) fn figure(figure: &Figure, available: f64) -> String {
-    let scale = figure.scale(available);
+/// A figure with its caption; `scale` is the length of its unit in points.
+pub(super) fn figure(figure: &Figure, scale: f64) -> String {
     let [width, height] = figure.size().map(|side| hundredths(side * scale));
     let pen = Pen { scale, corner: figure.bounds[0] };
     let mut typst = format!(
