@@ -433,7 +433,7 @@ fn copies_are_named_up_to_eight() {
     assert!(robot(3).contains("the same inertia: `l1`, `l2`, `l3`\n"), "{}", robot(3));
     assert!(robot(8).contains(&format!("{eight}\n")), "{}", robot(8));
     assert!(robot(9).contains(&format!("{eight} and 1 more\n")), "{}", robot(9));
-    assert_eq!(robot(9).matches("and here").count(), 7);
+    assert!(robot(9).contains("and here on lines 17, 24, 31, 38, 45, 52, 59\n"), "{}", robot(9));
 }
 
 /// A joint counts as moving nothing if its inertia is less than 10⁻¹² of that of another joint.

@@ -274,7 +274,7 @@ mod tests {
         assert_eq!(filled(&moves(1), 5), ["to (0, 0, 1)"]);
         let (two, one) = ("to (0, 0, 1), to (0, 0, 1),", "to (0, 0, 1)");
         assert_eq!(filled(&moves(3), two.len()), [two, one]);
-        assert_eq!(filled(&moves(3), two.len() - 1).len(), 3);
+        assert_eq!(filled(&moves(3), two.len() - 2).len(), 3);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Sums in whose shared parts terms cancel.
 
-use robot_symbolic::{Expr, Graph, Id, Number, View, walk};
+use robot_symbolic::{Expr, Graph, Id, Number, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashMap;
 
 /// The terms of a sum, each with its coefficient.
@@ -38,12 +38,20 @@ fn shortened<'g>(sum: Expr<'g>, uses: &FxHashMap<Id, usize>, graph: &'g Graph) -
     };
     let rest = terms(sum, &cancels)?;
     let rest: Terms<'g> = rest.into_iter().filter(|(_, count)| !count.is_zero()).collect();
-    (rest.len() <= now.len()).then(|| {
-        rest.iter().fold(graph.zero(), |sum, (term, count)| match count.is_negative() {
-            true => sum - *term * graph.number(-count),
-            false => sum + *term * graph.number(count.clone()),
-        })
-    })
+    if rest.len() > now.len() {
+        return None;
+    }
+    let short = rest.iter().fold(graph.zero(), |sum, (term, count)| match count.is_negative() {
+        true => sum - *term * graph.number(-count),
+        false => sum + *term * graph.number(count.clone()),
+    });
+    // What is left can be a square of a sine and one of a cosine.
+    let limits =
+        PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
+    match Polynomial::of(short, &limits) {
+        Ok(polynomial) if polynomial.len() < rest.len() => Some(polynomial.to_expr()),
+        _ => Some(short),
+    }
 }
 
 /// The terms of a sum in which the parts that `opens` accepts are replaced by their terms; like terms are merged, and
@@ -102,6 +110,10 @@ mod tests {
     fn parts_whose_terms_cancel_are_opened() {
         let two = ["sin(a + c)", "sin(b + c)", "cos(a + c)", "cos(b + c)"];
         assert_eq!(texts(&[two.as_slice(), &["x*((a + c) - (b + c))"]].concat())[4], "x*(a - b)");
+        // A square of a sine and one of a cosine are left.
+        let squares = ["tanh(b + (y*sin(x))^2)", "tanh((y*cos(x))^2 - b)"];
+        let sum = "b + (y*sin(x))^2 + ((y*cos(x))^2 - b)";
+        assert_eq!(texts(&[squares.as_slice(), &[sum]].concat())[2], "y^2");
         // Within sums that are parts themselves.
         let deep = ["sin(z - (a - b))", "cos(z - (a - b))", "sin(a + b)", "cos(a + b)"];
         let found = texts(&[deep.as_slice(), &["(z - (a - b)) - (a + b)"]].concat());

@@ -127,7 +127,7 @@ pub fn rebuild_above<'g, 'h>(
 /// let value = graph.parse("(x + y)*z").unwrap();
 /// let (sum, name) = (graph.parse("x + y").unwrap(), graph.symbol("s"));
 /// let renamed = walk::rebuild_upward(&[value], &graph, |part| if part == sum { name } else { part });
-/// assert_eq!(print::to_text(renamed[0]).unwrap(), "s*z");
+/// assert_eq!(print::to_text(renamed[0]).unwrap(), "z*s");
 /// ```
 #[must_use]
 pub fn rebuild_upward<'h>(
