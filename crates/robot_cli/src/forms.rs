@@ -237,7 +237,7 @@ impl EquationArguments {
         self.digits.map(usize::from)
     }
 
-    /// Prints a note on a terminal that decimals are rounded, if no option requests it.
+    /// Prints a note on a terminal that decimals are rounded, unless an option sets the digits.
     pub(crate) fn note_rounding(
         &self,
         equations: &Equations,
@@ -330,8 +330,8 @@ const ALL_DIGITS: u8 = 17;
 pub(crate) const NO_DIGITS: &str =
     "--digits has no effect on JSON, whose equations are exact; leave it out";
 
-/// Prints a note that decimals are rounded, if they are and somebody reads it. The errors of rounding are far below the
-/// accuracy of any parameter, so programs that run this one do not need the note.
+/// Prints a note that decimals are rounded, if they are and standard error is a terminal. The errors of rounding are far
+/// below the accuracy of any parameter, so programs that run this one do not need the note.
 pub(crate) fn note_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if is_rounded && terminal.progress {
         let message = "significant digits; --digits 17 prints all";

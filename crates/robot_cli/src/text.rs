@@ -173,7 +173,7 @@ pub(crate) fn snapping(snapping: &Snapping) -> String {
     for tried in larger {
         let change = tried.largest().map_or(0.0, |snap| snap.change.abs());
         let saved = match taken.operations.checked_sub(tried.operations) {
-            Some(0) => "as many operations".to_owned(),
+            Some(0) => "the same number of operations".to_owned(),
             Some(saved) => format!("{saved} fewer operations"),
             None => format!("{} more operations", tried.operations - taken.operations),
         };

@@ -37,7 +37,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
-/// The width of a page's text on a wide screen, in pixels.
+/// The largest total of these widths, in pixels: about that of a page's text on a wide screen.
 const PAGE: f64 = 1190.0;
 /// The width of the other columns of the table of links and joints.
 const OTHERS: f64 = 430.0;

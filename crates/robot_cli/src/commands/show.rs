@@ -57,8 +57,8 @@ impl Arguments {
 }
 
 /// The meaning and units of the table of poses.
-const POSES: &str = "poses at joint position 0, as moves from the frame in the second column, each in the frame that the\n\
-    preceding moves reach; lengths in m, angles in rad:";
+const POSES: &str = "poses at joint position 0, as translations and rotations from the frame in the second column,\n\
+    each in the frame reached by the preceding ones; lengths in m, angles in rad:";
 
 /// The units and axes of the table of masses.
 const MASSES: &str = "mass in kg; center of mass x, y, z in m, in the link frame; moments of inertia about the center of\n\
@@ -93,7 +93,7 @@ fn joints(robot: &Robot) -> Vec<Vec<String>> {
     without_empty(rows)
 }
 
-/// Lists the bodies of each link that consists of others than the link itself.
+/// Lists the bodies of each link that has a body with another name than its own.
 fn bodies(robot: &Robot) -> String {
     let mut shown = String::new();
     for link in &robot.links {

@@ -27,9 +27,8 @@ use crate::text;
 
 Subtractions count as additions, sign changes are not counted, and a fused multiply-add counts as two
 operations. `other` counts absolute values, signs and hyperbolic tangents. The operations of the constructor,
-once per set of parameters, are counted separately. All functions are derived in one graph, whose order of
-expressions is the order in which the passes find the operations: a function can count a few operations more or
-fewer beside other functions than alone.
+once per set of parameters, are counted separately. All functions are derived in one graph, and the passes
+depend on its order, so the count of a function can differ by a few operations from that of the function alone.
 
 The size of the code is an estimate for x86-64, usually within a tenth. Code larger than 32 KB does not fit the
 instruction cache of most processors: a call then takes at least the time to fetch it.

@@ -111,7 +111,7 @@ fn what_snapping_changes_is_told() {
     for part in [
         "angles within 1e-9 rad of a multiple of π/2 are taken as that multiple (--snap); 1 is changed\n",
         "the largest change is 3.0e-10 rad",
-        "--snap 1e-4 would change 2 by up to 3.7e-6 rad; inverse dynamics would need as many operations",
+        "--snap 1e-4 would change 2 by up to 3.7e-6 rad; inverse dynamics would need the same number of operations",
     ] {
         assert!(shown.contains(part), "{part} is not in {shown}");
     }

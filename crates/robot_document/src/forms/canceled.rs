@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 /// The terms of a sum, each with its coefficient.
 type Terms<'g> = Vec<(Expr<'g>, Number)>;
 
-/// The largest number of terms of a sum that is examined.
+/// The largest number of expressions that are visited in a sum, and of terms of a polynomial.
 const MAX_TERMS: usize = 40;
 
 /// Writes sums without the shared parts whose terms cancel, unless this takes more terms. A reader of x₁ − x₂ with

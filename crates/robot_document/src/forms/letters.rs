@@ -43,7 +43,8 @@ pub struct Letters {
     /// The letter of the mass matrix and its entries.
     pub mass: Option<String>,
     /// The letter of the Coriolis and centrifugal terms: of their column, their matrix, and the coefficients of
-    /// products of velocities. C is the letter of the matrix; the grouped form then has Christoffel symbols.
+    /// products of velocities. If it is C, it is the letter of the matrix, and the grouped form
+    /// has Christoffel symbols.
     pub velocity: Option<String>,
     /// The letter of the gravity terms.
     pub gravity: Option<String>,

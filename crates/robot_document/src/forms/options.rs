@@ -74,8 +74,8 @@ pub struct EquationOptions {
     /// Whether a coefficient in the form [`Form::Grouped`] is written as a multiple of an earlier one, plus a
     /// remainder, if that is at most two thirds as long.
     pub references: bool,
-    /// Whether the grouped form has Christoffel symbols instead of the coefficients of products of velocities. It has
-    /// them in any case if the letter of the Coriolis and centrifugal terms is C.
+    /// Whether the grouped form has Christoffel symbols instead of the coefficients of products of velocities. It
+    /// also has them if the letter of the Coriolis and centrifugal terms is C.
     pub christoffel: bool,
     /// Whether quantities are printed as in the paper: forces and moments in the joints from the last link to the
     /// first, vectors with the number of their link as the lower index too, Q with the index m, terms and factors in

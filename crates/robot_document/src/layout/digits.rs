@@ -78,8 +78,8 @@ pub(crate) fn has_longer(math: &Math, digits: usize) -> bool {
 }
 
 /// Writes the numbers of a text for readers, as [`tidied`] does in a formula: `sqrt(2)/2` for `0.5*sqrt(2)`, and no
-/// factor 1. With `digits`, decimals and long quotients are rounded to that many significant digits; otherwise only those
-/// change that nobody would write.
+/// factor 1. With `digits`, decimals, except exponents, and long quotients are rounded to that many significant digits;
+/// otherwise only those with more digits than a double.
 pub(crate) fn tidied_text(text: &str, digits: Option<usize>) -> String {
     let mut shown = String::new();
     let mut rest = text;
@@ -133,7 +133,7 @@ fn text_number<'t>(text: &'t str, before: &str, digits: Option<usize>) -> (Strin
     }
 }
 
-/// The product of a number with the root or π at the beginning of a text, if the number is a fraction, and the text
+/// The product of a number with the root or π after the `*` at the beginning of a text, if the number is a fraction, and the text
 /// after the product.
 fn times_constant<'t>(
     number: &str,

@@ -11,8 +11,9 @@ const LINE: f64 = 12.0;
 const PAGE: f64 = 683.0;
 /// The largest number of lines of tables above the columns of the first page.
 const MOST: f64 = 38.0;
-/// The lines of the title, of the heading above a figure and of the spaces beside a figure.
+/// The number of lines of the title.
 const TITLE: f64 = 3.0;
+/// The number of lines of the heading above a figure and of the spaces around it.
 const AROUND: f64 = 5.0;
 /// The smallest scale of a figure in a column below the tables, relative to its usual one.
 const SMALLEST: f64 = 0.55;
@@ -29,7 +30,7 @@ pub(super) struct Front<'d> {
     pub(super) rest: &'d [Block],
     /// The height, in pt.
     height: f64,
-    /// Whether the front is too high to stand above columns.
+    /// Whether the front has pages of its own, before the columns.
     pub(super) is_long: bool,
 }
 

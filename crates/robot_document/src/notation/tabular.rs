@@ -119,7 +119,7 @@ fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
     parts
 }
 
-/// The folded table with cells of several lines, if it takes less than two thirds of so many lines.
+/// The folded table with cells of several lines, if it takes less than two thirds of `lines` lines.
 fn shorter(folded: Table, available: f64, gap: f64, lines: f64) -> Option<Part> {
     let all: Vec<usize> = (0..folded.head.len()).collect();
     let (size, widths) = Measure::new(&folded, gap).broken(&all, available, 1, NARROW)?;

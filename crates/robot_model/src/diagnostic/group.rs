@@ -49,8 +49,8 @@ impl Group<'_> {
         if self.others.is_empty() {
             return None;
         }
-        let mut known: HashSet<&str> = names(&self.first.message).into_iter().collect();
-        let further = self.others.iter().flat_map(|other| names(&other.message));
+        let mut known: HashSet<&str> = subjects(&self.first.message).collect();
+        let further = self.others.iter().flat_map(|other| subjects(&other.message));
         let also: Vec<String> =
             further.filter(|name| known.insert(name)).map(|name| format!("`{name}`")).collect();
         let others = self.others.iter().filter_map(|other| other.primary.as_ref());
@@ -171,6 +171,13 @@ fn pattern(text: &str, literal: impl Fn(&str) -> Option<String>) -> String {
         }
     }
     shown
+}
+
+/// The names in backquotes that a message is about, without those that only say where, such as `<link>` in
+/// ``twice in `<link>` ``.
+fn subjects(message: &str) -> impl Iterator<Item = &str> {
+    let parts = message.split('`').zip(message.split('`').skip(1)).step_by(2);
+    parts.filter(|(before, _)| !before.ends_with(" in ")).map(|(_, name)| name)
 }
 
 /// The names in backquotes.

@@ -1,4 +1,4 @@
-//! A comparison as Markdown: a small table for each difference, with typeset terms.
+//! A comparison as Markdown: small tables of the differences, with typeset terms.
 
 use std::fmt::Write as _;
 
@@ -18,7 +18,7 @@ const DERIVED: &str = "teal";
 /// The space between factors.
 const FACTORS: &str = r" \, ";
 
-/// Prints a table for each difference, and a summary. Neighboring differences of an equation by the same mistake share
+/// Prints tables of the differences, and a summary. Neighboring differences of an equation by the same mistake share
 /// a table.
 pub(super) fn markdown(comparison: &Comparison, robot: &Robot) -> String {
     let signs = Signs::of(robot);
@@ -64,14 +64,14 @@ fn joined(evidence: &[&Evidence]) -> String {
     all.join("; ")
 }
 
-/// Text for a cell: signs that Markdown would take for markup are escaped.
+/// Text for a cell: characters that Markdown would take for markup are escaped.
 fn text(text: &str) -> String {
     let mut shown = String::new();
-    for sign in text.chars() {
-        if matches!(sign, '\\' | '|' | '*' | '`' | '<' | '&' | '[' | '$') {
+    for character in text.chars() {
+        if matches!(character, '\\' | '|' | '*' | '`' | '<' | '&' | '[' | '$') {
             shown.push('\\');
         }
-        shown.push(sign);
+        shown.push(character);
     }
     shown
 }
@@ -79,7 +79,7 @@ fn text(text: &str) -> String {
 /// The printed forms of a robot's symbols and quantities.
 struct Signs {
     graph: Graph,
-    /// Without it, because two symbols of the robot look the same, terms are printed as text.
+    /// `None` if two symbols of the robot look the same; terms are then printed as text.
     symbols: Option<SymbolTable>,
 }
 
@@ -110,8 +110,8 @@ impl Signs {
         Some(latex::formula(&math).replace(r"\operatorname{", r"\mathrm{").replace('|', r"\vert "))
     }
 
-    /// A product as a formula, or as text if a factor cannot be typeset. Where it differs from another product, it is
-    /// colored; if the other one is empty, that is all of it.
+    /// A product as a formula, or as text if a factor cannot be typeset. Factors that `other` lacks, and a sign that
+    /// differs, are colored; if `other` is empty, the whole product is.
     fn shown(&self, product: &str, factors: &[&str], other: Option<&str>, color: &str) -> String {
         let typeset: Option<Vec<String>> =
             factors.iter().map(|factor| self.factor(factor)).collect();
@@ -192,7 +192,7 @@ fn split(product: &str) -> (&str, Vec<&str>) {
     (sign, factors.collect())
 }
 
-/// The factors of a term, each that another term also has at its place there, and numbers first.
+/// The factors of a term. Those that another term also has stand in the same places as there; numbers come first.
 fn alongside<'t>(factors: &[&'t str], others: &[&'t str]) -> Vec<&'t str> {
     let mut odd = factors.iter().copied().filter(|factor| !others.contains(factor));
     let mut placed: Vec<&str> = vec![];

@@ -27,7 +27,7 @@ pub struct SetterArgument {
 /// A constant of the printed module.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConstantItem {
-    /// The name; [`ConstantItem::printed_name`] is the printed one.
+    /// The name, which printers write in capitals.
     pub name: String,
     /// Its meaning, in Markdown.
     pub doc: String,

@@ -25,10 +25,12 @@ const A4: f64 = 21.0;
 const MARGIN: f64 = 1.0;
 /// The gap between two columns, in cm.
 const GAP: f64 = 0.6;
-/// The command for the rows of a long table after the first ones.
+/// The command for the rows of a long table after the first ones. Its penalty lets TeX break the page before
+/// the rest of the page is measured.
 const MORE_ROWS: &str = r"% The rows #3 of a table: if there is no room, on a new page with the caption #1 and the head #2.
 \newsavebox{\rows}
 \newcommand{\morerows}[3]{%
+  \par\penalty0
   \sbox{\rows}{#3}%
   \ifdim\dimexpr\pagetotal+\pagedepth+\ht\rows+\dp\rows\relax>\pagegoal
     \nointerlineskip\kern2pt\hrule width\wd\rows\newpage

@@ -67,10 +67,10 @@ fn words(text: &str, error: &Error) -> Diagnostic {
             syntax(format!("the prefix `{}` is declared twice", quote(name)))
                 .help("keep one of the declarations")
         }
-        Error::UnexpectedDeclaration(_) => {
-            syntax("`<?xml …?>` is not at the start of the file".to_owned())
-                .help("remove what precedes it, for example an empty line, or remove it")
-        }
+        Error::UnexpectedDeclaration(_) => syntax(
+            "`<?xml …?>` is not at the start of the file".to_owned(),
+        )
+        .help("remove what precedes it, for example an empty line, or remove the declaration"),
         other => syntax(format!("invalid XML: {}", without_place(other)))
             .help("write an element as `<name attribute=\"value\"/>`"),
     }
