@@ -46,7 +46,7 @@ pub use driver::snapping::{Snapping, snapping};
 pub use driver::{ablation, budget, check, package, snapping};
 pub use entry::builder::{Builder, compile};
 pub use entry::files::{
-    MARKER, Output, Ownership, Pending, Staleness, Writer, remaining, sealed, staleness,
+    MARKER, Output, Ownership, Pending, Staleness, Writer, is_stream, remaining, sealed, staleness,
 };
 pub use entry::paths::{RobotFile, missing};
 pub use entry::pin::{pin_path, pin_text, robot_inputs};

@@ -62,11 +62,17 @@ where
                     format!(" from {least} to {most}")
                 }
                 (Bound::Included(least), _) if number.is_some() => format!(" of at least {least}"),
+                _ if is_whole(text) => format!(" of at most {}", u64::MAX),
                 _ => String::new(),
             };
             format!("expected a whole number{limits}")
         })
     }
+}
+
+/// Whether a text is a whole number of any size.
+fn is_whole(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit())
 }
 
 /// Parses a number in the unit of a joint's variable; angles can be in degrees.

@@ -61,13 +61,13 @@ pub enum Error {
         name: String,
     },
     /// A letter that was chosen for the torques, the mass matrix, the Coriolis and centrifugal terms or the gravity
-    /// terms is a symbol of the robot.
-    #[error(
-        "the letter {letter} is a symbol of this robot; choose another letter for the equations"
-    )]
+    /// terms stands for something else in the equations.
+    #[error("the letter {letter} is that of {owner}; choose another letter for the equations")]
     TakenLetter {
         /// The letter.
         letter: String,
+        /// What it stands for.
+        owner: &'static str,
     },
     /// Two symbols are printed in the same way.
     #[error(

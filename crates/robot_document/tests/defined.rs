@@ -3,11 +3,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use robot_document::math::{Math, Symbol};
-use robot_document::{EquationOptions, Equations, Form, Group, Letters, Room, equations};
+use robot_document::{
+    EquationOptions, Equations, Form, Group, Letters, Room, Trigonometry, equations,
+};
 use robot_dynamics::quantity::Kind;
 use robot_model::description::read_toml;
 use robot_model::robot::Robot;
@@ -130,6 +132,52 @@ fn every_symbol_is_defined_with_each_option() {
             }
         }
     }
+}
+
+#[test]
+fn given_letters_name_nothing_else() {
+    let robots = robots();
+    let planar = robots.iter().find(|robot| robot.name == "planar_2r").unwrap();
+    let printed = |letters: &str, form: Form, trigonometry: Trigonometry| {
+        let letters = Letters::parse(letters).unwrap();
+        equations(
+            planar,
+            &EquationOptions { form, letters, trigonometry, ..EquationOptions::default() },
+        )
+    };
+    for form in Form::ALL {
+        for refused in ["q,M,C,g", "tau,q,C,g", "tau,M,q,g", "tau,M,C,q"] {
+            let why = printed(refused, form, Trigonometry::Named).unwrap_err().to_string();
+            assert_eq!(
+                why,
+                "the letter q is that of the joint positions; choose another letter for the equations"
+            );
+        }
+        let sines = printed("tau,M,c,g", form, Trigonometry::Short).unwrap_err().to_string();
+        assert!(sines.contains("the letter c is that of sines and cosines in short"), "{sines}");
+        // The letters that the forms choose give way.
+        for taken in ["x,M,C,g", "tau,w,C,g", "tau,M,w,t", "tau,k,x,g", "Y,M,C,g", "h,w,x,k"] {
+            let printed = printed(taken, form, Trigonometry::Named).unwrap();
+            let mut known = BTreeSet::new();
+            for equation in printed.groups.iter().flat_map(|group| &group.equations) {
+                assert!(known.insert(&equation.name), "{taken} {form:?}: {} twice", equation.name);
+            }
+            for letter in taken.split(',') {
+                let of =
+                    |group: &Group| group.equations.iter().any(|one| of_letter(&one.name, letter));
+                let used = printed.groups.iter().filter(|group| of(group)).count();
+                assert!(used <= 1, "{taken} {form:?}: {letter} is used by {used} groups");
+            }
+        }
+    }
+    let why = printed("omega,M,C,g", Form::Recursive, Trigonometry::Named).unwrap_err().to_string();
+    assert!(why.contains("the letter omega is that of other symbols of these equations"), "{why}");
+}
+
+/// Whether a name is the letter with a number, such as `x_1` or `tau1`.
+fn of_letter(name: &str, letter: &str) -> bool {
+    let tail = name.strip_prefix(letter).map(|tail| tail.trim_start_matches('_'));
+    tail.is_some_and(|tail| tail.starts_with(|first: char| first.is_ascii_digit()))
 }
 
 #[test]

@@ -40,6 +40,8 @@ impl Probe {
     ///
     /// All errors in the robot file or the options.
     pub fn new(programs: &Programs, source: &Source, options: &Options) -> Result<Probe, Error> {
+        // The parallel forms of batches call rayon, which the compiler alone does not have.
+        let options = &Options { parallel: false, ..options.clone() };
         let files = package::package_of(programs, source, options)?;
         Probe::of_files(files, options.trigonometry == Trigonometry::Standard)
     }

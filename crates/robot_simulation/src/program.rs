@@ -124,6 +124,11 @@ impl Dynamics for RobotProgram<'_> {
         if found.iter().all(|entry| entry.is_finite()) {
             return Ok(found);
         }
+        if !state.q.iter().chain(&state.qd).chain(tau).all(|entry| entry.is_finite()) {
+            let why = "positions, velocities or torques become larger than any number; check the \
+                       magnitudes of the torques and of the initial velocities";
+            return Err(Cause::Other(why.to_owned()));
+        }
         if let Some(angle) = too_large_angle(self.robot, &state.q, Trigonometry::default()) {
             return Err(Cause::Other(angle));
         }

@@ -53,7 +53,7 @@ pub fn generate(source: &Source, options: &Options) -> Result<Generated, Errors>
 
 /// The identifier of a module in Rust.
 pub(crate) fn module_name(module: &Module) -> String {
-    rust::identifier(&module.name)
+    LANGUAGE.module_name(&module.name)
 }
 
 /// The operation counts of each function of a module, by its name.

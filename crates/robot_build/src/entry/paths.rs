@@ -35,7 +35,7 @@ impl RobotFile {
         package: &Path,
         allow_outside: bool,
     ) -> Result<RobotFile, Errors> {
-        check_not_empty(path)?;
+        check_is_file_name(path)?;
         let found = canonical(&package.join(path), path)?;
         let package = canonical(package, package)?;
         if !allow_outside && !found.starts_with(&package) {
@@ -50,7 +50,7 @@ impl RobotFile {
     ///
     /// A file that cannot be read, is too large or is not text.
     pub fn read(path: &Path) -> Result<RobotFile, Errors> {
-        check_not_empty(path)?;
+        check_is_file_name(path)?;
         RobotFile::read_at(canonical(path, path)?, path)
     }
 
@@ -94,9 +94,14 @@ pub(crate) fn robot_files(package: &Path, folder: &Path) -> Result<Vec<PathBuf>,
     Ok(files)
 }
 
-fn check_not_empty(path: &Path) -> Result<(), Error> {
+fn check_is_file_name(path: &Path) -> Result<(), Error> {
     if path.as_os_str().is_empty() {
         return Err(cannot_read(Path::new("``"), "the path of a robot file is empty; name a file"));
+    }
+    // A plan and data that a robot file refers to stand beside it.
+    if path.as_os_str() == "-" && !path.exists() {
+        let why = "a robot file is not read from standard input; save it and name the file";
+        return Err(cannot_read(path, why));
     }
     Ok(())
 }

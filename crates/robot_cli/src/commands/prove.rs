@@ -65,6 +65,11 @@ impl Arguments {
         check_values_once("--profile", &self.profile)?;
         let robot = self.robot.read(terminal)?;
         let options = self.code.options(&self.robot, &robot, Language::Rust, terminal)?;
+        if options.parallel {
+            let note =
+                "note: the parallel forms of batches need the crate rayon and are not compiled";
+            writeln!(terminal.errors, "{note}")?;
+        }
         let compiler = Compiler {
             rustc: self.rustc.clone(),
             target: self.target.clone(),

@@ -65,6 +65,14 @@ impl Arguments {
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
+            let name = self.output.file().map(|path| (path, path.with_extension("html")));
+            let others = ["pdf", "png", "svg", "md", "tex", "typ"].map(std::ffi::OsStr::new);
+            if let Some((path, html)) = name
+                && path.extension().is_some_and(|extension| others.contains(&extension))
+            {
+                let message = format!("a report is an HTML page; name the file {}", shown(&html));
+                return Err(Failure::Usage(vec![message]));
+            }
             let output = self.output.open(inputs)?;
             if self.open && output.path().is_none() {
                 let message = "--open shows a file, and `-` is standard output; name a file";

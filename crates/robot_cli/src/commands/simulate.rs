@@ -1,9 +1,9 @@
 //! `simulate`: the motion of a robot.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{Pivots, Programs};
+use robot_build::{Pivots, Programs, is_stream};
 use robot_model::diagnostic::number;
 use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
@@ -107,7 +107,9 @@ impl Arguments {
             table.push_table(&part, start == 0)?;
         }
         recording.end(table, figure)?;
-        if file_of(self.output.as_deref()).is_some() {
+        // A summary must not follow the table into a pipe, a device or a redirected stream.
+        let is_file = |path: &Path| path.is_file() && !is_stream(path);
+        if file_of(self.output.as_deref()).is_some_and(is_file) {
             writeln!(terminal.output, "{}", summary(&motion, &energies))?;
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! The properties of a language that the rest of the compiler needs.
 
+use super::common::identifier;
 use crate::error::Errors;
 use crate::module::Module;
 use crate::program::Limits;
@@ -13,8 +14,23 @@ pub struct Language {
     pub extension: &'static str,
     /// The words that cannot be names in printed code; names from robot files are adapted if necessary.
     pub reserved: &'static [&'static str],
+    /// Further names that a module cannot have: its files or its scope would hide what the language comes with.
+    pub modules: &'static [&'static str],
     /// The sizes of expressions, blocks and functions that its compilers handle well.
     pub limits: Limits,
+}
+
+impl Language {
+    /// The name of a module in printed code: an identifier as close to `text` as possible; a name that is reserved, or
+    /// that would hide a part of the language's own library, gets an underscore.
+    #[must_use]
+    pub fn module_name(&self, text: &str) -> String {
+        let mut name = identifier(text, self.reserved);
+        if self.modules.binary_search(&name.as_str()).is_ok() {
+            name.push('_');
+        }
+        name
+    }
 }
 
 /// A source file of a printed module.
@@ -74,4 +90,26 @@ pub trait Target {
     ///
     /// Options that the language does not support, and constants that its number type cannot represent.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors>;
+}
+
+#[cfg(all(test, feature = "c", feature = "python", feature = "rust"))]
+mod tests {
+    use crate::backend::{c, python, rust};
+
+    #[test]
+    fn modules_do_not_hide_libraries() {
+        for language in [&c::LANGUAGE, &python::LANGUAGE, &rust::LANGUAGE] {
+            assert!(language.modules.is_sorted_by(|a, b| a < b), "{}", language.name);
+            assert_eq!(language.module_name("planar 2r"), "planar_2r");
+        }
+        for name in ["printf", "stdio", "y0", "string", "int", "div_t"] {
+            assert_eq!(c::LANGUAGE.module_name(name), format!("{name}_"));
+        }
+        for name in ["random", "numpy", "test", "lambda"] {
+            assert_eq!(python::LANGUAGE.module_name(name), format!("{name}_"));
+        }
+        for name in ["test", "core", "match"] {
+            assert_eq!(rust::LANGUAGE.module_name(name), format!("{name}_"));
+        }
+    }
 }

@@ -7,6 +7,7 @@ use robot_model::variable::JointVariable;
 
 use super::{Equation, Writer};
 use crate::error::Error;
+use crate::latex;
 use crate::math::{Math, Script};
 
 /// The usual letter of the matrix of the Coriolis and centrifugal terms.
@@ -131,17 +132,74 @@ impl Writer<'_, '_> {
         given.map_or_else(|| free().to_owned(), str::to_owned)
     }
 
-    /// Returns an error if a given letter is a symbol of the robot.
-    pub(super) fn check_letters(&self) -> Result<(), Error> {
+    /// Keeps the given letters for what they are given for.
+    ///
+    /// # Errors
+    ///
+    /// If a given letter is a symbol of the robot, or that of the joint positions or of sines and cosines.
+    pub(super) fn reserve_letters(&mut self) -> Result<(), Error> {
         let Letters { torque, mass, velocity, gravity } = &self.options.letters;
         let [usual, ..] = candidates::GRAVITY;
-        let gravity = gravity.as_ref().filter(|letter| *letter != usual);
-        let given = [torque.as_ref(), mass.as_ref(), velocity.as_ref(), gravity];
-        let is_symbol = |letter: &&String| self.symbols.is_symbol(letter);
-        match given.into_iter().flatten().find(is_symbol) {
-            Some(letter) => Err(Error::TakenLetter { letter: letter.clone() }),
-            None => Ok(()),
+        let other = gravity.as_ref().filter(|letter| *letter != usual);
+        for letter in
+            [torque.as_ref(), mass.as_ref(), velocity.as_ref(), other].into_iter().flatten()
+        {
+            let owner = if self.symbols.is_symbol(letter) {
+                "a symbol of this robot"
+            } else if letter == JointVariable::Position.name() {
+                "the joint positions"
+            } else if letter == "pi" {
+                "the number π"
+            } else if self.symbols.is_letter_of_sines(letter) {
+                "sines and cosines in short"
+            } else {
+                continue;
+            };
+            return Err(Error::TakenLetter { letter: letter.clone(), owner });
         }
+        let given = [torque, mass, velocity, gravity].into_iter().flatten();
+        self.symbols.reserve(given.map(String::as_str));
+        Ok(())
+    }
+
+    /// Returns an error if the letter of the joint torques is also that of a symbol of the robot or of one that the form
+    /// has defined. The usual letter can be that of a symbol without such a joint.
+    pub(super) fn check_torque_letter(&self, has_vectors: bool) -> Result<(), Error> {
+        let letter = self.options.letters.torque();
+        let is_given = self.options.letters.torque.is_some();
+        let joints = 1..=self.robot.degrees_of_freedom();
+        let own: Vec<String> = joints.map(|joint| format!("{letter}{joint}")).collect();
+        let is_own =
+            |name: &str| own.iter().any(|one| one == name) && self.symbols.is_defined(name);
+        let printed = |name: &str| latex::formula(&self.symbols.look(name)).replace(['{', '}'], "");
+        let is_alike = |name: &str| {
+            is_given || own.iter().any(|one| one == name || printed(one) == printed(name))
+        };
+        let mut others = self.symbols.symbols_with_letter(letter).filter(|name| !is_own(name));
+        let owner = if others.any(is_alike) {
+            "other symbols of these equations"
+        } else if has_vectors && self.symbols.is_symbol(letter) {
+            "a symbol of this robot"
+        } else {
+            return Ok(());
+        };
+        Err(Error::TakenLetter { letter: letter.to_owned(), owner })
+    }
+
+    /// Returns an error if a symbol of the robot is printed like the vector of the joint positions, velocities or
+    /// accelerations.
+    pub(super) fn check_vectors(&self) -> Result<(), Error> {
+        let vectors = JointVariable::MOTION.map(|variable| variable.name());
+        vectors.into_iter().try_for_each(|vector| {
+            let latex = latex::formula(&Math::spelled(vector));
+            match self.symbols.printed_as(&latex) {
+                Some(name) => {
+                    let (name, other) = (name.to_owned(), vector.to_owned());
+                    Err(Error::Alike { name, other, latex })
+                }
+                None => Ok(()),
+            }
+        })
     }
 
     /// Gives the joint torques their letter.

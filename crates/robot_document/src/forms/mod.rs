@@ -230,7 +230,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     if writer.angle_sums() == AngleSums::Keep && options.form != Form::Recursive {
         writer.parallel = writer.derivation().mechanism.parallel_angles();
     }
-    writer.check_letters()?;
+    writer.reserve_letters()?;
     let groups = match options.form {
         Form::Expanded | Form::Collected => expanded::groups(&mut writer),
         Form::Grouped => grouped::groups(&mut writer),
@@ -243,6 +243,11 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     }
     let mut groups: Vec<Group> =
         groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    let has_vectors = groups.iter().any(|group| group.vector.is_some());
+    if has_vectors {
+        writer.check_vectors()?;
+    }
+    writer.check_torque_letter(has_vectors)?;
     let mut rounded = false;
     for group in &mut groups {
         rounded |= group.tidy(options.digits);

@@ -13,6 +13,9 @@ use super::{Order, Trigonometry, polynomial};
 use crate::error::Error;
 use crate::latex;
 
+/// The printed form of the number π.
+const PI: &str = "\\pi";
+
 /// The layouts of a robot's symbols and of symbols that a form of the equations defines, and the notation of sines and
 /// cosines.
 #[derive(Clone, Debug)]
@@ -23,6 +26,8 @@ pub struct SymbolTable {
     printed: FxHashMap<String, String>,
     /// The names of symbols that a form defines.
     defined: Vec<String>,
+    /// Letters that are given for what a form defines, which no other definition may have.
+    reserved: Vec<String>,
 }
 
 #[derive(Clone, Debug)]
@@ -36,7 +41,7 @@ impl SymbolTable {
     #[must_use]
     pub fn spelled(trigonometry: Trigonometry) -> SymbolTable {
         let (entries, printed) = (FxHashMap::default(), FxHashMap::default());
-        SymbolTable { trigonometry, entries, printed, defined: vec![] }
+        SymbolTable { trigonometry, entries, printed, defined: vec![], reserved: vec![] }
     }
 
     /// The coordinates, parameters and wrenches of a robot, with the layouts that its file gives.
@@ -59,7 +64,28 @@ impl SymbolTable {
                 table.add(name, given.as_deref())?;
             }
         }
+        table.check_powers()?;
+        if let Some(name) = table.printed_as(PI) {
+            let (name, other) = (name.to_owned(), "pi".to_owned());
+            return Err(Error::Alike { name, other, latex: PI.to_owned() });
+        }
         Ok(table)
+    }
+
+    /// Returns an error if a symbol with a number as its upper index looks like a power of another symbol.
+    fn check_powers(&self) -> Result<(), Error> {
+        let mut symbols: Vec<(&String, &String)> = self.printed.iter().collect();
+        symbols.sort();
+        for (latex, name) in symbols {
+            let Some((base, upper)) = latex.rsplit_once('^') else { continue };
+            let exponent = upper.trim_start_matches('{').trim_end_matches('}');
+            let is_power = exponent.parse::<u32>().is_ok();
+            if let Some(other) = self.printed.get(base).filter(|_| is_power) {
+                let other = format!("{other}^{exponent}");
+                return Err(Error::Alike { name: name.clone(), other, latex: latex.clone() });
+            }
+        }
+        Ok(())
     }
 
     /// Adds a symbol with the layout of its LaTeX. LaTeX that could do more than print is ignored.
@@ -120,12 +146,19 @@ impl SymbolTable {
         !self.entries.contains_key(name) && !self.printed.contains_key(&latex::formula(shape))
     }
 
-    /// Returns the first candidate that no symbol uses with a number as its first index, neither in text nor in print;
-    /// the last candidate if all are used. An index such as x in M_x cannot be mistaken for that of M_12.
+    /// Keeps letters from being chosen by [`free_letter`](Self::free_letter).
+    pub(crate) fn reserve<'l>(&mut self, letters: impl Iterator<Item = &'l str>) {
+        self.reserved.extend(letters.map(str::to_owned));
+    }
+
+    /// Returns the first candidate that is not reserved and that no symbol uses with a number as its first index,
+    /// neither in text nor in print; the last one that is not reserved if all are used. An index such as x in M_x
+    /// cannot be mistaken for that of M_12.
     #[must_use]
     pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {
         let free = candidates.iter().find(|letter| !self.is_taken(letter));
-        free.or(candidates.last()).copied().unwrap_or("x")
+        let last = || candidates.iter().rfind(|letter| !self.is_reserved(letter));
+        free.or_else(last).copied().unwrap_or("x")
     }
 
     /// Returns the first candidate that no symbol uses with a number as its first index, and that is not itself a
@@ -137,24 +170,57 @@ impl SymbolTable {
         free.copied().unwrap_or_else(|| self.free_letter(candidates))
     }
 
+    /// The name of the symbol that is printed as this LaTeX.
+    pub(crate) fn printed_as(&self, latex: &str) -> Option<&str> {
+        self.printed.get(latex).map(String::as_str)
+    }
+
     /// Whether a letter is the name or the layout of a symbol.
     #[must_use]
     pub fn is_symbol(&self, letter: &str) -> bool {
-        self.entries.iter().any(|(name, entry)| name == letter || entry.latex == letter)
+        let is_letter = |text: &str| text.trim_start_matches('\\') == letter;
+        self.entries.iter().any(|(name, entry)| is_letter(name) || is_letter(&entry.latex))
+    }
+
+    fn is_reserved(&self, letter: &str) -> bool {
+        self.reserved.iter().any(|reserved| reserved == letter)
     }
 
     fn is_taken(&self, letter: &str) -> bool {
+        self.is_reserved(letter)
+            || self.is_letter_of_sines(letter)
+            || self.is_letter_of_symbol(letter)
+    }
+
+    /// Whether the letter with an index would read as a sine or a cosine.
+    pub(crate) fn is_letter_of_sines(&self, letter: &str) -> bool {
+        self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c")
+    }
+
+    /// Whether a symbol is the letter with a number as its first index, in text or in print.
+    fn is_letter_of_symbol(&self, letter: &str) -> bool {
+        self.symbols_with_letter(letter).next().is_some()
+    }
+
+    /// The names of the symbols that are the letter with a number as their first index, in text or in print.
+    pub(crate) fn symbols_with_letter<'s>(
+        &'s self,
+        letter: &'s str,
+    ) -> impl Iterator<Item = &'s str> {
         let is_number = |tail: &str| {
             tail.trim_start_matches(['_', '{']).starts_with(|c: char| c.is_ascii_digit())
         };
-        let sine = self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c");
-        sine || self.entries.iter().any(|(name, Entry { latex, .. })| {
+        let has_letter = move |name: &str, latex: &str| {
             let tail = name.strip_prefix(letter);
             tail.is_some_and(is_number)
-                || latex.strip_prefix(letter).is_some_and(|tail| {
+                || latex.trim_start_matches('\\').strip_prefix(letter).is_some_and(|tail| {
                     tail.starts_with('^') || tail.starts_with('_') && is_number(tail)
                 })
-        })
+        };
+        let entries = self.entries.iter();
+        entries
+            .filter(move |(name, one)| has_letter(name, &one.latex))
+            .map(|(name, _)| name.as_str())
     }
 
     /// The layout of a symbol; if the table does not contain it, the layout follows from its name.
@@ -212,7 +278,10 @@ impl SymbolTable {
         match self.trigonometry {
             Trigonometry::Named => false,
             Trigonometry::Short => latex.starts_with("s_") || latex.starts_with("c_"),
-            Trigonometry::Paper => latex == "s" || latex == "c",
+            Trigonometry::Paper => {
+                let is_of_joint = |sine| latex.starts_with(&format!("\\mathrm{{{sine}}}_"));
+                matches!(latex, "s" | "c") || is_of_joint("sq") || is_of_joint("cq")
+            }
         }
     }
 }

@@ -138,10 +138,12 @@ fn text(text: &str) -> String {
             '\\' | '`' | '*' | '_' | '[' | ']' | '>' | '#' | '|' | '$' | '~' | '!' => {
                 markdown.extend(['\\', character]);
             }
-            ' '..='~' | '–' | '—' | '‘' | '’' | '“' | '”' | '…' | '§' | '°' | '·' | '±' =>
+            ' '..='~' | '–' | '—' | '‘' | '’' | '“' | '”' | '…' | '§' | '°' | '·' | '±' | '×' =>
             {
                 markdown.push(character);
             }
+            // Arrows, mathematical signs and pictographs.
+            '\u{2190}'..='\u{22ff}' | '\u{1f300}'..='\u{1faff}' => markdown.push(character),
             other if other.is_alphanumeric() => markdown.push(other),
             other => markdown.push_str(&format!("\\[U+{:04X}\\]", u32::from(other))),
         }

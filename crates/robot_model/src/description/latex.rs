@@ -19,9 +19,9 @@ impl Reader<'_> {
                 .at(&span, error.message)
                 .because("it is printed verbatim, so only symbols are allowed")
                 .help(
-                    "use letters, digits, `_`, `^`, `{…}`, Greek letters such as `\\theta` and \
-                     accents such as `\\bar{x}`; in a basic string, write each backslash as \
-                     `\\\\`",
+                    "use a letter, a Greek letter such as `\\theta` or a word such as `\\mathrm{mg}`, \
+                     with an accent such as `\\bar{x}` and indices such as `_1` or `^{*1}`; in a \
+                     basic string, write each backslash as `\\\\`",
                 ),
         );
         None

@@ -54,10 +54,15 @@ impl Reader<'_> {
             Kind::Label => (text == "base").then(|| "the base frame".into()),
         };
         if let Some(owner) = owner {
+            // `q_1` would be printed like the variable `q1`.
+            let other = match kind {
+                Kind::Identifier => format!("{text}_a"),
+                Kind::Label => format!("{text}_1"),
+            };
             self.report(
                 Diagnostic::error(code::RESERVED, format!("`{text}` cannot be the name of {what}"))
                     .at(span, format!("reserved: {owner}"))
-                    .help(format!("choose another name, such as `{text}_1`")),
+                    .help(format!("choose another name, such as `{other}`")),
             );
             return None;
         }

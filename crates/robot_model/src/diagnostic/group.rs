@@ -81,16 +81,40 @@ impl Group<'_> {
     }
 }
 
-/// The lines at which labels begin, in order and each once, and the words before them.
+/// The lines at which labels begin, in order and each once, and the words before them; if there are several labels and
+/// all begin on one line, their columns.
 fn lines<'l>(source: &Source, labels: impl Iterator<Item = &'l Label>) -> (String, Vec<String>) {
+    let labels: Vec<&Label> = labels.collect();
     let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
     let ends: Vec<usize> = ends.map(|(place, _)| place).collect();
     let line = |label: &Label| ends.partition_point(|end| *end < label.span.start) + 1;
-    let mut lines: Vec<usize> = labels.map(line).collect();
+    let mut lines: Vec<usize> = labels.iter().map(|label| line(label)).collect();
     lines.sort_unstable();
     lines.dedup();
+    if let (&[line], [_, _, ..]) = (lines.as_slice(), labels.as_slice()) {
+        let start = line.checked_sub(2).and_then(|end| ends.get(end)).map_or(0, |end| end + 1);
+        let columns = columns(source.text.get(start..).unwrap_or_default(), start, &labels);
+        return (format!("on line {line} at columns "), columns);
+    }
     let plural = if lines.len() == 1 { "" } else { "s" };
     (format!("on line{plural} "), lines.iter().map(ToString::to_string).collect())
+}
+
+/// The columns at which labels in a line begin, in order and each once; `start` is the first byte of the line.
+fn columns(line: &str, start: usize, labels: &[&Label]) -> Vec<String> {
+    let mut places: Vec<usize> = labels.iter().map(|label| label.span.start - start).collect();
+    places.sort_unstable();
+    places.dedup();
+    // One pass over the line, because there can be as many labels as characters.
+    let mut characters = line.char_indices().peekable();
+    let mut column = 1;
+    let places = places.into_iter().map(|place| {
+        while characters.next_if(|(byte, _)| *byte < place).is_some() {
+            column += 1;
+        }
+        column
+    });
+    places.map(|column| column.to_string()).collect()
 }
 
 fn shortened(list: &[String]) -> String {
@@ -253,6 +277,17 @@ mod tests {
         let graded = |place: usize| error("a", "", place).graded(Severity::Warning);
         let shown = all(vec![graded(0), graded(2), error("a", "", 4)]).render(Style::Plain);
         assert_eq!(shown.matches("error[").count(), 1, "{shown}");
+    }
+
+    #[test]
+    fn places_on_one_line_have_columns() {
+        let error = |place: usize| {
+            let one = Diagnostic::error("R0101", "`x` is unknown").at(&(place..place + 1), "here");
+            one.help("define it")
+        };
+        let source = Source { name: "arm".to_owned(), text: "[[a, b, c]]\n".to_owned() };
+        let shown = Diagnostics::new(source, [2, 5, 8].map(error).to_vec()).render(Style::Plain);
+        assert!(shown.contains("= note: on line 1 at columns 6, 9\n"), "{shown}");
     }
 
     #[test]

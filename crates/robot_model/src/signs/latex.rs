@@ -29,6 +29,10 @@ struct Group {
     base: bool,
     lower: bool,
     upper: bool,
+    /// Whether this is an index or within one, where digits and signs are read as a name.
+    is_index: bool,
+    /// Whether this is the argument of an accent or a font or within one, where several letters are read as a name.
+    is_word: bool,
 }
 
 /// Checks that LaTeX given for a name only prints a symbol.
@@ -36,6 +40,9 @@ struct Group {
 /// The grammar is `item*`. An item is a letter, a digit, one of `* + - , . ( )`, a Greek letter or another symbol, a
 /// group `{…}`, or an accent or a font followed by a group. After an item, at most one `_` and one `^` are allowed,
 /// each followed by an item; primes can take the place of the latter. The length is limited to 64 bytes.
+///
+/// Outside of indices, a sign `* + - , . ( )`, a digit at the beginning, and a second item are refused: they would read
+/// as a formula or a number, and not as one symbol. Accents and fonts take several letters.
 ///
 /// # Errors
 ///
@@ -85,13 +92,25 @@ impl Walk<'_> {
         let Some(group) = self.groups.last_mut() else {
             return Err("closes nothing");
         };
+        let waiting =
+            self.waiting.as_ref().and_then(|(place, _)| self.latex.as_bytes().get(place.start));
+        let is_index = group.is_index || matches!(waiting, Some(b'_' | b'^'));
+        let is_word = group.is_word || matches!(waiting, Some(b'\\'));
+        if !is_index && self.waiting.is_none() {
+            check_name(token, group)?;
+        }
         match token.as_bytes() {
             [b'{'] => {
                 item(group, self.waiting.take().is_some());
                 if depth > MAX_DEPTH {
                     return Err("groups are nested too deeply");
                 }
-                self.groups.push(Group { start: here.start, ..Group::default() });
+                self.groups.push(Group {
+                    start: here.start,
+                    is_index,
+                    is_word,
+                    ..Group::default()
+                });
             }
             [b'}'] if self.waiting.is_some() || depth == 1 || !group.base => {
                 return Err("a group ends without content, or closes nothing");
@@ -138,6 +157,21 @@ impl Walk<'_> {
     }
 }
 
+/// Returns an error if a token outside of indices would read as a part of a formula.
+fn check_name(token: &str, group: &Group) -> Result<(), &'static str> {
+    match token.as_bytes() {
+        [byte] if b"*+-,.()".contains(byte) => {
+            Err("outside of an index, this reads as a part of a formula")
+        }
+        [b'0'..=b'9'] if !group.base => Err("a symbol that begins with a digit reads as a number"),
+        [b'_' | b'^' | b'\'' | b'}' | b' '] => Ok(()),
+        _ if group.base && (!group.is_word || group.lower || group.upper) => {
+            Err("several symbols read as a product; `\\mathrm{…}` makes one of several letters")
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Whether a command, without its backslash, is an accent or a font.
 fn takes_group(command: &str) -> bool {
     Accent::of_latex(command).is_some() || Font::of_latex(command).is_some()
@@ -181,11 +215,12 @@ mod tests {
             "{J_x}^2",
             "\\ell_1",
             "m_{1,2}",
-            "\\alpha\\beta_1",
+            "\\mathrm{mg2}_1",
             "J _x",
             "q''_1",
             "q_1'",
-            "v_(1.5)",
+            "v_{(1.5)}",
+            "J_{*+-,.(1)}^{2x}",
         ] {
             assert_eq!(check_latex(text), Ok(()), "{text}");
         }
@@ -229,6 +264,20 @@ mod tests {
             "\u{202e}",
             "{{{{{{{{{{a}}}}}}}}}}",
             " ",
+            "r+1",
+            "-r",
+            "2",
+            "2r",
+            "\\bar{2}",
+            "{r-1}_2",
+            "r_1 l_1",
+            "J'_1 l",
+            "f(x)",
+            "l2",
+            "\\alpha\\beta_1",
+            "r\\dot{q}_1",
+            "\\mathrm{r+1}",
+            "v_(1.5)",
         ] {
             assert!(check_latex(text).is_err(), "{text}");
         }

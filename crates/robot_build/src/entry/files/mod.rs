@@ -16,6 +16,7 @@ use std::path::Path;
 pub use marker::MARKER;
 pub(crate) use marker::is_marked;
 pub use pending::Pending;
+pub use place::is_stream;
 pub use remaining::remaining;
 pub use seal::sealed;
 pub use writer::{Output, Ownership, Writer};

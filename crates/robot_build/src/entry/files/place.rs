@@ -43,7 +43,8 @@ pub(super) fn place(path: &Path) -> Result<Place> {
 
 /// Whether the path names an open stream of a process, such as `/dev/stdout`. The stream can be redirected to a
 /// regular file to which other programs also write, and which must not be replaced.
-fn is_stream(path: &Path) -> bool {
+#[must_use]
+pub fn is_stream(path: &Path) -> bool {
     let streams = ["/dev/stdin", "/dev/stdout", "/dev/stderr"];
     streams.iter().any(|stream| path == Path::new(stream))
         || path.parent().is_some_and(|folder| {

@@ -148,16 +148,20 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         if let Some(why) = task.unloadable.as_ref().filter(|_| state.is_loaded()) {
             wrong.loaded.push(format!("{file}{place}: has a wrench, but {why}"));
         }
-        for Input { name, array, .. } in &self.inputs {
+        for Input { name, array, size } in &self.inputs {
             let is_given = array.is_some_and(|array| state.at(array).is_some());
             // A missing wrench is 0.
             if name.starts_with(WRENCH) {
                 self.lack_wrenches &= !is_given;
             } else if !is_given {
                 let function = &task.function.name;
-                wrong
-                    .missing
-                    .push(format!("{file}{place}: `{name}` is missing; {function} needs it"));
+                let remedy = match task.source {
+                    Some(_) => String::new(),
+                    None => format!("; add --{name} {}", vec!["0"; *size].join(",")),
+                };
+                wrong.missing.push(format!(
+                    "{file}{place}: `{name}` is missing; {function} needs it{remedy}"
+                ));
             }
         }
     }

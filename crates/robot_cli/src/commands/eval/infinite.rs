@@ -31,7 +31,11 @@ pub(super) fn messages(
     let angle = state
         .array(JointVariable::Position.name())
         .and_then(|q| too_large_angle(robot, q, trigonometry));
-    let angle = angle.map(|why| format!("{why}, or use --trigonometry standard"));
+    // The sum of the angles of parallel joints can overflow, which no sine repairs.
+    let is_finite = |q: &[f64]| q.iter().map(|angle| angle.abs()).sum::<f64>().is_finite();
+    let q = state.array(JointVariable::Position.name());
+    let standard = if q.is_some_and(is_finite) { ", or use --trigonometry standard" } else { "" };
+    let angle = angle.map(|why| format!("{why}{standard}"));
     let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));
     let why =
         why.unwrap_or_else(|| "check the magnitudes of the parameters and of the state".to_owned());

@@ -137,10 +137,11 @@ fn show(
 ) -> Result<(), Failure> {
     writeln!(
         terminal.output,
-        "{}: {} multiplications and additions, {} with multiply-adds; the best of {} forms{}\n",
+        "{}: {} multiplications and additions, {} with multiply-adds; {} of {} forms{}\n",
         robot.name,
         found.operations,
         found.instructions,
+        if found.tuned { "the fastest of those timed" } else { "the best" },
         found.tried,
         if found.cut_short { ", the limit for a robot of this size" } else { "" }
     )?;

@@ -40,7 +40,7 @@ the last save had no errors and its page was written; 1 otherwise; 2 if the comm
 pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
-    /// Also write a page about the robot, like that of `report --without-compiler`
+    /// Also write a page about the robot, like that of `report --without-compiler --without-live`
     #[arg(long, value_name = "PATH")]
     report: Option<PathBuf>,
     #[command(flatten)]

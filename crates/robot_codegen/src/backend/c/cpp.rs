@@ -12,6 +12,9 @@ use crate::module::{Module, Output};
 /// C++, as a language of printed code.
 pub(super) const LANGUAGE: Language = Language { name: "C++", extension: "hpp", ..super::LANGUAGE };
 
+/// The end of the name of the macro that keeps a header from being read twice.
+pub(super) const GUARD: &str = "HPP";
+
 /// The printer of C++.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cpp {
@@ -37,7 +40,7 @@ impl Target for Cpp {
 }
 
 fn text(header: &Header<'_>) -> String {
-    let (name, guard) = (&header.tree.name, header.names.upper("HPP"));
+    let (name, guard) = (&header.tree.name, header.names.upper(GUARD));
     let mut lines: Vec<String> =
         header.options.header.iter().map(|line| comment::of_line(line)).collect();
     let doc =

@@ -3,7 +3,7 @@
 use super::batch::{column_parameters, has_batch, iteration, one, place};
 use super::comment;
 use super::function::{model_argument, used_by};
-use super::{BATCH, Dialect, Header, LANGUAGE as C, names};
+use super::{BATCH, Dialect, Header, LANGUAGE as C, names, tree_of};
 use crate::backend::common::check_range;
 use crate::backend::flat::{FlatOptions, Function, Tree};
 use crate::backend::{Language, SourceFile, Target};
@@ -42,7 +42,7 @@ impl Target for Cuda {
 #[must_use]
 pub fn cuda_tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     let taken = [names::TAKEN, WORDS].concat();
-    Tree::new(module, &LANGUAGE, &taken, &["sc", "kernel"], &options.setters)
+    tree_of(module, options, &taken, &["sc", "kernel"])
 }
 
 /// The includes. NVRTC, the compiler at run time, has no headers, but has their functions built in.

@@ -14,6 +14,7 @@ mod function;
 mod helpers;
 mod items;
 mod keywords;
+mod library;
 mod macros;
 mod names;
 mod spelling;
@@ -26,7 +27,7 @@ pub use self::cuda::{Cuda, cuda_tree};
 pub use self::names::Names;
 use self::spelling::Expressions;
 use super::common::{Scalar, check_range};
-use super::flat::{FlatOptions, Tree};
+use super::flat::{FlatOptions, Taken, Tree};
 use super::{Language, SourceFile, Target};
 use crate::error::Errors;
 use crate::module::Module;
@@ -40,6 +41,7 @@ pub const LANGUAGE: Language = Language {
     name: "C",
     extension: "h",
     reserved: keywords::RESERVED,
+    modules: library::NAMES,
     limits: Limits { expression: 6, block: usize::MAX, function: 4000, part: 1000 },
 };
 
@@ -72,7 +74,22 @@ pub const BATCH: usize = 1;
 /// The tree of a module as C prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, names::TAKEN, &["sc", "batch"], &options.setters)
+    tree_of(module, options, names::TAKEN, &["sc", "batch"])
+}
+
+/// The tree of a module with these additional forms of functions.
+fn tree_of<'m>(
+    module: &'m Module,
+    options: &FlatOptions,
+    scope: &[&str],
+    forms: &[&str],
+) -> Tree<'m> {
+    let names = Names::new(&LANGUAGE.module_name(&module.name));
+    let constants = options.constants.iter().map(|item| names.upper(&item.printed_name()));
+    let guards = [Dialect::C.guard(), Dialect::Cuda.guard(), cpp::GUARD];
+    let macros: Vec<String> = constants.chain(guards.map(|guard| names.upper(guard))).collect();
+    let macros: Vec<&str> = macros.iter().map(String::as_str).collect();
+    Tree::new(module, &LANGUAGE, Taken { scope, macros: &macros }, forms, &options.setters)
 }
 
 /// A language whose functions are those of C.
@@ -82,6 +99,16 @@ enum Dialect {
     C,
     /// CUDA C++.
     Cuda,
+}
+
+impl Dialect {
+    /// The end of the name of the macro that keeps a header from being read twice.
+    fn guard(self) -> &'static str {
+        match self {
+            Dialect::C => "H",
+            Dialect::Cuda => "CUH",
+        }
+    }
 }
 
 /// The data from which the parts of the header are printed.
@@ -136,10 +163,7 @@ impl Header<'_> {
             "- Compiled without contraction of products and sums {flags}, results have the same bits on every machine."
         ));
         lines.extend(comment::of_paragraphs(&doc));
-        let guard = match self.dialect {
-            Dialect::C => self.names.upper("H"),
-            Dialect::Cuda => self.names.upper("CUH"),
-        };
+        let guard = self.names.upper(self.dialect.guard());
         lines.extend([format!("#ifndef {guard}"), format!("#define {guard}"), String::new()]);
         lines.extend(match self.dialect {
             Dialect::C => lines_of(&format!(

@@ -1,6 +1,6 @@
 //! Builds the tree of a module.
 
-use super::names::{Names, Variables};
+use super::names::{Names, Taken, Variables};
 use super::{Array, Body, Expression, Function, Operator, Part, Statement, Tree};
 use crate::backend::Language;
 use crate::backend::common::{Namer, Setter, input_entry, used_inputs};
@@ -8,18 +8,17 @@ use crate::module::{self, Module};
 use crate::program::{self, Block, Operation, Program, Source, Statements, Value};
 
 impl<'m> Tree<'m> {
-    /// Builds the tree of a module in a language. No item or variable has a name in `taken`, which the printer uses
-    /// itself. `forms` are the name endings of the additional forms of each function.
+    /// Builds the tree of a module in a language. No item or variable has a name that is taken. `forms` are the name endings of the additional forms of each function.
     #[must_use]
     pub fn new(
         module: &'m Module,
         language: &Language,
-        taken: &[&str],
+        taken: Taken<'_>,
         forms: &[&str],
         setters: &[Setter],
     ) -> Tree<'m> {
         let mut names = Names::new(module, language, taken, forms, setters);
-        let variables = Namer::new(language.reserved, taken);
+        let variables = Namer::new(language.reserved, &[taken.scope, taken.macros].concat());
         let mut builder = Builder { language, variables, items: &mut names.items };
         let constructor = builder.constructor(module);
         let functions = module.functions.iter().zip(&names.functions).zip(&names.forms);

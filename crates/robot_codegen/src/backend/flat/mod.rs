@@ -15,6 +15,7 @@ pub mod polynomials;
 use robot_symbolic::Function as Call;
 
 pub use self::infix::{Spelling, infix};
+pub use self::names::Taken;
 pub use self::options::FlatOptions;
 use crate::module;
 

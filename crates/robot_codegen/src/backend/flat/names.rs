@@ -5,6 +5,23 @@ use crate::backend::common::{Namer, Setter, angle_names, field_names, symbols};
 use crate::module::{Function, Module};
 use crate::program::Source;
 
+/// Names that a printer uses itself.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Taken<'n> {
+    /// Names beside the functions and within them.
+    pub scope: &'n [&'n str],
+    /// Names of macros, which nothing in the text can have.
+    pub macros: &'n [&'n str],
+}
+
+impl<'n> Taken<'n> {
+    /// Names in a language without macros.
+    #[must_use]
+    pub fn of(scope: &'n [&'n str]) -> Taken<'n> {
+        Taken { scope, macros: &[] }
+    }
+}
+
 /// The names of a module in a language.
 pub(super) struct Names {
     pub(super) module: String,
@@ -19,16 +36,17 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// Makes the names of a module; none of its items has a name in `taken`, which the printer uses itself.
+    /// Makes the names of a module; none of its items has a name that is taken.
     pub(super) fn new(
         module: &Module,
         language: &Language,
-        taken: &[&str],
+        taken: Taken<'_>,
         forms: &[&str],
         setters: &[Setter],
     ) -> Names {
-        let namer = |taken: &[&str]| Namer::new(language.reserved, taken);
-        let mut items = namer(taken);
+        let Taken { scope, macros } = taken;
+        let namer = |taken: &[&str]| Namer::new(language.reserved, &[taken, macros].concat());
+        let mut items = namer(scope);
         let setters = setters.iter().map(|setter| items.name(&setter.name)).collect();
         let functions = module.functions.iter().map(|function| function.name.as_str());
         let functions = items.names(functions);
@@ -38,7 +56,7 @@ impl Names {
         });
         let forms = forms.collect();
         Names {
-            module: namer(&[]).name(&module.name),
+            module: language.module_name(&module.name),
             parameters: namer(&[]).names(module.parameters.iter().map(|one| one.name.as_str())),
             fields: field_names(module, &mut namer(&[])),
             setters,

@@ -10,7 +10,7 @@ use super::common::{
     self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, comment_lines,
 };
 use super::flat::{
-    Array, Expression, FlatOptions, Function, Helpers, Spelling, Statement, Tree, infix,
+    Array, Expression, FlatOptions, Function, Helpers, Spelling, Statement, Taken, Tree, infix,
 };
 use super::{Language, SourceFile, Target};
 use crate::counts::Counts;
@@ -23,6 +23,8 @@ pub const LANGUAGE: Language = Language {
     name: "JavaScript",
     extension: "mjs",
     reserved: keywords::RESERVED,
+    // The test of a package.
+    modules: &["test"],
     limits: Limits { expression: 6, block: usize::MAX, function: 3000, part: 800 },
 };
 
@@ -58,7 +60,7 @@ impl Target for JavaScript {
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     let taken = options.taken(TAKEN);
     let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
-    Tree::new(module, &LANGUAGE, &taken, &[], &options.setters)
+    Tree::new(module, &LANGUAGE, Taken::of(&taken), &[], &options.setters)
 }
 
 pub(in crate::backend) struct Printer<'a> {

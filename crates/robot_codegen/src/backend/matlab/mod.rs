@@ -10,7 +10,7 @@ use robot_symbolic::Function as Call;
 
 use super::common::{self, Scalar, SetterArgument, comment_line, comment_lines};
 use super::flat::{
-    Array, Body, FlatOptions, Function, Helpers, Operator, Spelling, Statement, Tree, infix,
+    Array, Body, FlatOptions, Function, Helpers, Operator, Spelling, Statement, Taken, Tree, infix,
 };
 use super::{Language, SourceFile, Target};
 use crate::counts::Counts;
@@ -23,6 +23,7 @@ pub const LANGUAGE: Language = Language {
     name: "MATLAB",
     extension: "m",
     reserved: keywords::RESERVED,
+    modules: &[],
     limits: Limits { expression: 6, block: usize::MAX, function: usize::MAX, part: usize::MAX },
 };
 
@@ -81,7 +82,7 @@ impl Target for Matlab {
 /// The tree of a module as MATLAB prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
+    Tree::new(module, &LANGUAGE, Taken::of(TAKEN), &[], &options.setters)
 }
 
 struct Printer<'a> {

@@ -11,7 +11,7 @@ use robot_symbolic::Function as Call;
 use super::common::{
     self, ConstantItem, ConstantValue, Scalar, SetterArgument, comment_line, comment_lines,
 };
-use super::flat::{Array, Body, FlatOptions, Function, Spelling, Statement, Tree, infix};
+use super::flat::{Array, Body, FlatOptions, Function, Spelling, Statement, Taken, Tree, infix};
 use super::{Language, SourceFile, Target};
 use crate::counts::Counts;
 use crate::error::{Error, Errors};
@@ -23,6 +23,7 @@ pub const LANGUAGE: Language = Language {
     name: "Python",
     extension: "py",
     reserved: keywords::RESERVED,
+    modules: keywords::MODULES,
     limits: Limits { expression: 6, block: usize::MAX, function: usize::MAX, part: usize::MAX },
 };
 
@@ -57,7 +58,7 @@ impl Target for Python {
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     let taken = options.taken(TAKEN);
     let taken: Vec<&str> = taken.iter().map(String::as_str).collect();
-    Tree::new(module, &LANGUAGE, &taken, &[], &options.setters)
+    Tree::new(module, &LANGUAGE, Taken::of(&taken), &[], &options.setters)
 }
 
 struct Printer<'a> {

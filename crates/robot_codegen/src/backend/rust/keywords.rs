@@ -1,7 +1,7 @@
 //! Words that cannot be names in printed Rust.
 
-/// Words that cannot be identifiers or have a special meaning where names occur; then crates and
-/// types that a module with this name would hide from the code around it.
+/// Words that cannot be identifiers or have a special meaning where names occur; then values of the prelude, which a
+/// pattern would match, and crates and types that a module with this name would hide from the code around it.
 pub(super) const RESERVED: &[&str] = &[
     "Self",
     "abstract",
@@ -59,6 +59,10 @@ pub(super) const RESERVED: &[&str] = &[
     "macro_rules",
     "raw",
     "safe",
+    "Err",
+    "None",
+    "Ok",
+    "Some",
     "alloc",
     "bool",
     "char",
@@ -67,6 +71,9 @@ pub(super) const RESERVED: &[&str] = &[
     "f64",
     "std",
 ];
+
+/// Crates that come with the compiler, and the module of the runtime in a package.
+pub(super) const MODULES: &[&str] = &["proc_macro", "runtime", "test"];
 
 #[cfg(test)]
 mod tests {
@@ -77,7 +84,8 @@ mod tests {
     fn reserved_words_are_not_identifiers_and_adapted_ones_are() {
         let identifiers = RESERVED.iter().filter(|word| syn::parse_str::<syn::Ident>(word).is_ok());
         let identifiers: Vec<&str> = identifiers.copied().collect();
-        let expected = "gen union macro_rules raw safe alloc bool char core f32 f64 std";
+        let expected =
+            "gen union macro_rules raw safe Err None Ok Some alloc bool char core f32 f64 std";
         assert_eq!(identifiers.join(" "), expected);
         for word in RESERVED {
             let adapted = super::super::identifier(word);

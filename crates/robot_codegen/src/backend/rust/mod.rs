@@ -50,6 +50,7 @@ pub const LANGUAGE: Language = Language {
     name: "Rust",
     extension: "rs",
     reserved: keywords::RESERVED,
+    modules: keywords::MODULES,
     limits: Limits { expression: 6, block: 256, function: 8000, part: 1024 },
 };
 
@@ -61,7 +62,7 @@ impl Target for RustOptions {
     /// Prints one file, for any [`Wrapping`].
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         let text = generate(module, self)?.to_text();
-        let name = format!("{}.{}", identifier(&module.name), LANGUAGE.extension);
+        let name = format!("{}.{}", LANGUAGE.module_name(&module.name), LANGUAGE.extension);
         Ok(vec![SourceFile::text(name, text)])
     }
 }

@@ -1,6 +1,7 @@
 //! The names of a module's items, for code that calls them.
 
-use super::namer::{Namer, identifier};
+use super::LANGUAGE;
+use super::namer::Namer;
 use crate::backend::common::{ConstantItem, Setter};
 use crate::module::{Function, Module};
 
@@ -37,7 +38,7 @@ impl Names {
         let setters = setters.collect();
         let functions = module.functions.iter().map(|function| function.name.as_str());
         let names = Names {
-            module: identifier(&module.name),
+            module: LANGUAGE.module_name(&module.name),
             parameters: strings(&mut Namer::default(), parameters),
             setters,
             functions: strings(&mut methods, functions),

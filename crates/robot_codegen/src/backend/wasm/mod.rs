@@ -17,7 +17,7 @@ mod loader;
 mod module;
 
 use super::common::{Scalar, check_range};
-use super::flat::{FlatOptions, Function, Tree};
+use super::flat::{FlatOptions, Function, Taken, Tree};
 use super::javascript;
 use super::{Contents, Language, SourceFile, Target};
 use crate::error::{Error, Errors};
@@ -32,6 +32,7 @@ pub const LANGUAGE: Language = Language {
     extension: "wasm",
     // Its names are used in the ES module.
     reserved: javascript::LANGUAGE.reserved,
+    modules: javascript::LANGUAGE.modules,
     limits: Limits { expression: 32, block: usize::MAX, function: 3000, part: 800 },
 };
 
@@ -115,7 +116,7 @@ impl Wasm {
 /// The tree of a module as WebAssembly prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    Tree::new(module, &LANGUAGE, TAKEN, &[], &options.setters)
+    Tree::new(module, &LANGUAGE, Taken::of(TAKEN), &[], &options.setters)
 }
 
 /// For each function, the name of its form over columns of states; a function without inputs has none.

@@ -10,7 +10,7 @@ mod tests;
 use robot_symbolic::Function as Call;
 
 use super::common::{self, ConstantItem, ConstantValue, Scalar, check_range, comment_line};
-use super::flat::{FlatOptions, Function, Spelling, Tree};
+use super::flat::{FlatOptions, Function, Spelling, Taken, Tree};
 use super::{Language, SourceFile, Target};
 use crate::error::{Error, Errors};
 use crate::module::Module;
@@ -22,6 +22,7 @@ pub const LANGUAGE: Language = Language {
     name: "WGSL",
     extension: "wgsl",
     reserved: keywords::RESERVED,
+    modules: &[],
     limits: Limits { expression: 6, block: usize::MAX, function: 4000, part: 1000 },
 };
 
@@ -58,7 +59,7 @@ impl Target for Wgsl {
 /// The tree of a module as WGSL prints it.
 #[must_use]
 pub fn tree(module: &Module) -> Tree<'_> {
-    Tree::new(module, &LANGUAGE, TAKEN, &["kernel"], &[])
+    Tree::new(module, &LANGUAGE, Taken::of(TAKEN), &["kernel"], &[])
 }
 
 /// The name of a function in WGSL: `ur5_gravity`.
