@@ -325,6 +325,23 @@ fn joint_torques_are_those_of_the_matrices() {
 }
 
 #[test]
+fn the_title_of_the_velocity_terms_names_what_is_shown() {
+    const SYMBOLS: &str = "Christoffel symbols";
+    const MATRIX: &str = "Matrix of the Coriolis and centrifugal terms";
+    let both = format!("{MATRIX}, {SYMBOLS}");
+    for (name, title) in [("planar_2r", MATRIX), ("planar_3r", both.as_str())] {
+        let robot = robots().into_iter().find(|robot| robot.name == name).unwrap();
+        let options = EquationOptions { christoffel: true, ..in_form(Form::Grouped) };
+        let printed = equations(&robot, &options).unwrap();
+        let titles = |shown: &Equations| -> Vec<String> {
+            shown.groups.iter().map(|group| group.title.clone()).collect()
+        };
+        let arranged = printed.arranged(Room::Points(470.0));
+        assert_eq!([&titles(&printed)[2], &titles(&arranged)[2]], [SYMBOLS, title], "{name}");
+    }
+}
+
+#[test]
 fn the_velocity_matrix_by_christoffel_symbols_leaves_a_skew_symmetric_rest() {
     for robot in robots().iter().filter(|robot| (2..6).contains(&robot.degrees_of_freedom())) {
         let options = EquationOptions { christoffel: true, ..in_form(Form::Grouped) };

@@ -207,9 +207,8 @@ fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> 
 
 fn kinematics(robot: &Robot, symbols: &Symbols, notes: [Option<Element>; 2]) -> Section {
     let caption = holding("figcaption", scheme::CAPTION);
-    let scheme = scheme::scheme(robot);
-    let width = scheme.get("width").and_then(|width| width.parse().ok());
-    let is_beside = width.is_some_and(|width| tables::fits_beside(robot, width));
+    let scheme::Picture { element: scheme, width } = scheme::scheme(robot);
+    let is_beside = tables::fits_beside(robot, width);
     let figure = element("figure").with(scheme).with(caption);
     let tables = std::iter::once(tables::kinematics(robot))
         .chain(tables::dh(robot, symbols))

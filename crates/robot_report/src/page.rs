@@ -10,10 +10,33 @@ use robot_model::robot::Robot;
 use crate::live::{self, Live};
 use crate::reload::Stamp;
 
-const STYLE: &str = include_str!("style.css");
+/// The style sheet of pages.
+pub(crate) const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = concat!(include_str!("script.js"), include_str!("search.js"));
 /// The script that reloads the page.
 const RELOAD: &str = include_str!("reload.js");
+
+/// The variables of the style sheet with their values in light colors.
+pub(crate) fn declared() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let light = STYLE.split("@media").next().unwrap_or_default();
+    let declared = light.split([';', '{', '/']).filter_map(|one| one.trim().strip_prefix("--"));
+    declared.filter_map(|one| one.split_once(':')).map(|(name, value)| (name, value.trim()))
+}
+
+/// The pixels of a rem.
+const REM: f64 = 16.0;
+
+/// A length of the style sheet in pixels: a variable in rem.
+fn length(name: &str) -> f64 {
+    let value =
+        declared().find(|(own, _)| *own == name).and_then(|(_, value)| value.strip_suffix("rem"));
+    value.and_then(|number| number.parse().ok()).map_or(0.0, |number: f64| REM * number)
+}
+
+/// The width that a wide screen has for what stands side by side, in pixels, without the gap between two.
+pub(crate) fn side_by_side() -> f64 {
+    length("page") - 2.0 * length("edge") - length("gap")
+}
 
 /// A section of the page.
 #[derive(Clone)]
@@ -175,6 +198,17 @@ mod tests {
     fn style_and_script_have_no_signs_of_markup() {
         for own in [STYLE, SCRIPT, RELOAD, live::STYLE, live::SCRIPT] {
             assert!(!own.contains(['<', '&']) && own.len() > 100);
+        }
+    }
+
+    /// Whether tables stand beside the scheme depends on these lengths.
+    #[test]
+    fn lengths_are_those_of_the_style_sheet() {
+        assert_eq!(["page", "edge", "gap"].map(length), [1216.0, 24.0, 32.0]);
+        assert_eq!(side_by_side(), 1136.0);
+        for used in ["max-width: var(--page)", "padding: 1rem var(--edge) 3rem", "gap: var(--gap)"]
+        {
+            assert!(STYLE.contains(used), "{used}");
         }
     }
 }

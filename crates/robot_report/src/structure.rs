@@ -73,7 +73,8 @@ impl Structure {
         [
             grid("Mass matrix M(q): the coordinates that each entry depends on", &self.mass),
             grid(
-                "Coriolis matrix C(q, q̇): the coordinates that each entry depends on, in addition to q̇",
+                "Matrix of the Coriolis and centrifugal terms C(q, q̇): the coordinates that each entry depends on, in \
+                 addition to q̇",
                 &self.coriolis,
             ),
         ]

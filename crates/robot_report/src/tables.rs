@@ -7,6 +7,7 @@ use robot_model::robot::{Body, DhConvention, Inertia, Robot};
 use robot_symbolic::{Formula, Rational};
 
 use crate::formula::Symbols;
+use crate::page::side_by_side;
 use crate::parts;
 use crate::table::Table;
 use crate::text;
@@ -28,7 +29,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
             text::pose(robot, &link.placement).into(),
             limits
                 .map_or_else(String::new, |[low, high]| {
-                    format!("{} … {}", text::number(low), text::number(high))
+                    format!("{}\u{a0}…\u{a0}{}", text::number(low), text::number(high))
                 })
                 .into(),
         ];
@@ -37,11 +38,9 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
     table.build()
 }
 
-/// The largest total of these widths, in pixels: about that of a page's text on a wide screen.
-const PAGE: f64 = 1190.0;
-/// The width of the other columns of the table of links and joints.
-const OTHERS: f64 = 430.0;
-/// The width of a character of a name.
+/// The least width of the columns of the table of links and joints that have no names, in pixels.
+const OTHERS: f64 = 376.0;
+/// The width of a character of a name, in pixels.
 const CHARACTER: f64 = 8.0;
 
 /// Whether the table of links and joints fits beside a scheme of this width in pixels.
@@ -52,7 +51,7 @@ pub(crate) fn fits_beside(robot: &Robot, width: f64) -> bool {
     let names = longest(|row| row.link.name.chars().count())
         + longest(|row| row.parent.chars().count())
         + longest(|row| row.link.joint.name.chars().count());
-    width + OTHERS + CHARACTER * names as f64 <= PAGE
+    width + OTHERS + CHARACTER * names as f64 <= side_by_side()
 }
 
 /// The tables of Denavit–Hartenberg parameters, one for each convention that the robot file uses.

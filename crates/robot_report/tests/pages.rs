@@ -338,6 +338,17 @@ fn robots_move_in_pages_that_stay_short() {
         let sliders = live.descendants().filter(|node| node.attribute("data-state").is_some());
         let coordinates = described["coordinates"].as_array().unwrap().len();
         assert_eq!(sliders.count(), 3 * coordinates, "{robot}");
+        // Bars of one unit have one scale; the script takes the unit of a row from the data.
+        let units: Vec<_> = described["coordinates"].as_array().unwrap().iter().collect();
+        let rows = live.descendants().filter(|node| node.attribute("class") == Some("torques"));
+        let rows = rows.flat_map(|table| table.descendants());
+        let rows = rows.filter(|node| node.attribute("scope") == Some("row"));
+        for (row, coordinate) in rows.zip(&units) {
+            let unit = coordinate["unit"].as_str().unwrap();
+            assert!(row.text().unwrap().ends_with(&format!(", {unit}")), "{robot}: {unit}");
+        }
+        let scales = live.descendants().filter(|node| node.attribute("class") == Some("scale"));
+        assert_eq!(scales.count(), 1, "{robot}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! Matrices and columns that replace the equations of a group if they fit.
 
+use super::grouped::arranged_title;
 use super::{Equation, Equations, Group, Relation};
 use crate::breaking::broken;
 use crate::math::Math;
@@ -90,6 +91,7 @@ impl Group {
             group.equations = vec![vector.clone()];
         } else if let Some(arrays) = &self.arrays {
             group.equations = self.with_arrays(arrays, room);
+            group.title = arranged_title(self, &group.equations);
         }
         if matches!(room, Room::Points(_)) {
             group.equations = self.with_relations(group.equations);

@@ -9,7 +9,7 @@ use super::coefficients::{
 use super::letters::candidates;
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
-use super::{Group, Writer, aliases};
+use super::{Equation, Group, Writer, aliases};
 use crate::error::Error;
 
 /// The largest number of coordinates. The number of coefficients grows with its third power, and each becomes longer
@@ -47,6 +47,26 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         terms(&sections).filter(|(_, section)| !known.is_empty(section)).collect();
     attach(writer, &mut groups, &terms, &known)?;
     Ok(groups)
+}
+
+/// The titles of the group of the Christoffel symbols. It has the matrix of the Coriolis and centrifugal terms, the
+/// symbols in its entries, or both.
+pub(crate) mod titles {
+    pub(crate) const SYMBOLS: &str = "Christoffel symbols";
+    pub(crate) const MATRIX: &str = "Matrix of the Coriolis and centrifugal terms";
+    pub(crate) const BOTH: &str =
+        "Matrix of the Coriolis and centrifugal terms, Christoffel symbols";
+}
+
+/// The title of a group with this title whose equations are shown if its arrays are in `equations`.
+pub(super) fn arranged_title(group: &Group, equations: &[Equation]) -> String {
+    let is_symbol = |one: &Equation| group.equations.iter().any(|own| own.name == one.name);
+    let has_symbols = equations.iter().any(is_symbol);
+    match group.title == titles::SYMBOLS && !equations.iter().all(is_symbol) {
+        false => group.title.clone(),
+        true if has_symbols => titles::BOTH.to_owned(),
+        true => titles::MATRIX.to_owned(),
+    }
 }
 
 /// The sections that are terms of the joint torques. Among those of friction, this is only the last one, which has the
@@ -109,7 +129,7 @@ fn velocities<'g>(
 ) -> Section<'g> {
     let christoffel = writer.options.has_christoffel();
     let (letters, title) = match christoffel {
-        true => (&candidates::CHRISTOFFEL, "Christoffel symbols"),
+        true => (&candidates::CHRISTOFFEL, titles::SYMBOLS),
         false => (&candidates::VELOCITY, "Coriolis and centrifugal terms"),
     };
     let letter = writer.letter(writer.options.letters.velocity.as_deref(), letters);

@@ -43,6 +43,7 @@ use crate::document::NumberedEquation;
 use crate::error::Error;
 use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_text};
 use crate::math::Math;
+pub(crate) use grouped::titles;
 pub use letters::{InvalidLetters, Letters};
 pub(crate) use numbers::with_values;
 pub use options::{EquationOptions, Form};

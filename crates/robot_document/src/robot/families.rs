@@ -4,7 +4,7 @@
 use robot_dynamics::quantity::Kind;
 
 use crate::document::{Cell, Inline};
-use crate::forms::{Equation, Equations, Form, Group, Letters, Relation, paper};
+use crate::forms::{Equation, Equations, Form, Group, Letters, Relation, paper, titles};
 use crate::math::{Math, Script};
 
 /// Symbols of one kind.
@@ -133,7 +133,7 @@ fn of_array(group: &Group, part: &Equations, name: &str, letters: &Letters) -> O
     let text = match group.title.as_str() {
         "Mass matrix" => "mass matrix",
         "Coriolis and centrifugal terms" => "Coriolis and centrifugal terms",
-        "Christoffel symbols" => "matrix of the Coriolis and centrifugal terms",
+        titles::MATRIX | titles::BOTH => "matrix of the Coriolis and centrifugal terms",
         "Gravity" => "gravity terms",
         "Wrenches of the tips" => "contributions of the wrenches of the tips",
         "Friction" => "friction of the joints",
@@ -165,10 +165,10 @@ fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Op
         }
         ("Coriolis and centrifugal terms", _) => "Coriolis and centrifugal term of joint i",
         ("Mass matrix", _) => "entry of the mass matrix",
-        ("Christoffel symbols", _) if numbers == 2 => {
+        (titles::MATRIX | titles::BOTH, _) if numbers == 2 => {
             "entry of the matrix of the Coriolis and centrifugal terms"
         }
-        ("Christoffel symbols", _) => "Christoffel symbol of the first kind",
+        (titles::SYMBOLS | titles::BOTH, _) => "Christoffel symbol of the first kind",
         ("Gravity", _) => "gravity term of joint i",
         ("Wrenches of the tips", _) => "contribution of the wrenches of the tips to joint i",
         ("Friction", _) => "friction of joint i",

@@ -18,7 +18,8 @@ pub(super) fn of(programs: &Programs) -> String {
     let coordinates = robot.coordinates.iter().enumerate().map(|(index, coordinate)| {
         let [low, high] = range(coordinate);
         let symbol = text::symbol(&JointVariable::Position.symbol(index));
-        json!({ "symbol": symbol, "low": low, "high": high })
+        let unit = text::unit(JointVariable::Torque.unit(coordinate.kind));
+        json!({ "symbol": symbol, "low": low, "high": high, "unit": unit })
     });
     let [up, front] = upright(robot).map(list);
     let frames = frames(robot).into_iter().map(|frame| of_frame(robot, frame));

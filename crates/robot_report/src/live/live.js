@@ -72,7 +72,9 @@
   // Joint torques by cause.
   const causes = find("table.torques tbody tr").map((row) => [...row.querySelectorAll("[data-cause]")]);
   const bars = find("svg.bars").map((svg) => [...svg.querySelectorAll("path")]);
-  const reach = bars.map(() => 1e-9);
+  // Bars of the same unit have the same scale, so that they can be compared.
+  const reach = Object.fromEntries(robot.coordinates.map(({ unit }) => [unit, 1e-9]));
+  const stated = section.querySelector(".scale");
   const entries = find("table.mass td");
   const contributions = (values, i) => {
     let inertia = 0;
@@ -85,9 +87,15 @@
     const rows = causes.map((_, i) => contributions(values, i));
     show(causes.flat(), rows.flat(), aligned(rows.flat()));
     rows.forEach((row, i) => {
-      reach[i] = Math.max(reach[i], ...row.map(Math.abs));
+      const { unit } = robot.coordinates[i];
+      reach[unit] = Math.max(reach[unit], ...row.map(Math.abs));
+    });
+    const ends = Object.entries(reach).filter(([, most]) => most > 1e-9);
+    const shown = ends.map(([unit, most]) => `\u00b1${Number(most.toPrecision(3))} ${unit}`).join(", ");
+    if (stated.textContent !== shown) stated.textContent = shown;
+    rows.forEach((row, i) => {
       row.forEach((value, k) => {
-        const x = (100 * value / reach[i]).toFixed(1);
+        const x = (100 * value / reach[robot.coordinates[i].unit]).toFixed(1);
         const y = 3 + 6 * (k - 1);
         bars[i][k].setAttribute("d", k === 0 ? `M${x} 0V${6 * row.length - 6}` : `M0 ${y}H${x}`);
       });

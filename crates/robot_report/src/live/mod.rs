@@ -12,7 +12,7 @@ use robot_build::{Effects, FunctionKind, Functions, Options, Programs, programs}
 use robot_codegen::backend::flat::FlatOptions;
 use robot_codegen::backend::wasm::Wasm;
 use robot_codegen::{Scalar, Trigonometry};
-use robot_document::markup::{Element, Node, element, holding};
+use robot_document::markup::{Element, element, holding};
 use robot_model::robot::Robot;
 
 use crate::Input;
@@ -102,17 +102,18 @@ fn section(programs: &Programs, module: &[u8]) -> Element {
         )
         .with(holding("desc", CAPTION).attribute("id", "live-scheme-description"));
     let figure = element("figure").with(scheme).with(holding("figcaption", CAPTION));
-    let mut body: Vec<Node> = vec![
-        holding("h2", "Live").attribute("id", "live-heading").into(),
-        holding("p", WORDS).class("note").into(),
-        figure.into(),
-        button("Swing").attribute("aria-pressed", "false").into(),
-        button("Reset").into(),
-        controls::states(robot).into(),
-    ];
-    body.extend(controls::payload(robot).map(Node::from));
-    body.push(results::torques(robot).into());
-    body.push(results::mass_matrix(robot).into());
+    // On wide screens, the picture stands beside the sliders and the results.
+    let seen = element("div")
+        .class("seen")
+        .with(figure)
+        .with(button("Swing").attribute("aria-pressed", "false"))
+        .with(button("Reset"));
+    let moved = element("div")
+        .class("moved")
+        .with(controls::states(robot))
+        .with_all(controls::payload(robot))
+        .with(results::torques(robot))
+        .with(results::mass_matrix(robot));
     element("section")
         .attribute("id", "live")
         .attribute("aria-labelledby", "live-heading")
@@ -120,5 +121,7 @@ fn section(programs: &Programs, module: &[u8]) -> Element {
         .attribute("hidden", "hidden")
         .attribute("data-robot", data::of(programs))
         .attribute("data-module", BASE64_STANDARD.encode(module))
-        .with_all(body)
+        .with(holding("h2", "Live").attribute("id", "live-heading"))
+        .with(holding("p", WORDS).class("note"))
+        .with(element("div").class("board").with(seen).with(moved))
 }

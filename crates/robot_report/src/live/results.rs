@@ -26,7 +26,7 @@ pub(super) fn torques(robot: &Robot) -> Element {
     });
     let headings = element("tr")
         .with(column("Coordinate"))
-        .with(column("parts"))
+        .with(column("parts").with(element("small").class("scale")))
         .with(column("τ"))
         .with_all(colored);
     let rows = robot.coordinates.iter().enumerate().map(|(index, coordinate)| {
@@ -41,7 +41,8 @@ pub(super) fn torques(robot: &Robot) -> Element {
             .with_all(cells)
     });
     let caption = "Joint torques τ and their contributions: inertia M q̈, Coriolis and centrifugal terms C q̇, gravity g, and \
-        friction if there is any. The length of a bar is relative to the largest value so far; the vertical line is τ.";
+        friction if there is any. All bars of the same unit have one scale, which ends at the largest value so far; the \
+        vertical line is τ.";
     let table = element("table")
         .class("torques")
         .with(holding("caption", holding("span", caption)))

@@ -2,11 +2,12 @@
 
 use nalgebra::Vector2;
 use robot_document::figure::Figure;
-use robot_document::markup::{Element, element, holding};
+use robot_document::markup::{element, holding};
 use robot_document::robot::words;
 use robot_document::{SymbolTable, Trigonometry};
 use robot_model::robot::{JointKind, Robot};
 
+use super::Picture;
 use super::labels::{Rectangle, Room, distance};
 use super::layout::{BASE, Layout, Place, Segment};
 use super::shape::{Group, Shape, arrow, group, line};
@@ -44,13 +45,13 @@ impl<'r> Drawing<'r> {
     }
 
     /// Returns the drawing as SVG.
-    pub(crate) fn build(self) -> Element {
+    pub(crate) fn build(self) -> Picture {
         let (title, description) =
             (format!("Kinematic scheme of {}", self.robot.name), self.description());
         let (shapes, bounds) = self.shapes();
         let (low, size) = (bounds.low, bounds.high - bounds.low);
         let [x, y, width, height] = [low.x, low.y, size.x, size.y].map(coordinate);
-        element("svg")
+        let element = element("svg")
             .attribute("xmlns", "http://www.w3.org/2000/svg")
             .attribute("viewBox", format!("{x} {y} {width} {height}"))
             .attribute("width", width)
@@ -59,7 +60,8 @@ impl<'r> Drawing<'r> {
             .attribute("aria-labelledby", "scheme-title scheme-description")
             .with(holding("title", title).attribute("id", "scheme-title"))
             .with(holding("desc", description).attribute("id", "scheme-description"))
-            .with_all(shapes.iter().map(Shape::svg))
+            .with_all(shapes.iter().map(Shape::svg));
+        Picture { element, width: size.x }
     }
 
     /// Returns the drawing as a figure for documents.

@@ -52,15 +52,30 @@ pub(crate) struct Segment {
     pub(crate) length: Option<Formula>,
 }
 
+/// The drawn lengths of offsets.
+#[derive(Clone, Copy)]
+struct Scale {
+    /// The drawn length of 1 m.
+    factor: f64,
+    /// The smallest drawn length.
+    shortest: f64,
+    /// The drawn length below which an offset is omitted.
+    negligible: f64,
+}
+
 /// The origin of the base.
 pub(crate) const BASE: Vector3<f64> = Vector3::new(0.0, 0.0, 0.0);
 
 /// The largest number of frames that are all drawn; of more frames, only tips are.
 const MAX_FRAMES: usize = 4;
 
-/// Lays out the robot for a view.
-pub(crate) fn layout(robot: &Robot, view: &View) -> Layout {
-    let scale = LONGEST / longest(robot).max(f64::MIN_POSITIVE);
+/// Lays out the robot for a view, with offsets that are enlarged by a factor.
+pub(crate) fn layout(robot: &Robot, view: &View, enlarged: f64) -> Layout {
+    let scale = Scale {
+        factor: enlarged * LONGEST / longest(robot).max(f64::MIN_POSITIVE),
+        shortest: enlarged * SHORTEST,
+        negligible: enlarged * NEGLIGIBLE * LONGEST,
+    };
     let mut layout = Layout { links: vec![], frames: vec![], bases: vec![] };
     for link in &robot.links {
         let axis = link.joint.axis.each_ref().map(|part| value(robot, part));
@@ -113,7 +128,7 @@ impl Layout {
         &self,
         robot: &Robot,
         view: &View,
-        scale: f64,
+        scale: Scale,
         carrier: Option<usize>,
         placement: &Placement,
         axis: Vector3<f64>,
@@ -185,7 +200,7 @@ impl Walk {
     fn translate(
         &mut self,
         robot: &Robot,
-        scale: f64,
+        scale: Scale,
         rotation: &Matrix3<f64>,
         outward: &Vector3<f64>,
         by: &[Formula; 3],
@@ -197,9 +212,9 @@ impl Walk {
             .collect();
         parts.sort_by(|a, b| b.0.dot(outward).abs().total_cmp(&a.0.dot(outward).abs()));
         for (direction, part) in parts {
-            let drawn = value(robot, part) * scale;
-            if drawn.abs() >= NEGLIGIBLE * LONGEST {
-                let length = drawn.abs().max(SHORTEST).copysign(drawn);
+            let drawn = value(robot, part) * scale.factor;
+            if drawn.abs() >= scale.negligible {
+                let length = drawn.abs().max(scale.shortest).copysign(drawn);
                 self.step(direction * length, Some(part.clone()));
             }
         }
@@ -225,6 +240,15 @@ fn turn(axis: Axis, angle: f64) -> Matrix3<f64> {
         Axis::Z => Vector3::z_axis(),
     };
     Rotation3::from_axis_angle(&axis, angle).into_inner()
+}
+
+/// The height on the page between the lowest and the highest of the base, the joints and the frames.
+pub(crate) fn tallness(layout: &Layout, view: &View) -> f64 {
+    let places = layout.links.iter().chain(layout.frames.iter().map(|(_, place)| place));
+    let heights = places.map(|place| view.point(&place.position).y);
+    let [low, high] = heights
+        .fold([view.point(&BASE).y; 2], |[low, high], height| [low.min(height), high.max(height)]);
+    high - low
 }
 
 /// Rates the faults of a layout in its view: joints that cover each other or links, and pieces that are seen end-on.

@@ -27,11 +27,19 @@ pub use picture::scheme_picture;
 pub(crate) use layout::drawn_frames;
 pub(crate) use view::upright;
 
-use layout::{Layout, confusion, layout};
+use layout::{Layout, confusion, layout, tallness};
 use view::View;
 
+/// The scheme as SVG.
+pub(crate) struct Picture {
+    /// The SVG element.
+    pub(crate) element: Element,
+    /// The width in pixels.
+    pub(crate) width: f64,
+}
+
 /// Draws the scheme as SVG.
-pub(crate) fn scheme(robot: &Robot) -> Element {
+pub(crate) fn scheme(robot: &Robot) -> Picture {
     let (layout, view) = best(robot);
     draw::Drawing::of(robot, &layout, view).build()
 }
@@ -49,9 +57,25 @@ pub fn figure(robot: &Robot) -> Figure {
     draw::Drawing::of(robot, &layout, view).figure(CAPTION)
 }
 
+/// The factor by which the offsets of a crowded robot are enlarged.
+const ENLARGED: f64 = 1.25;
+/// The least decrease of the faults for which they are enlarged, and the greatest height of joints and frames above
+/// each other, so that the scheme stays within a screen.
+const GAIN: f64 = 300.0;
+const TALLEST: f64 = 480.0;
+
 /// The layout and the view with the fewest faults.
 fn best(robot: &Robot) -> (Layout, View) {
-    let [first, others @ ..] = view::views(robot).map(|view| (layout(robot, &view), view));
+    let (usual, faults) = least(robot, 1.0);
+    let (enlarged, rest) = least(robot, ENLARGED);
+    let is_better = rest + GAIN < faults && tallness(&enlarged.0, &enlarged.1) <= TALLEST;
+    if is_better { enlarged } else { usual }
+}
+
+/// The layout with offsets enlarged by a factor and the view with the fewest faults, and these.
+fn least(robot: &Robot, enlarged: f64) -> ((Layout, View), f64) {
+    let [first, others @ ..] =
+        view::views(robot).map(|view| (layout(robot, &view, enlarged), view));
     let blame = |(layout, view): &(Layout, View)| confusion(layout, view);
     let mut best = (blame(&first), first);
     for other in others {
@@ -60,7 +84,7 @@ fn best(robot: &Robot) -> (Layout, View) {
             best = (found, other);
         }
     }
-    best.1
+    (best.1, best.0)
 }
 
 #[cfg(test)]
@@ -79,6 +103,17 @@ mod tests {
             robot_model::description::read_toml("robot.toml", &text).unwrap().robot
         };
         paths.iter().map(read).collect()
+    }
+
+    /// Symbols and letters keep their sizes, so that a crowded robot is drawn larger, but not one that is tall.
+    #[test]
+    fn crowded_robots_are_enlarged() {
+        for robot in robots() {
+            let (drawn, view) = best(&robot);
+            let usual = layout(&robot, &view, 1.0);
+            let ratio = tallness(&drawn, &view) / tallness(&usual, &view);
+            assert_eq!(ratio > 1.1, robot.name == "ur5", "{}: {ratio}", robot.name);
+        }
     }
 
     #[test]

@@ -5,14 +5,13 @@ use robot_document::markup::holding;
 use robot_model::robot::Robot;
 
 use super::scheme;
-
-/// The style sheet of pages.
-const STYLE: &str = include_str!("../style.css");
+use crate::page::{STYLE, declared};
 
 /// The kinematic scheme of a robot as an SVG file in light colors, which needs no other file.
 #[must_use]
 pub fn scheme_picture(robot: &Robot) -> String {
     let picture = scheme(robot)
+        .element
         .with(holding("style", style()))
         .attribute("font-family", "system-ui, \"Segoe UI\", \"Helvetica Neue\", Arial, sans-serif");
     format!("<!-- {MARKER} -->\n{picture}\n")
@@ -26,11 +25,8 @@ fn style() -> String {
         .filter(|line| ["svg", ".axis-", ".hue-"].iter().any(|start| line.starts_with(start)));
     let rules = rules.filter(|line| !line.contains(".plot") && !line.contains(".lit"));
     let rules: Vec<String> = rules.map(|line| line.replace("font-family: inherit; ", "")).collect();
-    let light = STYLE.split("@media").next().unwrap_or_default();
-    let declared =
-        light.split(';').filter_map(|one| one.trim().strip_prefix("--")?.split_once(':'));
     let text = rules.join("\n");
-    declared.fold(text, |text, (name, color)| text.replace(&format!("var(--{name})"), color.trim()))
+    declared().fold(text, |text, (name, value)| text.replace(&format!("var(--{name})"), value))
 }
 
 #[cfg(test)]

@@ -76,15 +76,14 @@ impl Drawing<'_> {
         for (index, place) in &self.layout.frames {
             if let Some(frame) = self.robot.frames.get(*index) {
                 let point = self.view.point(&place.position);
-                let name = Inline::text(text::shortened(&frame.name, 22));
-                labels.push(label(&frame.name, name, point, 12.0, "name", None));
+                labels.push(name(&frame.name, point, 12.0, None));
             }
         }
         let bases = self.layout.bases.iter().filter_map(|index| self.robot.frames.get(*index));
         let bases: Vec<&str> = bases.map(|frame| frame.name.as_str()).collect();
         let base = if bases.is_empty() { "base".to_owned() } else { bases.join(", ") };
         let point = self.view.point(&BASE) + Point::new(0.0, 8.0);
-        labels.push(label(&base, Inline::text(&base), point, 10.0, "name", None));
+        labels.push(name(&base, point, 10.0, None));
         for place in self.places() {
             for (axis, name) in place.rotation.column_iter().zip(["x", "y", "z"]) {
                 let ends = [0.0, symbols::TRIAD]
@@ -104,13 +103,12 @@ impl Drawing<'_> {
             return vec![];
         };
         let [_, end] = self.arrow(place);
-        let name = JointVariable::Position.symbol(link.joint.coordinate);
-        let inline = Inline::Math(self.table.look(&name));
-        let coordinate = label(&text::symbol(&name), inline, end, 4.0, "coordinate", Some(index));
+        let symbol = JointVariable::Position.symbol(link.joint.coordinate);
+        let inline = Inline::Math(self.table.look(&symbol));
+        let coordinate = label(text::symbol(&symbol), inline, end, 4.0, "coordinate", Some(index));
         let point = self.view.point(&place.position);
-        let name = Inline::text(text::shortened(&link.name, 22));
         let gap = symbols::HALF + 2.0;
-        vec![coordinate, label(&link.name, name, point, gap, "name", Some(index))]
+        vec![coordinate, name(&link.name, point, gap, Some(index))]
     }
 
     /// A dimension line beside a piece of a link, with the length. It reserves the space of its lines, and leaves room for
@@ -224,26 +222,34 @@ fn beside([from, to]: &[Point; 2], size: Point) -> Vec<Candidate> {
         .collect()
 }
 
-/// A name near a point, with a line to it if it is far away.
+/// A name near a point. If it is too long, it is shortened and has the whole name as its title.
+fn name(words: &str, point: Point, gap: f64, link: Option<usize>) -> Label {
+    let shown = text::shortened(words, 22);
+    let inline = Inline::text(&shown);
+    let is_whole = shown == words;
+    let label = label(shown, inline, point, gap, "name", link);
+    match is_whole {
+        true => label,
+        false => Label { group: label.group.with(Shape::Title(words.to_owned())), ..label },
+    }
+}
+
+/// A text near a point, with a line to it if it is far away.
 fn label(
-    words: &str,
+    words: String,
     inline: Inline,
     point: Point,
     gap: f64,
     class: &str,
     link: Option<usize>,
 ) -> Label {
-    let shown = text::shortened(words, 22);
     let hue = link.map(hue).unwrap_or_default();
     let mut group = group().class(format!("{class} {hue}").trim_end());
     if let Some(link) = link {
         group = group.attribute("data-is", parts::link(link));
     }
-    if shown != words {
-        group = group.with(Shape::Title(words.to_owned()));
-    }
-    let places = Room::around(point, size_of(&shown, LETTERS), gap, ANYWHERE);
-    Label { group, words: shown, inline, size: LETTERS, places }
+    let places = Room::around(point, size_of(&words, LETTERS), gap, ANYWHERE);
+    Label { group, words, inline, size: LETTERS, places }
 }
 
 /// The letter of an axis near the end of the axis, preferably beyond it.
