@@ -172,7 +172,7 @@ fn part(part: &Part, number: usize) -> String {
         cells.join(", ")
     };
     let mut typst = format!(
-        "#block(breakable: {is_breakable}, above: 1.2em, below: 1.2em)[
+        "#block(breakable: {is_breakable})[
 {caption}
 #v(2pt)
 #set text(size: {size:.1}pt)
