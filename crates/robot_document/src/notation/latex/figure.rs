@@ -4,8 +4,8 @@ use super::document::line;
 use super::text;
 use crate::figure::{Color, Figure, Label, Path, Point, Segment, Shape, coordinate, hundredths};
 
-/// A figure with its caption; `scale` is the length of its unit in points. A figure that floats stands at the top of the
-/// next column that has room for it.
+/// A figure with its caption; `scale` is the length of its unit in points. A figure that floats stands at the top of
+/// the next column that has room for it.
 pub(super) fn figure(figure: &Figure, scale: f64, floats: bool) -> String {
     let colors = figure.colors();
     let [begin, end] = match floats {
