@@ -94,8 +94,8 @@ fn reason(error: &PolynomialError) -> Refusal {
     }
 }
 
-/// Powers of atoms in the order in which equations list terms: ranks of atoms, atoms and exponents, with higher powers of
-/// the first atom first. The last entry has no atom, so that a product comes before its own factors.
+/// Powers of atoms in the order in which equations list terms: the ranks of atoms, the atoms and their exponents, with
+/// higher powers of the first atom first. The last entry has no atom, so that a product comes before its own factors.
 type Powers = Vec<(u8, Option<Id>, Reverse<i32>)>;
 
 fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
