@@ -172,7 +172,10 @@ fn part(part: &Part, number: usize) -> String {
         cells.join(", ")
     };
     let mut typst = format!(
-        "#block(breakable: {is_breakable})[
+        "#[
+#set block(spacing: 1.2em)
+#block(breakable: {is_breakable})[
+#set block(spacing: 0.8em)
 {caption}
 #v(2pt)
 #set text(size: {size:.1}pt)
@@ -190,7 +193,7 @@ fn part(part: &Part, number: usize) -> String {
     for row in &part.table.rows {
         typst.push_str(&format!("  {},\n", cells(row)));
     }
-    typst.push_str("  table.hline(),\n)]\n");
+    typst.push_str("  table.hline(),\n)]\n]\n");
     typst
 }
 
