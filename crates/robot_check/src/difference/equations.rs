@@ -150,3 +150,19 @@ fn coefficient(number: &Number) -> String {
         None => number.to_f64().to_string(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
+
+    use super::*;
+
+    #[test]
+    fn terms_are_in_the_order_of_the_equations() {
+        let graph = Graph::new();
+        let sum = graph.parse("1 + sin(q1)*m1 + m1 + m1*l1 + m1^2").unwrap();
+        let found = terms([Some(sum), None]).unwrap();
+        let powers: Vec<&str> = found.iter().map(|term| term.powers.as_str()).collect();
+        assert_eq!(powers, ["m1^2", "m1*l1", "m1*sin(q1)", "m1", "1"]);
+    }
+}

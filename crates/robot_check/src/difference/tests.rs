@@ -42,22 +42,6 @@ fn a_value_changes_torques_and_no_term() {
     assert!(torques.joints.iter().all(|one| one.state.q.len() == 2));
 }
 
-/// Higher powers of the first atom first, symbols before sines and cosines, and a product before its own factors.
-#[test]
-fn terms_are_in_the_order_of_the_equations() {
-    let robot = arm("1");
-    let zero = || robot_symbolic::Formula::number(&robot_symbolic::Rational::ZERO);
-    let still = Robot { gravity: [zero(), zero(), zero()], ..robot.clone() };
-    let found = compared(&robot, &still);
-    let first = found.equations.first().unwrap();
-    let powers: Vec<&str> =
-        first.terms.as_ref().unwrap().iter().map(|term| term.powers.as_str()).collect();
-    let graph = robot_symbolic::Graph::new();
-    let sum = graph.parse(&powers.join(" + ")).unwrap();
-    let listed = robot_symbolic::Polynomial::of(sum, &Default::default()).unwrap();
-    assert_eq!(listed.to_text().unwrap().replace(" - ", " + "), powers.join(" + "));
-}
-
 #[test]
 fn gravity_that_goes_takes_its_terms_along() {
     let robot = arm("1");
