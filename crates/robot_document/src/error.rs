@@ -93,18 +93,18 @@ pub enum Error {
         /// Its printed form.
         latex: String,
     },
-    /// A part of an equation that cannot be broken is wider than a line.
+    /// A part of an equation that cannot be broken is wider than the space beside the left side and the number.
     #[error(
-        "part of the equation of `{name}` is {needed} cm wide and does not fit a line of \
-         {available} cm; choose another form or wider lines, or set shorter names with `latex` \
-         in the robot file"
+        "a part of the equation of `{name}` that cannot be broken is {needed} cm wide, but beside \
+         the left side and the number of the equation, a line has only {available} cm; choose \
+         another form or wider lines, or set shorter names with `latex` in the robot file"
     )]
     Narrow {
         /// The left side of the equation, as text.
         name: String,
         /// The width of the part.
         needed: Centimeters,
-        /// The available width.
+        /// The width of a line without the left side, the indent and the number.
         available: Centimeters,
     },
     /// Parts of an expression are nested too deeply.

@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use robot_document::document::{Block, Document, Inline, NumberedEquation, Table};
+use robot_document::figure::Figure;
 use robot_document::forms::Equation;
 use robot_document::latex::{Layout, Page, read};
 use robot_document::{EquationOptions, Form, latex, robot, typst};
@@ -38,6 +39,59 @@ fn wide_tables_stand_at_the_top_of_the_first_page() {
     assert!(place(&typst, "*Table 1.*") < place(&typst, "[The robot]"));
     let one = latex::document(&document, Page::with_columns(1)).unwrap();
     assert!(place(&one, "\\section{The robot}") < place(&one, "Table 1."));
+}
+
+/// The heading, the paragraphs and the table of a check value.
+#[test]
+fn text_between_a_heading_and_a_table_stays_on_the_page_of_the_table() {
+    let text = |text: &str| Block::Paragraph(vec![Inline::text(text)]);
+    let cells = || vec![vec![Inline::text("cell")]];
+    let table =
+        Table { caption: "Values.".to_owned(), head: cells(), rows: vec![cells()], keys: 1 };
+    let heading = |title: &str| Block::Heading(1, title.to_owned());
+    let blocks = vec![
+        heading("Check"),
+        text("first"),
+        text("second"),
+        Block::Table(table),
+        text("third"),
+        heading("Other"),
+        text("fourth"),
+    ];
+    let document = Document { title: String::new(), blocks };
+    let page = Page::with_columns(1);
+    let latex = latex::document(&document, page).unwrap();
+    let typst = typst::document(&document, page).unwrap();
+    for (word, is_kept) in [("first", true), ("second", true), ("third", false), ("fourth", false)]
+    {
+        assert_eq!(latex.contains(&format!("{word}\\par}}\\nobreak")), is_kept, "{latex}");
+        let block = format!("#block(sticky: true, breakable: false)[{word}]");
+        assert_eq!(typst.contains(&block), is_kept, "{typst}");
+    }
+}
+
+#[test]
+fn a_figure_that_is_too_high_below_wide_tables_floats() {
+    let cells = || vec![vec![Inline::text("onelongword")]; 8];
+    let rows = |count| (0..count).map(|_| cells()).collect();
+    let floats = |count: usize| {
+        let table =
+            Table { caption: "Wide.".to_owned(), head: cells(), rows: rows(count), keys: 1 };
+        let figure =
+            Figure { caption: String::new(), bounds: [[0.0; 2], [200.0, 700.0]], shapes: vec![] };
+        let blocks =
+            vec![Block::Heading(1, "Robot".to_owned()), Block::Figure(figure), Block::Table(table)];
+        let document = Document { title: String::new(), blocks };
+        let page = Page::with_columns(2);
+        let latex = latex::document(&document, page).unwrap();
+        assert!(latex.contains("\\twocolumn[{") && latex.contains("Wide."), "{latex}");
+        assert_eq!(
+            latex.matches("\\begin{figure}[!t]").count(),
+            latex.matches("\\end{figure}").count()
+        );
+        latex.contains("\\end{figure}")
+    };
+    assert_eq!([2, 25].map(floats), [false, true]);
 }
 
 #[test]

@@ -95,12 +95,15 @@ pub(crate) fn symbol(name: &str) -> String {
     stem.chars().chain(below).collect()
 }
 
-/// Shortens a text to at most `characters` characters.
+/// Shortens a text to at most `characters` characters in its middle, because similar names differ at their ends.
 pub(crate) fn shortened(text: &str, characters: usize) -> String {
-    if text.chars().count() <= characters {
+    let count = text.chars().count();
+    if count <= characters {
         return text.to_owned();
     }
-    text.chars().take(characters.saturating_sub(1)).chain(['…']).collect()
+    let kept = characters.saturating_sub(1);
+    let start = text.chars().take(kept - kept / 2).chain(['…']);
+    start.chain(text.chars().skip(count - kept / 2)).collect()
 }
 
 #[cfg(test)]
@@ -117,7 +120,10 @@ mod tests {
     #[test]
     fn only_numbers_at_the_end_go_below() {
         assert_eq!(["l4", "q12", "a_2b", "7"].map(symbol), ["l₄", "q₁₂", "a_2b", "₇"]);
-        assert_eq!((shortened("abcd", 4), shortened("abcde", 4)), ("abcd".into(), "abc…".into()));
+        assert_eq!((shortened("abcd", 4), shortened("abcde", 4)), ("abcd".into(), "ab…e".into()));
+        let names = ["left_hand_index_finger_link_1", "left_hand_index_finger_link_2"];
+        assert_eq!(shortened(names[0], 22), "left_hand_i…ger_link_1");
+        assert_eq!(shortened(names[1], 22), "left_hand_i…ger_link_2");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Differences between the terms of two robots' joint torques.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -93,8 +94,9 @@ fn reason(error: &PolynomialError) -> Refusal {
     }
 }
 
-/// Powers of atoms: pairs of an atom and its exponent.
-type Powers = Vec<(Id, i32)>;
+/// Powers of atoms in the order in which equations list terms: the ranks of atoms, the atoms and their exponents, with
+/// higher powers of the first atom first. The last entry has no atom, so that a product comes before its own factors.
+type Powers = Vec<(u8, Option<Id>, Reverse<i32>)>;
 
 fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
     let mut texts: BTreeMap<Powers, (String, [Option<Number>; 2])> = BTreeMap::new();
@@ -105,7 +107,11 @@ fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
             let factors: Vec<(Expr<'_>, i32)> = factors
                 .filter_map(|(factor, exponent)| Some((factor.as_atom()?, *exponent)))
                 .collect();
-            let key = factors.iter().map(|(atom, exponent)| (atom.id(), *exponent)).collect();
+            let end = (u8::MAX, None, Reverse(0));
+            let key = factors.iter().map(|(atom, exponent)| {
+                (print::default_rank(*atom), Some(atom.id()), Reverse(*exponent))
+            });
+            let key = key.chain([end]).collect();
             let coefficient = if term.negative { -&term.coefficient } else { term.coefficient };
             let found = texts.entry(key).or_insert_with(|| (powers(&factors), [None, None]));
             if let Some(place) = found.1.get_mut(side) {
@@ -142,5 +148,21 @@ fn coefficient(number: &Number) -> String {
     match number.as_rational() {
         Some(rational) => print::exact_text(rational),
         None => number.to_f64().to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
+
+    use super::*;
+
+    #[test]
+    fn terms_are_in_the_order_of_the_equations() {
+        let graph = Graph::new();
+        let sum = graph.parse("1 + sin(q1)*m1 + m1 + m1*l1 + m1^2").unwrap();
+        let found = terms([Some(sum), None]).unwrap();
+        let powers: Vec<&str> = found.iter().map(|term| term.powers.as_str()).collect();
+        assert_eq!(powers, ["m1^2", "m1*l1", "m1*sin(q1)", "m1", "1"]);
     }
 }

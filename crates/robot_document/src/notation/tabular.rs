@@ -25,8 +25,13 @@ pub(super) struct Part {
     pub(super) lines: f64,
 }
 
-/// The number of rows from which a narrow table is set in two halves side by side.
+/// The number of rows from which a narrow table is set in two halves side by side, and the number of rows in each of
+/// more parts.
 const LONG: usize = 14;
+/// The largest number of parts of a table that stand side by side.
+const BESIDE: usize = 4;
+/// The empty column between them.
+const BETWEEN: [Cell; 1] = [vec![]];
 /// The largest number of lines of a table that is never broken across pages.
 const LINES: f64 = 28.0;
 /// The largest number of lines of a group of a longer table.
@@ -87,13 +92,22 @@ fn placed(table: &Table, column: f64, page: f64, gap: f64) -> Placed {
 
 /// Splits a table into parts for lines of `available` points, of which each column needs `gap` for its distance.
 fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
-    let folded = folded(table);
     let columns = |table: &Table| 0..table.head.len();
-    let long = folded.filter(|_| table.rows.len() >= LONG);
-    if let Some(folded) = &long
-        && let Some((size, widths)) = Measure::new(folded, gap).natural(columns(folded), available)
-    {
-        return vec![grouped(folded.clone(), widths, size)];
+    for count in (3..=(table.rows.len() / LONG).min(BESIDE)).rev() {
+        let folded = folded(table, count, &BETWEEN);
+        let found = Measure::new(&folded, gap).natural(columns(&folded), available);
+        if let Some((0, widths)) = found {
+            return vec![grouped(folded, widths, 0)];
+        }
+    }
+    let long = (table.rows.len() >= LONG).then(|| folded(table, 2, &BETWEEN));
+    // Pairs of a name and a value are distinct without an empty column, too.
+    let tight = long.as_ref().filter(|_| table.head.len() == 2).map(|_| folded(table, 2, &[]));
+    for folded in long.iter().chain(&tight) {
+        let found = Measure::new(folded, gap).natural(columns(folded), available);
+        if let Some((size, widths)) = found {
+            return vec![grouped(folded.clone(), widths, size)];
+        }
     }
     let measure = Measure::new(table, gap);
     let all: Vec<usize> = columns(table).collect();
@@ -220,23 +234,20 @@ impl Measure {
     }
 }
 
-/// The table with its second half to the right of the first.
-fn folded(table: &Table) -> Option<Table> {
-    let half = table.rows.len().div_ceil(2);
-    let (left, right) = table.rows.split_at_checked(half)?;
-    let beside = |left: &[Cell], right: Option<&Vec<Cell>>| -> Vec<Cell> {
-        let empty = vec![vec![]; table.head.len()];
-        // An empty column separates the halves.
-        let between = [vec![]];
-        [left, &between, right.unwrap_or(&empty)].concat()
+/// The table in `count` parts side by side, with these cells between them.
+fn folded(table: &Table, count: usize, between: &[Cell]) -> Table {
+    let height = table.rows.len().div_ceil(count);
+    let empty = vec![vec![]; table.head.len()];
+    let row = |place: usize| -> Vec<Cell> {
+        let rows = (0..count).map(|part| table.rows.get(part * height + place).unwrap_or(&empty));
+        rows.map(Vec::as_slice).collect::<Vec<_>>().join(between)
     };
-    let rows = left.iter().enumerate().map(|(place, row)| beside(row, right.get(place)));
-    Some(Table {
+    Table {
         caption: table.caption.clone(),
-        head: beside(&table.head, Some(&table.head)),
-        rows: rows.collect(),
+        head: vec![table.head.as_slice(); count].join(between),
+        rows: (0..height).map(row).collect(),
         keys: table.keys,
-    })
+    }
 }
 
 /// The table with some of its columns.
@@ -282,8 +293,8 @@ fn grouped(table: Table, mut widths: Vec<Option<f64>>, size: usize) -> Part {
     if groups.len() > 1 {
         let naturals = Measure::new(&table, 0.0).natural;
         for (width, natural) in widths.iter_mut().zip(naturals) {
-            // Widths are rounded down.
-            width.get_or_insert(natural * scale + 1.0);
+            // Widths are rounded down, and indices are relatively wider in small type.
+            width.get_or_insert((natural * scale).ceil() + 1.0);
         }
     }
     Part { table, widths, size, is_continued: false, groups, lines: all }
@@ -361,6 +372,16 @@ mod tests {
         let [part] = found.as_slice() else { panic!("{} parts", found.len()) };
         let widths: Vec<f64> = part.widths.iter().flatten().copied().collect();
         assert!(widths.len() == 2 && widths.iter().sum::<f64>() <= 180.0, "{widths:?}");
+    }
+
+    #[test]
+    fn names_and_values_stand_in_as_many_parts_as_fit() {
+        let columns = |available| -> Vec<(usize, usize)> {
+            let found = parts(&table(2, 60, "abcd"), available, 10.0);
+            found.iter().map(|part| (part.table.head.len(), part.table.rows.len())).collect()
+        };
+        let expected: [Vec<(usize, usize)>; 3] = [vec![(11, 15)], vec![(8, 20)], vec![(4, 30)]];
+        assert_eq!([400.0, 240.0, 114.0].map(columns), expected);
     }
 
     #[test]

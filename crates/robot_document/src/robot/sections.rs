@@ -42,8 +42,6 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
 
 /// The smallest number of constants that are shown as a table.
 const FEWEST: usize = 4;
-/// The number of constants in one row of the table.
-const ACROSS: usize = 2;
 
 /// Whether the right side is a number, such as `√2/2` or `2·10⁻⁵`, and the left side is not a component of a vector.
 fn is_constant(equation: &Equation) -> bool {
@@ -64,22 +62,16 @@ fn is_number(piece: &Math) -> bool {
     }
 }
 
-/// A table of constants, which are listed down the first column, then down the next.
+/// A table of constants.
 fn constants(equations: &[&Equation]) -> Block {
-    let count = equations.len().div_ceil(ACROSS);
-    let cell = |equation: &&Equation| {
-        let [left, right] = [&equation.left, &equation.right].map(Math::pieces);
-        vec![Inline::Math(Math::Row([left, &[Math::Sign('=')], right].concat()))]
-    };
-    let row = |row: usize| {
-        let places = (0..ACROSS).map(|column| equations.get(column * count + row));
-        places.map(|equation| equation.map(cell).unwrap_or_default()).collect()
+    let row = |equation: &&Equation| {
+        [&equation.left, &equation.right].map(|side| vec![Inline::Math(side.clone())]).into()
     };
     Block::Table(Table {
         caption: "Constants.".to_owned(),
-        head: vec![vec![Inline::text("Constant")]; ACROSS],
-        rows: (0..count).map(row).collect(),
-        keys: 0,
+        head: ["Constant", "Value"].map(|name| vec![Inline::text(name)]).into(),
+        rows: equations.iter().map(row).collect(),
+        keys: 1,
     })
 }
 

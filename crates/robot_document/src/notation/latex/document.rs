@@ -7,7 +7,7 @@ use super::{formula, text};
 use crate::breaking::broken;
 use crate::document::{Block, Cell, Document, Inline};
 use crate::error::Error;
-use crate::notation::front::Front;
+use crate::notation::front::{Below, Front};
 use crate::notation::tabular::{Part, Placed, SIZES, natural_width, tables};
 use crate::width::width;
 
@@ -64,23 +64,12 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
     let across = Layout::of_centimeters(page.text_width()).width;
     let tables = tables(document, layout.width, across, COLUMN_GAP);
-    let front = Front::new(document, &tables, page.columns, [layout.width, across]);
+    let front = Front::new(document, &tables, page.columns, across);
     let mut writer = Writer { page, layout, latex: String::new() };
     writer.head(document, &tables);
-    writer.title(document, &front)?;
-    let mut tables = tables.iter();
-    for block in front.rest {
-        match block {
-            Block::Table(_) => {
-                let table = tables.next().filter(|table| !table.spans);
-                table.into_iter().for_each(|table| writer.table(table));
-            }
-            Block::Figure(figure) if front.figure.is_none() => {
-                let scale = front.scale(figure, layout.width);
-                writer.latex.push_str(&super::figure::figure(figure, scale));
-            }
-            other => writer.block(other)?,
-        }
+    writer.title(document, &front);
+    for block in front.below(layout.width) {
+        writer.block(&block)?;
     }
     writer.latex.push_str("\\end{document}\n");
     Ok(writer.latex)
@@ -128,7 +117,7 @@ impl Writer {
     }
 
     /// The title with the front of the document.
-    fn title(&mut self, document: &Document, front: &Front<'_>) -> Result<(), Error> {
+    fn title(&mut self, document: &Document, front: &Front<'_>) {
         let [begin, end] = match self.page.columns {
             1 => ["", ""],
             _ if front.is_long => ["\\onecolumn\n", "\\twocolumn\n"],
@@ -137,13 +126,11 @@ impl Writer {
         self.latex.push_str(begin);
         self.line("\\raggedright");
         self.line(&format!("{{\\LARGE {}\\par}}\\medskip", text(&document.title)));
-        for block in front.paragraphs {
-            self.block(block)?;
+        for inlines in &front.paragraphs {
+            let line = self.inlines(inlines);
+            self.line(&format!("\n{line}"));
         }
         front.tables.iter().for_each(|table| self.table(table));
-        if let Some((figure, scale)) = front.figure {
-            self.latex.push_str(&super::figure::figure(figure, scale));
-        }
         self.latex.push_str(end);
         if self.page.columns > 1 && !front.is_long {
             self.line("\\raggedright");
@@ -151,22 +138,26 @@ impl Writer {
         // A display at the start of a paragraph already has an empty line above it.
         self.line("\\setlength{\\abovedisplayskip}{0pt}");
         self.line("\\setlength{\\belowdisplayskip}{4pt plus 2pt}");
-        Ok(())
     }
 
-    fn block(&mut self, block: &Block) -> Result<(), Error> {
+    fn block(&mut self, block: &Below<'_>) -> Result<(), Error> {
         match block {
-            Block::Heading(level, title) => {
+            Below::Heading(level, title) => {
                 let command = if *level > 1 { "subsection" } else { "section" };
                 self.line(&format!("\n\\{command}{{{}}}", text(title)));
             }
-            Block::Paragraph(inlines) => {
+            Below::Paragraph(inlines, is_kept) => {
                 let line = self.inlines(inlines);
-                self.line(&format!("\n{line}"));
+                self.line(&match is_kept {
+                    true => format!("\n{{\\interlinepenalty=10000 {line}\\par}}\\nobreak"),
+                    false => format!("\n{line}"),
+                });
             }
-            // Tables and figures have places of their own.
-            Block::Table(_) | Block::Figure(_) => {}
-            Block::Equations(list) => self.latex.push_str(&equations(list, self.layout)?),
+            Below::Table(table) => self.table(table),
+            Below::Figure(figure, scale, floats) => {
+                self.latex.push_str(&super::figure::figure(figure, *scale, *floats));
+            }
+            Below::Equations(list) => self.latex.push_str(&equations(list, self.layout)?),
         }
         Ok(())
     }

@@ -4,11 +4,16 @@ use super::document::line;
 use super::text;
 use crate::figure::{Color, Figure, Label, Path, Point, Segment, Shape, coordinate, hundredths};
 
-/// A figure with its caption; `scale` is the length of its unit in points.
-pub(super) fn figure(figure: &Figure, scale: f64) -> String {
+/// A figure with its caption; `scale` is the length of its unit in points. A figure that floats stands at the top of
+/// the next column that has room for it.
+pub(super) fn figure(figure: &Figure, scale: f64, floats: bool) -> String {
     let colors = figure.colors();
-    let mut latex = String::from(
-        "\n\\ifdefined\\tikzpicture\n\\medskip\n\\begin{minipage}{\\linewidth}\\raggedright\n",
+    let [begin, end] = match floats {
+        true => ["\\begin{figure}[!t]", "\\end{figure}"],
+        false => ["\\medskip", "\\medskip"],
+    };
+    let mut latex = format!(
+        "\n\\ifdefined\\tikzpicture\n{begin}\n\\begin{{minipage}}{{\\linewidth}}\\raggedright\n"
     );
     for (Color([red, green, blue]), number) in colors.iter().zip(1..) {
         latex
@@ -29,7 +34,7 @@ pub(super) fn figure(figure: &Figure, scale: f64) -> String {
     }
     latex.push_str("\\end{tikzpicture}\\par\\smallskip\n");
     latex.push_str(&format!("\\textbf{{Figure 1.}} {}\n", text(&figure.caption)));
-    latex.push_str("\\end{minipage}\\par\\medskip\n\\fi\n");
+    latex.push_str(&format!("\\end{{minipage}}\\par{end}\n\\fi\n"));
     latex
 }
 

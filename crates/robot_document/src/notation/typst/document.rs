@@ -4,11 +4,11 @@ use super::formula::{Place, continued};
 use super::text::quoted;
 use super::{formula, text};
 use crate::breaking::right_side;
-use crate::document::{Block, Cell, Document, Inline, NumberedEquation};
+use crate::document::{Cell, Document, Inline, NumberedEquation};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
 use crate::math::Math;
-use crate::notation::front::Front;
+use crate::notation::front::{Below, Front};
 use crate::notation::tabular::{Part, Placed, SIZES, tables};
 use crate::width::width;
 
@@ -93,27 +93,20 @@ pub fn document(document: &Document, page: Page) -> Result<String, Error> {
     let layout = Layout::of_centimeters(page.width).numbered(document.numbers());
     let all = Layout::of_centimeters(text_width(page)).width;
     let tables = tables(document, layout.width, all, CELL_GAP);
-    let front = Front::new(document, &tables, page.columns, [layout.width, all]);
+    let front = Front::new(document, &tables, page.columns, all);
     typst.push_str(&title(document, &front, page));
-    let mut tables = tables.iter();
-    for block in front.rest {
-        match block {
-            Block::Heading(level, title) => {
-                typst.push_str(&format!("#heading(level: {level})[{}]\n", text(title)));
+    for block in front.below(layout.width) {
+        typst.push_str(&match block {
+            Below::Heading(level, title) => format!("#heading(level: {level})[{}]\n", text(title)),
+            Below::Paragraph(inlines, true) => {
+                format!("#block(sticky: true, breakable: false)[{}]\n", line(inlines))
             }
-            Block::Paragraph(inlines) => typst.push_str(&paragraph(inlines)),
-            Block::Table(_) => {
-                if let Some(table) = tables.next().filter(|table| !table.spans) {
-                    typst.push_str(&self::table(table));
-                }
-            }
-            Block::Figure(_) if front.figure.is_some() => {}
-            Block::Figure(figure) => {
-                let scale = front.scale(figure, layout.width);
-                typst.push_str(&super::figure::figure(figure, scale));
-            }
-            Block::Equations(list) => typst.push_str(&equations(list, layout)?),
-        }
+            Below::Paragraph(inlines, false) => paragraph(inlines),
+            Below::Table(table) => self::table(table),
+            // Typst would place a float in the next column even if it is too high for it.
+            Below::Figure(figure, scale, _) => super::figure::figure(figure, scale),
+            Below::Equations(list) => equations(list, layout)?,
+        });
     }
     Ok(typst)
 }
@@ -128,14 +121,9 @@ fn title(document: &Document, front: &Front<'_>, page: Page) -> String {
     if page.columns == 1 {
         return title;
     }
-    let paragraphs = front.paragraphs.iter().filter_map(|block| match block {
-        Block::Paragraph(inlines) => Some(paragraph(inlines)),
-        _ => None,
-    });
-    title.extend(paragraphs);
+    title.extend(front.paragraphs.iter().map(|inlines| paragraph(inlines)));
     let tables = front.tables.iter().map(|one| table(one));
-    let figure = front.figure.map(|(figure, scale)| super::figure::figure(figure, scale));
-    let all = std::iter::once(title).chain(tables).chain(figure);
+    let all = std::iter::once(title).chain(tables);
     all.map(|one| format!("#place(top + start, scope: \"parent\", float: true)[\n{one}]\n"))
         .collect()
 }
@@ -184,8 +172,12 @@ fn part(part: &Part, number: usize) -> String {
         cells.join(", ")
     };
     let mut typst = format!(
-        "#block(breakable: {is_breakable})[
+        "#[
+#set block(spacing: 1.2em)
+#block(breakable: {is_breakable})[
+#set block(spacing: 0.8em)
 {caption}
+#v(2pt)
 #set text(size: {size:.1}pt)
 #table(
   columns: ({}),
@@ -201,7 +193,7 @@ fn part(part: &Part, number: usize) -> String {
     for row in &part.table.rows {
         typst.push_str(&format!("  {},\n", cells(row)));
     }
-    typst.push_str("  table.hline(),\n)]\n");
+    typst.push_str("  table.hline(),\n)]\n]\n");
     typst
 }
 
