@@ -81,7 +81,12 @@ fn check(what: &str, robot: &Robot, printed: &Equations) {
 fn arranged(printed: &Equations, room: Room) -> Equations {
     let mut arranged = printed.arranged(room);
     for group in &mut arranged.groups {
-        let original = printed.groups.iter().find(|one| one.title == group.title).unwrap();
+        // Where the matrix C is shown, it is in the title of the group.
+        let title = match group.title.starts_with("Matrix of the Coriolis") {
+            true => "Christoffel symbols",
+            false => &group.title,
+        };
+        let original = printed.groups.iter().find(|one| one.title == title).unwrap();
         let is_shown = |name: &str| group.equations.iter().any(|one| one.name == name);
         let arrays = original.arrays.iter().flatten().filter(|array| is_shown(&array.name));
         group.arrays = Some(arrays.cloned().collect());
@@ -172,6 +177,31 @@ fn given_letters_name_nothing_else() {
     }
     let why = printed("omega,M,C,g", Form::Recursive, Trigonometry::Named).unwrap_err().to_string();
     assert!(why.contains("the letter omega is that of other symbols of these equations"), "{why}");
+}
+
+/// A symbol of the robot that is printed like something that the equations define is refused, and the letter is named.
+#[test]
+fn symbols_of_the_robot_name_nothing_else() {
+    let text = include_str!("../../../robots/planar_2r.toml");
+    let printed = |from: &str, to: &str, form: Form| {
+        let robot = read_toml("robot.toml", &text.replace(from, to)).unwrap().robot;
+        equations(&robot, &EquationOptions { form, ..EquationOptions::default() })
+    };
+    let latex = |latex: &str| format!("\nr1 = {{ latex = '{latex}',");
+    let why =
+        |latex: String, form: Form| printed("\nr1 = {", &latex, form).unwrap_err().to_string();
+    for form in [Form::Expanded, Form::Collected, Form::Grouped, Form::Regrouped] {
+        assert!(why(latex("Q_1"), form).starts_with("the letter Q is that of other symbols"));
+        assert!(why(latex(r"\pi"), form).contains("`r1` and `pi` are both printed as"));
+        assert!(why(latex("r_2^2"), form).contains("`r1` and `r2^2` are both printed as"));
+    }
+    for vector in ["q", r"\dot{q}", r"\ddot{q}"] {
+        assert!(why(latex(vector), Form::Grouped).contains("`r1` and `q"), "{vector}");
+        assert!(printed("\nr1 = {", &latex(vector), Form::Expanded).is_ok());
+    }
+    assert!(why(latex("Q"), Form::Grouped).starts_with("the letter Q is that of a symbol"));
+    // Without a joint 3, `Q_3` is only a parameter.
+    assert!(printed("\nr1 = {", &latex("Q_3"), Form::Grouped).is_ok());
 }
 
 /// Whether a name is the letter with a number, such as `x_1` or `tau1`.

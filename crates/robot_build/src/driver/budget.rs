@@ -49,7 +49,8 @@ impl Over {
                  right angles, generate fewer outputs, or raise `max_operations`"
             }
             Resource::Stack => {
-                "this is an upper bound for builds without optimization: measure the compiled code; \
+                "this is an upper bound for builds without optimization, sines and cosines excluded: measure the \
+                 compiled code; \
                  use `f32`, generate fewer outputs, or raise `max_stack`"
             }
         }

@@ -5,7 +5,7 @@ use robot_model::diagnostic::quote;
 use robot_model::signs;
 use robot_model::variable::JointVariable;
 
-use super::{Equation, Writer};
+use super::{Equation, Group, Writer};
 use crate::error::Error;
 use crate::latex;
 use crate::math::{Math, Script};
@@ -164,7 +164,7 @@ impl Writer<'_, '_> {
 
     /// Returns an error if the letter of the joint torques is also that of a symbol of the robot or of one that the form
     /// has defined. The usual letter can be that of a symbol without such a joint.
-    pub(super) fn check_torque_letter(&self, has_vectors: bool) -> Result<(), Error> {
+    pub(super) fn check_torque_letter(&self, groups: &[Group]) -> Result<(), Error> {
         let letter = self.options.letters.torque();
         let is_given = self.options.letters.torque.is_some();
         let joints = 1..=self.robot.degrees_of_freedom();
@@ -176,7 +176,12 @@ impl Writer<'_, '_> {
             is_given || own.iter().any(|one| one == name || printed(one) == printed(name))
         };
         let mut others = self.symbols.symbols_with_letter(letter).filter(|name| !is_own(name));
-        let owner = if others.any(is_alike) {
+        // A quantity such as `F1.x` is not a symbol if no other equation has it.
+        let first = format!("{letter}1.");
+        let names = groups.iter().flat_map(|group| &group.equations).map(|one| &one.name);
+        let is_quantity = is_given && names.into_iter().any(|name| name.starts_with(&first));
+        let has_vectors = groups.iter().any(|group| group.vector.is_some());
+        let owner = if is_quantity || others.any(is_alike) {
             "other symbols of these equations"
         } else if has_vectors && self.symbols.is_symbol(letter) {
             "a symbol of this robot"
@@ -189,7 +194,7 @@ impl Writer<'_, '_> {
     /// Returns an error if a symbol of the robot is printed like the vector of the joint positions, velocities or
     /// accelerations.
     pub(super) fn check_vectors(&self) -> Result<(), Error> {
-        let vectors = JointVariable::MOTION.map(|variable| variable.name());
+        let vectors = JointVariable::MOTION.map(JointVariable::name);
         vectors.into_iter().try_for_each(|vector| {
             let latex = latex::formula(&Math::spelled(vector));
             match self.symbols.printed_as(&latex) {

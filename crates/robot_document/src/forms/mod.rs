@@ -244,11 +244,10 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     }
     let mut groups: Vec<Group> =
         groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
-    let has_vectors = groups.iter().any(|group| group.vector.is_some());
-    if has_vectors {
+    if groups.iter().any(|group| group.vector.is_some()) {
         writer.check_vectors()?;
     }
-    writer.check_torque_letter(has_vectors)?;
+    writer.check_torque_letter(&groups)?;
     let mut rounded = false;
     for group in &mut groups {
         rounded |= group.tidy(options.digits);

@@ -92,11 +92,8 @@ impl Walk<'_> {
         let Some(group) = self.groups.last_mut() else {
             return Err("closes nothing");
         };
-        let waiting =
-            self.waiting.as_ref().and_then(|(place, _)| self.latex.as_bytes().get(place.start));
-        let is_index = group.is_index || matches!(waiting, Some(b'_' | b'^'));
-        let is_word = group.is_word || matches!(waiting, Some(b'\\'));
-        if !is_index && self.waiting.is_none() {
+        let inner = inner(self.latex, self.waiting.as_ref(), group);
+        if self.waiting.is_none() {
             check_name(token, group)?;
         }
         match token.as_bytes() {
@@ -105,12 +102,7 @@ impl Walk<'_> {
                 if depth > MAX_DEPTH {
                     return Err("groups are nested too deeply");
                 }
-                self.groups.push(Group {
-                    start: here.start,
-                    is_index,
-                    is_word,
-                    ..Group::default()
-                });
+                self.groups.push(Group { start: here.start, ..inner });
             }
             [b'}'] if self.waiting.is_some() || depth == 1 || !group.base => {
                 return Err("a group ends without content, or closes nothing");
@@ -126,14 +118,8 @@ impl Walk<'_> {
                 *taken = true;
                 self.waiting = Some((here, "a subscript or superscript without content"));
             }
-            // One or several consecutive primes form one upper index.
-            [b'\''] => {
-                let again = before == Some(b'\'');
-                if self.waiting.is_some() || !group.base || (group.upper && !again) {
-                    return Err("a second superscript, or a prime without a base");
-                }
-                group.upper = true;
-            }
+            [b'\''] if self.waiting.is_some() => return Err(PRIME),
+            [b'\''] => prime(group, before)?,
             [b'\\', ..] if takes_group(command) => {
                 item(group, self.waiting.take().is_some());
                 if next != Some(b'{') {
@@ -157,9 +143,33 @@ impl Walk<'_> {
     }
 }
 
+/// A group in this place: one that begins as an index, as the argument of a command, or neither.
+fn inner(latex: &str, waiting: Option<&(Range<usize>, &'static str)>, group: &Group) -> Group {
+    let waiting = waiting.and_then(|(place, _)| latex.as_bytes().get(place.start));
+    Group {
+        is_index: group.is_index || matches!(waiting, Some(b'_' | b'^')),
+        is_word: group.is_word || matches!(waiting, Some(b'\\')),
+        ..Group::default()
+    }
+}
+
+/// The problem of a prime without a base, or after an upper index.
+const PRIME: &str = "a second superscript, or a prime without a base";
+
+/// Notes a prime. One or several consecutive primes form one upper index.
+fn prime(group: &mut Group, before: Option<u8>) -> Result<(), &'static str> {
+    let again = before == Some(b'\'');
+    if !group.base || (group.upper && !again) {
+        return Err(PRIME);
+    }
+    group.upper = true;
+    Ok(())
+}
+
 /// Returns an error if a token outside of indices would read as a part of a formula.
 fn check_name(token: &str, group: &Group) -> Result<(), &'static str> {
     match token.as_bytes() {
+        _ if group.is_index => Ok(()),
         [byte] if b"*+-,.()".contains(byte) => {
             Err("outside of an index, this reads as a part of a formula")
         }
