@@ -292,4 +292,11 @@ fn what_a_simulator_adds_is_counted() {
     ] {
         assert!(has(&described.choices, code::LEFT_OUT, message), "{}", described.choices);
     }
+    let range = "type=\"revolute\"><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\"/>";
+    let follower = format!("{range}<mimic joint=\"j1\"/>");
+    let described = crate::read(&chain([range, &follower, range]));
+    for message in ["1 joint: `lower` of", "1 joint: `upper` of"] {
+        let is_noted = |one: &&Diagnostic| one.message.starts_with(message);
+        assert_eq!(described.choices.iter().filter(is_noted).count(), 1, "{}", described.choices);
+    }
 }

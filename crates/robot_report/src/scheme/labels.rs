@@ -30,6 +30,14 @@ impl Rectangle {
 
     /// The length of the part of a line within the rectangle.
     pub(crate) fn length_within(&self, [from, to]: &[Point; 2]) -> f64 {
+        // Most lines are far away.
+        let is_beside = |axis: usize| {
+            let (least, most) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
+            most <= self.low[axis] || least >= self.high[axis]
+        };
+        if is_beside(0) || is_beside(1) {
+            return 0.0;
+        }
         let along = to - from;
         let (mut start, mut end) = (0.0_f64, 1.0_f64);
         for axis in 0..2 {
@@ -51,6 +59,16 @@ impl Rectangle {
     pub(crate) fn around(&self, other: &Rectangle) -> Rectangle {
         Rectangle { low: self.low.inf(&other.low), high: self.high.sup(&other.high) }
     }
+
+    /// The smallest rectangle that contains a line.
+    fn around_line([from, to]: &[Point; 2]) -> Rectangle {
+        Rectangle { low: from.inf(to), high: from.sup(to) }
+    }
+
+    /// Whether two rectangles have a point in common.
+    pub(super) fn meets(&self, other: &Rectangle) -> bool {
+        (0..2).all(|axis| self.low[axis] <= other.high[axis] && other.low[axis] <= self.high[axis])
+    }
 }
 
 /// A place that a label can take.
@@ -65,6 +83,16 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
+    /// The area in which other shapes and labels can add to the cost of some places; `None` without places.
+    pub(super) fn reach(places: &[Candidate]) -> Option<Rectangle> {
+        let areas = places.iter().map(|place| match &place.leader {
+            Some(leader) => place.label.around(&Rectangle::around_line(leader)),
+            None => place.label,
+        });
+        let all = areas.reduce(|all, one| all.around(&one))?;
+        Some(Rectangle { low: all.low.add_scalar(-CLOSE), high: all.high.add_scalar(CLOSE) })
+    }
+
     /// A place without a leader.
     pub(crate) fn near(label: Rectangle, cost: f64) -> Candidate {
         Candidate { label, leader: None, cost }
@@ -194,11 +222,27 @@ impl Room {
 
     /// Chooses one of the places of each label.
     pub(crate) fn settled(&self, labels: &[Vec<Candidate>]) -> Vec<Candidate> {
-        let own = |candidate: &Candidate| {
-            let leader = candidate.leader.map_or(0.0, |leader| self.cost_of_leader(leader));
-            Candidate { cost: candidate.cost + leader + self.cost(&candidate.label), ..*candidate }
+        let own = |places: &Vec<Candidate>| {
+            let Some(reach) = Candidate::reach(places) else { return vec![] };
+            let near = self.within(&reach);
+            let own = |candidate: &Candidate| {
+                let leader = candidate.leader.map_or(0.0, |leader| near.cost_of_leader(leader));
+                let cost = candidate.cost + leader + near.cost(&candidate.label);
+                Candidate { cost, ..*candidate }
+            };
+            places.iter().map(own).collect()
         };
-        settling::settled(labels.iter().map(|places| places.iter().map(own).collect()).collect())
+        settling::settled(labels.iter().map(own).collect())
+    }
+
+    /// The shapes that reach into an area.
+    fn within(&self, area: &Rectangle) -> Room {
+        let lines = |lines: &[[Point; 2]]| {
+            let lines = lines.iter().filter(|line| Rectangle::around_line(line).meets(area));
+            lines.copied().collect()
+        };
+        let symbols = self.symbols.iter().filter(|symbol| symbol.meets(area)).copied().collect();
+        Room { symbols, lines: lines(&self.lines), axes: lines(&self.axes) }
     }
 
     /// The smallest rectangle around the reserved areas and the labels.

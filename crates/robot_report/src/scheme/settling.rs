@@ -15,7 +15,8 @@ const TRIED: usize = 48;
 pub(super) fn settled(labels: Vec<Vec<Candidate>>) -> Vec<Candidate> {
     let labels: Vec<Vec<Candidate>> =
         labels.into_iter().filter(|places| !places.is_empty()).collect();
-    let mut settling = Settling { chosen: vec![None; labels.len()], labels };
+    let neighbors = neighbors(&labels);
+    let mut settling = Settling { chosen: vec![None; labels.len()], labels, neighbors };
     for _ in 0..PASSES {
         settling.improve();
         if !settling.push() {
@@ -25,12 +26,25 @@ pub(super) fn settled(labels: Vec<Vec<Candidate>>) -> Vec<Candidate> {
     settling.chosen.into_iter().flatten().collect()
 }
 
+/// For each label, the others that one of its places can disturb, in order.
+fn neighbors(labels: &[Vec<Candidate>]) -> Vec<Vec<usize>> {
+    let reaches: Vec<_> = labels.iter().map(|places| Candidate::reach(places)).collect();
+    let meet = |one: usize, other: usize| {
+        let pair = reaches[one].zip(reaches[other]);
+        one != other && pair.is_some_and(|(one, other)| one.meets(&other))
+    };
+    let of = |index| (0..labels.len()).filter(|other| meet(index, *other)).collect();
+    (0..labels.len()).map(of).collect()
+}
+
 /// Labels that take places.
 struct Settling {
     /// The places of each label, with the cost of each place itself.
     labels: Vec<Vec<Candidate>>,
     /// The places that are taken.
     chosen: Vec<Option<Candidate>>,
+    /// For each label, the others that it can disturb.
+    neighbors: Vec<Vec<usize>>,
 }
 
 impl Settling {
@@ -40,7 +54,7 @@ impl Settling {
             let mut has_moved = false;
             for index in 0..self.labels.len() {
                 let best = self.best(&self.chosen, index);
-                let now = self.chosen[index].map(|place| cost(&self.chosen, index, &place));
+                let now = self.chosen[index].map(|place| self.cost(&self.chosen, index, &place));
                 if now.is_none_or(|now| best.is_some_and(|(cost, _)| cost < now)) {
                     self.chosen[index] = best.map(|(_, place)| place);
                     has_moved = true;
@@ -57,7 +71,7 @@ impl Settling {
         let mut has_moved = false;
         for index in 0..self.labels.len() {
             let Some(taken) = self.chosen[index] else { continue };
-            let now = cost(&self.chosen, index, &taken);
+            let now = self.cost(&self.chosen, index, &taken);
             if taken.leader.is_none() && now < CROWDED {
                 continue;
             }
@@ -85,9 +99,9 @@ impl Settling {
     fn pushed(&self, index: usize, place: &Candidate) -> Option<(f64, Vec<Option<Candidate>>)> {
         let is_hit = |other: &usize| {
             let taken = self.chosen[*other];
-            *other != index && taken.is_some_and(|taken| conflict(&taken, place) > 0.0)
+            taken.is_some_and(|taken| conflict(&taken, place) > 0.0)
         };
-        let mut moved: Vec<usize> = (0..self.chosen.len()).filter(is_hit).collect();
+        let mut moved: Vec<usize> = self.neighbors[index].iter().copied().filter(is_hit).collect();
         if moved.len() > MOST {
             return None;
         }
@@ -100,7 +114,7 @@ impl Settling {
             trial[*other] = self.best(&trial, *other).map(|(_, place)| place);
         }
         moved.push(index);
-        Some((total(&self.chosen, &moved) - total(&trial, &moved), trial))
+        Some((self.total(&self.chosen, &moved) - self.total(&trial, &moved), trial))
     }
 
     /// The best place of a label beside others, and its cost.
@@ -109,7 +123,7 @@ impl Settling {
         for place in &self.labels[index] {
             // Conflicts only add to the cost.
             if best.is_none_or(|(least, _)| place.cost < least) {
-                let cost = cost(chosen, index, place);
+                let cost = self.cost(chosen, index, place);
                 if best.is_none_or(|(least, _)| cost < least) {
                     best = Some((cost, *place));
                 }
@@ -117,24 +131,24 @@ impl Settling {
         }
         best
     }
-}
 
-/// The cost of a place for a label, beside the places of the others.
-fn cost(chosen: &[Option<Candidate>], index: usize, place: &Candidate) -> f64 {
-    let others = chosen.iter().enumerate().filter(|(other, _)| *other != index);
-    let conflicts = others.filter_map(|(_, other)| other.as_ref());
-    place.cost + conflicts.map(|other| conflict(place, other)).sum::<f64>()
-}
+    /// The cost of a place for a label, beside the places of the others.
+    fn cost(&self, chosen: &[Option<Candidate>], index: usize, place: &Candidate) -> f64 {
+        let others = self.neighbors[index].iter().filter_map(|other| chosen[*other].as_ref());
+        place.cost + others.map(|other| conflict(place, other)).sum::<f64>()
+    }
 
-/// The cost of the places of some labels, beside each other and beside those of the others.
-fn total(chosen: &[Option<Candidate>], some: &[usize]) -> f64 {
-    let of = |(at, index): (usize, &usize)| {
-        let Some(place) = chosen[*index] else { return 0.0 };
-        // Two of the labels disturb each other once.
-        let twice = some[..at].iter().filter_map(|other| chosen[*other]);
-        cost(chosen, *index, &place) - twice.map(|other| conflict(&place, &other)).sum::<f64>()
-    };
-    some.iter().enumerate().map(of).sum()
+    /// The cost of the places of some labels, beside each other and beside those of the others.
+    fn total(&self, chosen: &[Option<Candidate>], some: &[usize]) -> f64 {
+        let of = |(at, index): (usize, &usize)| {
+            let Some(place) = chosen[*index] else { return 0.0 };
+            // Two of the labels disturb each other once.
+            let twice = some[..at].iter().filter_map(|other| chosen[*other]);
+            let twice = twice.map(|other| conflict(&place, &other)).sum::<f64>();
+            self.cost(chosen, *index, &place) - twice
+        };
+        some.iter().enumerate().map(of).sum()
+    }
 }
 
 #[cfg(test)]

@@ -199,6 +199,11 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
         moving.unread = unread(reader, &limit);
     }
     moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
+    if moving.mimic.is_some() && moving.limits.is_some() {
+        // The leading joint determines the motion.
+        let limit = element.child(reader, "limit");
+        moving.unread.extend(limit.iter().flat_map(|limit| attributes(limit, &["lower", "upper"])));
+    }
     let dynamics = element.child(reader, "dynamics");
     moving.dynamics = dynamics.and_then(|dynamics| friction(reader, &dynamics));
     moving
@@ -224,6 +229,15 @@ fn unread(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Vec<Unread> {
         unread.push(Unread { name, span: attribute.span });
     }
     unread
+}
+
+/// The attributes with these names, without their values.
+fn attributes(element: &Element<'_, '_>, names: &[&'static str]) -> Vec<Unread> {
+    let of = |name: &&'static str| {
+        let attribute = element.attribute(name)?;
+        Some(Unread { name, span: attribute.span })
+    };
+    names.iter().filter_map(of).collect()
 }
 
 /// Reads an axis: a nonzero vector.

@@ -50,11 +50,11 @@ fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
         let count = counted(spans.len(), "joint");
         let message = format!("{count}: `{name}` of `<limit>` is ignored");
         let diagnostic = Diagnostic::note(code::LEFT_OUT, message);
-        reader.report(
-            diagnostic
-                .at(spans.first().copied().unwrap_or(&(0..0)), "")
-                .because("limits on forces and velocities do not affect the equations"),
-        );
+        let why = match name {
+            "lower" | "upper" => "a joint with `<mimic>` moves with its leading joint",
+            _ => "limits on forces and velocities do not affect the equations",
+        };
+        reader.report(diagnostic.at(spans.first().copied().unwrap_or(&(0..0)), "").because(why));
     }
 }
 
