@@ -107,10 +107,10 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
     let found = found(&derivation)?;
     let symbols = SymbolTable::new(robot, Trigonometry::Named)?;
     let formulas = Formulas { symbols: &symbols, order: &Order::new(robot) };
-    let standard_names = found.standard.iter().map(|(parameter, _)| parameter.name());
-    let mut names = standard_names.chain(found.base.iter().map(BaseParameter::name));
-    if let Some(name) = names.find(|name| symbols.is_symbol(name)) {
-        return Err(Error::Taken { name });
+    let all = found.standard.iter().map(|(one, _)| (one.name(), shape(one.quantity, "", one.link)));
+    let mut all = all.chain(found.base.iter().map(|one| (one.name(), look(one))));
+    if let Some((name, _)) = all.find(|(name, shape)| !symbols.is_free(name, shape)) {
+        return Err(Error::TakenParameter { name });
     }
     let standard: Vec<Option<Written>> = found
         .standard

@@ -60,6 +60,15 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// A symbol of the robot has the name or the printed form of a standard or base parameter.
+    #[error(
+        "`{name}` would be both a symbol of the robot and one of the base parameters or of the parameters \
+        from which they are made; rename the symbol in the robot file"
+    )]
+    TakenParameter {
+        /// The name of the parameter.
+        name: String,
+    },
     /// A letter that was chosen for the torques, the mass matrix, the Coriolis and centrifugal terms or the gravity
     /// terms stands for something else in the equations.
     #[error("the letter {letter} is that of {owner}; choose another letter for the equations")]

@@ -66,12 +66,6 @@ impl Element {
         self.name
     }
 
-    /// The value of an attribute; `None` if it is not set.
-    #[must_use]
-    pub fn get(&self, name: &str) -> Option<&str> {
-        self.attributes.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str())
-    }
-
     /// The first child if it is an element.
     pub fn first_mut(&mut self) -> Option<&mut Element> {
         match self.children.first_mut() {

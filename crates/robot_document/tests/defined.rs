@@ -159,7 +159,7 @@ fn given_letters_name_nothing_else() {
             );
         }
         let sines = printed("tau,M,c,g", form, Trigonometry::Short).unwrap_err().to_string();
-        assert!(sines.contains("the letter c is that of sines and cosines in short"), "{sines}");
+        assert!(sines.contains("the letter c is that of sines and cosines;"), "{sines}");
         // The letters that the forms choose give way.
         for taken in ["x,M,C,g", "tau,w,C,g", "tau,M,w,t", "tau,k,x,g", "Y,M,C,g", "h,w,x,k"] {
             let printed = printed(taken, form, Trigonometry::Named).unwrap();

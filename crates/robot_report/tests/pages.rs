@@ -339,11 +339,12 @@ fn robots_move_in_pages_that_stay_short() {
         let coordinates = described["coordinates"].as_array().unwrap().len();
         assert_eq!(sliders.count(), 3 * coordinates, "{robot}");
         // Bars of one unit have one scale; the script takes the unit of a row from the data.
-        let units: Vec<_> = described["coordinates"].as_array().unwrap().iter().collect();
+        let described: Vec<_> = described["coordinates"].as_array().unwrap().iter().collect();
         let rows = live.descendants().filter(|node| node.attribute("class") == Some("torques"));
         let rows = rows.flat_map(|table| table.descendants());
-        let rows = rows.filter(|node| node.attribute("scope") == Some("row"));
-        for (row, coordinate) in rows.zip(&units) {
+        let rows: Vec<_> = rows.filter(|node| node.attribute("scope") == Some("row")).collect();
+        assert_eq!(rows.len(), described.len(), "{robot}");
+        for (row, coordinate) in rows.iter().zip(described) {
             let unit = coordinate["unit"].as_str().unwrap();
             assert!(row.text().unwrap().ends_with(&format!(", {unit}")), "{robot}: {unit}");
         }

@@ -25,10 +25,11 @@ use crate::text;
 Compiles the generated code and analyzes the object file. This command and `report` start another program:
 rustc, which must be installed. Nothing is linked, so a target needs only `rustup target add`.
 
-The claim: no conditional jump, except those by which a function chooses its copy for the processor (`choices`);
-no panic, and no call except those of sines and cosines. The exit code is 1 if the claim is false. In dev builds the runtime's sines and cosines loop over the angles, and are shown but not
-part of the claim; arrays may be copied by memcpy. Functions of several states (batches, columns, blocks) loop
-over the states; nothing is claimed about them in dev builds.
+The claim: no conditional jump, except those by which a function chooses its copy for the processor
+(`choices`); no panic, and no call except those of sines and cosines. The exit code is 1 if the claim is
+false. In dev builds the runtime's sines and cosines loop over the angles, and are shown but not part of the
+claim; arrays may be copied by memcpy. Functions of several states (batches, columns, blocks) loop over the
+states; nothing is claimed about them in dev builds.
 
 The counts of a function include all functions that it calls, each once. `frame` is the function's own stack, `stack`
 that of the deepest chain of calls, in bytes; the stack of sin and cos is not included.")]

@@ -1,5 +1,6 @@
 //! `report`: a page about a robot.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -66,9 +67,10 @@ impl Arguments {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
             let name = self.output.file().map(|path| (path, path.with_extension("html")));
-            let others = ["pdf", "png", "svg", "md", "tex", "typ"].map(std::ffi::OsStr::new);
+            let others = ["pdf", "png", "svg", "md", "tex", "typ"];
+            let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
             if let Some((path, html)) = name
-                && path.extension().is_some_and(|extension| others.contains(&extension))
+                && path.extension().is_some_and(is_other)
             {
                 let message = format!("a report is an HTML page; name the file {}", shown(&html));
                 return Err(Failure::Usage(vec![message]));

@@ -102,7 +102,7 @@ mod tests {
             assert!(language.modules.is_sorted_by(|a, b| a < b), "{}", language.name);
             assert_eq!(language.module_name("planar 2r"), "planar_2r");
         }
-        for name in ["printf", "stdio", "y0", "string", "int", "div_t"] {
+        for name in ["printf", "stdio", "y0", "stat", "servo", "int"] {
             assert_eq!(c::LANGUAGE.module_name(name), format!("{name}_"));
         }
         for name in ["random", "numpy", "test", "lambda"] {

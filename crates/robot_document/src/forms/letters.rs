@@ -151,7 +151,7 @@ impl Writer<'_, '_> {
             } else if letter == "pi" {
                 "the number π"
             } else if self.symbols.is_letter_of_sines(letter) {
-                "sines and cosines in short"
+                "sines and cosines"
             } else {
                 continue;
             };
@@ -162,24 +162,25 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// Returns an error if the letter of the joint torques is also that of a symbol of the robot or of one that the form
-    /// has defined. The usual letter can be that of a symbol without such a joint.
+    /// Returns an error if a joint torque would look like a symbol of the robot or like one that the form has defined.
+    /// The letter can be that of a symbol with the number of no joint.
     pub(super) fn check_torque_letter(&self, groups: &[Group]) -> Result<(), Error> {
         let letter = self.options.letters.torque();
-        let is_given = self.options.letters.torque.is_some();
         let joints = 1..=self.robot.degrees_of_freedom();
         let own: Vec<String> = joints.map(|joint| format!("{letter}{joint}")).collect();
         let is_own =
             |name: &str| own.iter().any(|one| one == name) && self.symbols.is_defined(name);
         let printed = |name: &str| latex::formula(&self.symbols.look(name)).replace(['{', '}'], "");
-        let is_alike = |name: &str| {
-            is_given || own.iter().any(|one| one == name || printed(one) == printed(name))
+        let is_part = |name: &str, one: &str| {
+            name.strip_prefix(one).is_some_and(|tail| tail.is_empty() || tail.starts_with('.'))
         };
+        let is_alike =
+            |name: &str| own.iter().any(|one| is_part(name, one) || printed(one) == printed(name));
         let mut others = self.symbols.symbols_with_letter(letter).filter(|name| !is_own(name));
         // A quantity such as `F1.x` is not a symbol if no other equation has it.
         let first = format!("{letter}1.");
         let names = groups.iter().flat_map(|group| &group.equations).map(|one| &one.name);
-        let is_quantity = is_given && names.into_iter().any(|name| name.starts_with(&first));
+        let is_quantity = names.into_iter().any(|name| name.starts_with(&first));
         let has_vectors = groups.iter().any(|group| group.vector.is_some());
         let owner = if is_quantity || others.any(is_alike) {
             "other symbols of these equations"

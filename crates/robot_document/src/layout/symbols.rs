@@ -79,7 +79,10 @@ impl SymbolTable {
         for (latex, name) in symbols {
             let Some((base, upper)) = latex.rsplit_once('^') else { continue };
             let exponent = upper.trim_start_matches('{').trim_end_matches('}');
-            let is_power = exponent.parse::<u32>().is_ok();
+            let is_power =
+                !exponent.is_empty() && exponent.bytes().all(|byte| byte.is_ascii_digit());
+            let group = base.strip_prefix('{').and_then(|base| base.strip_suffix('}'));
+            let base = group.unwrap_or(base);
             if let Some(other) = self.printed.get(base).filter(|_| is_power) {
                 let other = format!("{other}^{exponent}");
                 return Err(Error::Alike { name: name.clone(), other, latex: latex.clone() });

@@ -6,7 +6,7 @@ use super::{Diagnostic, Label, Severity, Source};
 
 /// Up to this many diagnostics of the same kind are shown separately.
 const FEW: usize = 2;
-/// The maximum number of names or lines that are listed; further ones are only counted.
+/// The maximum number of names, lines or columns that are listed; further ones are only counted.
 const MAX_LISTED: usize = 16;
 
 /// Diagnostics that differ only in names, numbers and places.
@@ -43,7 +43,8 @@ impl Group<'_> {
         }
     }
 
-    /// The names and lines of the other diagnostics, such as ``also `current`; on lines 12, 15``.
+    /// The names and lines of the other diagnostics, such as ``also `current`; on lines 12, 15``;
+    /// if all stand on one line, its columns.
     #[must_use]
     pub fn others(&self, source: &Source) -> Option<String> {
         if self.others.is_empty() {

@@ -65,7 +65,7 @@ pub fn check_latex(latex: &str) -> Result<(), LatexError> {
         position = end;
     }
     match (walk.waiting, walk.groups.as_slice()) {
-        (Some((span, message)), _) => fault(span, message),
+        (Some(waiting), _) => fault(waiting.place, waiting.message),
         (None, [whole]) if whole.base => Ok(()),
         (None, [_]) => fault(0..latex.len(), "empty"),
         (None, [.., open]) => fault(open.start..open.start + 1, "is never closed"),
@@ -77,8 +77,17 @@ pub fn check_latex(latex: &str) -> Result<(), LatexError> {
 struct Walk<'l> {
     latex: &'l str,
     groups: Vec<Group>,
-    /// An accent or an index that still needs its argument, and the problem if none follows.
-    waiting: Option<(Range<usize>, &'static str)>,
+    /// An accent or an index that still needs its argument.
+    waiting: Option<Waiting>,
+}
+
+/// An accent or an index without its argument.
+struct Waiting {
+    place: Range<usize>,
+    /// The problem if no argument follows.
+    message: &'static str,
+    /// The kind of a group that is the argument.
+    inner: Group,
 }
 
 impl Walk<'_> {
@@ -92,7 +101,8 @@ impl Walk<'_> {
         let Some(group) = self.groups.last_mut() else {
             return Err("closes nothing");
         };
-        let inner = inner(self.latex, self.waiting.as_ref(), group);
+        let same = Group { is_index: group.is_index, is_word: group.is_word, ..Group::default() };
+        let inner = self.waiting.as_ref().map_or(same, |waiting| waiting.inner);
         if self.waiting.is_none() {
             check_name(token, group)?;
         }
@@ -116,16 +126,18 @@ impl Walk<'_> {
                     return Err("a second subscript, or one without a base");
                 }
                 *taken = true;
-                self.waiting = Some((here, "a subscript or superscript without content"));
+                let inner = Group { is_index: true, ..inner };
+                let message = "a subscript or superscript without content";
+                self.waiting = Some(Waiting { place: here, message, inner });
             }
-            [b'\''] if self.waiting.is_some() => return Err(PRIME),
-            [b'\''] => prime(group, before)?,
+            [b'\''] => prime(group, before, self.waiting.is_some())?,
             [b'\\', ..] if takes_group(command) => {
                 item(group, self.waiting.take().is_some());
                 if next != Some(b'{') {
                     return Err("needs a group `{…}`");
                 }
-                self.waiting = Some((here, "needs a group `{…}`"));
+                let (message, inner) = ("needs a group `{…}`", Group { is_word: true, ..inner });
+                self.waiting = Some(Waiting { place: here, message, inner });
             }
             [b'\\', ..] => {
                 if !Letter::of_latex(command).is_some_and(Letter::is_in_symbols) {
@@ -143,23 +155,13 @@ impl Walk<'_> {
     }
 }
 
-/// A group in this place: one that begins as an index, as the argument of a command, or neither.
-fn inner(latex: &str, waiting: Option<&(Range<usize>, &'static str)>, group: &Group) -> Group {
-    let waiting = waiting.and_then(|(place, _)| latex.as_bytes().get(place.start));
-    Group {
-        is_index: group.is_index || matches!(waiting, Some(b'_' | b'^')),
-        is_word: group.is_word || matches!(waiting, Some(b'\\')),
-        ..Group::default()
-    }
-}
-
 /// The problem of a prime without a base, or after an upper index.
 const PRIME: &str = "a second superscript, or a prime without a base";
 
 /// Notes a prime. One or several consecutive primes form one upper index.
-fn prime(group: &mut Group, before: Option<u8>) -> Result<(), &'static str> {
+fn prime(group: &mut Group, before: Option<u8>, waits: bool) -> Result<(), &'static str> {
     let again = before == Some(b'\'');
-    if !group.base || (group.upper && !again) {
+    if waits || !group.base || (group.upper && !again) {
         return Err(PRIME);
     }
     group.upper = true;
@@ -230,6 +232,10 @@ mod tests {
             "q''_1",
             "q_1'",
             "v_{(1.5)}",
+            "l_\\mathrm{2}",
+            "m_\\mathrm{max,1}",
+            "m^\\mathrm{(1)}",
+            "x_\\bar{1}",
             "J_{*+-,.(1)}^{2x}",
         ] {
             assert_eq!(check_latex(text), Ok(()), "{text}");

@@ -28,12 +28,10 @@ pub(super) fn messages(
     // The eigenvectors of a singular matrix give all affected coordinates; the pivots of a nearly singular
     // one give a single coordinate.
     let of_matrix = || digits.matter().then(|| singular(robot, settings, state)).flatten();
-    let angle = state
-        .array(JointVariable::Position.name())
-        .and_then(|q| too_large_angle(robot, q, trigonometry));
+    let q = state.array(JointVariable::Position.name());
+    let angle = q.and_then(|q| too_large_angle(robot, q, trigonometry));
     // The sum of the angles of parallel joints can overflow, which no sine repairs.
     let is_finite = |q: &[f64]| q.iter().map(|angle| angle.abs()).sum::<f64>().is_finite();
-    let q = state.array(JointVariable::Position.name());
     let standard = if q.is_some_and(is_finite) { ", or use --trigonometry standard" } else { "" };
     let angle = angle.map(|why| format!("{why}{standard}"));
     let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));

@@ -8,7 +8,8 @@ use crate::module::{self, Module};
 use crate::program::{self, Block, Operation, Program, Source, Statements, Value};
 
 impl<'m> Tree<'m> {
-    /// Builds the tree of a module in a language. No item or variable has a name that is taken. `forms` are the name endings of the additional forms of each function.
+    /// Builds the tree of a module in a language. No item or variable has a name that is taken. `forms` are the name
+    /// endings of the additional forms of each function.
     #[must_use]
     pub fn new(
         module: &'m Module,

@@ -37,7 +37,7 @@ fn counted(count: usize, one: &str) -> String {
     format!("{count} {one}{plural}")
 }
 
-/// Reports limits of forces and velocities.
+/// Reports limits that are not used: of forces and velocities, and of joints that mimic others.
 fn limits(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
     let mut kinds: Vec<(&str, Vec<&Span>)> = Vec::new();
     for unread in joints.iter().flat_map(|joint| &joint.unread) {
