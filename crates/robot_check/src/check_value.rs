@@ -1,7 +1,7 @@
 //! A state with its joint torques, for readers who copy the equations.
 
 use robot_document::robot::CheckValue;
-use robot_model::robot::Robot;
+use robot_model::robot::{Frame, Robot};
 use robot_numeric::{Loads, Mechanism, Wrench};
 
 /// The positions, velocities and accelerations of the check state, which are repeated for more joints.
@@ -24,10 +24,47 @@ pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {
     let numbers = |texts: &[&str]| texts.iter().map(number).collect::<Vec<f64>>();
     let [fx, fy, fz, mx, my, mz] = WRENCH.each_ref().map(number);
     let wrench = Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() };
-    let loads = Loads { wrenches: robot.tips().map(|_| wrench).collect(), friction };
+    // The solver takes the wrench of each frame; only those of tips are part of the equations.
+    let of_frame = |frame: &Frame| match frame.wrench {
+        Some(_) => wrench,
+        None => Wrench { force: [0.0; 3].into(), moment: [0.0; 3].into() },
+    };
+    let loads = Loads { wrenches: robot.frames.iter().map(of_frame).collect(), friction };
     let mechanism = Mechanism::nominal(robot).ok()?;
     let (q, qd, qdd) = (numbers(&positions), numbers(&velocities), numbers(&accelerations));
     let forces = mechanism.inverse_dynamics_with(&q, &qd, &qdd, &loads).ok()?;
     let forces = forces.iter().copied().collect();
     Some(CheckValue { positions, velocities, accelerations, wrench: WRENCH, forces })
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_model::description::read_toml;
+
+    use super::*;
+
+    #[test]
+    fn every_robot_has_a_check_value() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../robots");
+        let paths = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let robots: Vec<_> = paths.filter(|path| path.extension().unwrap() == "toml").collect();
+        assert!(robots.len() >= 9);
+        for path in robots {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let robot = read_toml("robot.toml", &text).unwrap().robot;
+            let value = check_value(&robot, false).unwrap();
+            assert_eq!(value.forces.len(), robot.degrees_of_freedom(), "{}", robot.name);
+        }
+    }
+
+    /// Only tips exert wrenches, wherever other frames are.
+    #[test]
+    fn frames_without_wrenches_change_nothing() {
+        let text = include_str!("../../../robots/planar_2r.toml");
+        let forces = |text: &str| {
+            check_value(&read_toml("robot.toml", text).unwrap().robot, false).unwrap().forces
+        };
+        let frame = "\n[[frame]]\nname = \"camera\"\nparent = \"1\"\n";
+        assert_eq!(forces(text), forces(&format!("{text}{frame}")));
+    }
 }

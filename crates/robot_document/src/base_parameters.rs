@@ -107,11 +107,7 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
     let found = found(&derivation)?;
     let symbols = SymbolTable::new(robot, Trigonometry::Named)?;
     let formulas = Formulas { symbols: &symbols, order: &Order::new(robot) };
-    let all = found.standard.iter().map(|(one, _)| (one.name(), shape(one.quantity, "", one.link)));
-    let mut all = all.chain(found.base.iter().map(|one| (one.name(), look(one))));
-    if let Some((name, _)) = all.find(|(name, shape)| !symbols.is_free(name, shape)) {
-        return Err(Error::TakenParameter { name });
-    }
+    check_names(&symbols, &found)?;
     let standard: Vec<Option<Written>> = found
         .standard
         .iter()
@@ -139,6 +135,26 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
     }
     let standard = standard.into_iter().flatten().map(|one| one.text).collect();
     Ok(BaseSet { standard, list, rounded: found.rounded })
+}
+
+/// Returns an error if a symbol of the robot has the name or the layout of a standard or base parameter without being
+/// the value of this parameter.
+fn check_names(symbols: &SymbolTable, found: &BaseParameters<'_>) -> Result<(), Error> {
+    let standard = found
+        .standard
+        .iter()
+        .map(|(one, value)| (one.name(), shape(one.quantity, "", one.link), *value));
+    let values = found.nominal();
+    let base = found.base.iter().zip(&values).map(|(one, value)| (one.name(), look(one), *value));
+    for (name, shape, value) in standard.chain(base) {
+        let own = value.as_symbol().map(|symbol| value.graph().symbol_name(symbol));
+        let printed = symbols.printed_as(&latex::formula(&shape)).map(str::to_owned);
+        let named = symbols.is_symbol(&name).then(|| name.clone());
+        if [printed, named].into_iter().flatten().any(|other| Some(&other) != own.as_ref()) {
+            return Err(Error::TakenParameter { name });
+        }
+    }
+    Ok(())
 }
 
 impl BaseSet {

@@ -166,7 +166,7 @@ fn a_first_robot_has_a_name_that_robots_can_have() {
         ("two-link", "only letters, digits and _"),
         (
             "q1",
-            "a joint's position, velocity, acceleration or torque; choose another name, such as `q1_1`",
+            "a joint's position, velocity, acceleration or torque; choose another name, such as `q1_a`",
         ),
         ("tanh", "a symbol of the equations"),
         (&*"x".repeat(65), "65 bytes long; at most 64"),
