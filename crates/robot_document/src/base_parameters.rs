@@ -147,11 +147,15 @@ fn check_names(symbols: &SymbolTable, found: &BaseParameters<'_>) -> Result<(), 
     let values = found.nominal();
     let base = found.base.iter().zip(&values).map(|(one, value)| (one.name(), look(one), *value));
     for (name, shape, value) in standard.chain(base) {
-        let own = value.as_symbol().map(|symbol| value.graph().symbol_name(symbol));
         let printed = symbols.printed_as(&latex::formula(&shape)).map(str::to_owned);
-        let named = symbols.is_symbol(&name).then(|| name.clone());
-        if [printed, named].into_iter().flatten().any(|other| Some(&other) != own.as_ref()) {
-            return Err(Error::TakenParameter { name });
+        let named = symbols.has(&name).then(|| name.clone());
+        for other in [printed, named].into_iter().flatten() {
+            let value = polynomials(&[value])?.first().map(Polynomial::to_expr);
+            let symbol =
+                value.and_then(|value| Some(value.graph().symbol_name(value.as_symbol()?)));
+            if symbol.as_ref() != Some(&other) {
+                return Err(Error::TakenParameter { name });
+            }
         }
     }
     Ok(())

@@ -173,6 +173,11 @@ impl SymbolTable {
         free.copied().unwrap_or_else(|| self.free_letter(candidates))
     }
 
+    /// Whether there is a symbol of this name.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.entries.contains_key(name)
+    }
+
     /// The name of the symbol that is printed as this LaTeX.
     pub(crate) fn printed_as(&self, latex: &str) -> Option<&str> {
         self.printed.get(latex).map(String::as_str)
