@@ -205,11 +205,15 @@ fn changed(robot: &Robot, input: &Input<'_>, snaps: &[Snap], tolerance: f64) -> 
     Some(holding("p", words).class("note"))
 }
 
+/// The greatest height of a scheme in pixels that fits a screen with its caption.
+const LOW: f64 = 520.0;
+
 fn kinematics(robot: &Robot, symbols: &Symbols, notes: [Option<Element>; 2]) -> Section {
     let caption = holding("figcaption", scheme::CAPTION);
-    let scheme::Picture { element: scheme, width } = scheme::scheme(robot);
+    let scheme::Picture { element: scheme, width, height } = scheme::scheme(robot);
     let is_beside = tables::fits_beside(robot, width);
     let figure = element("figure").with(scheme).with(caption);
+    let figure = if height <= LOW { figure.class("low") } else { figure };
     let tables = std::iter::once(tables::kinematics(robot))
         .chain(tables::dh(robot, symbols))
         .chain(tables::frames(robot));

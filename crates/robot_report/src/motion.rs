@@ -46,7 +46,7 @@ pub(crate) fn torques(programs: &Programs) -> Vec<Node> {
         table.row("", symbol.as_str(), cells);
         let title = format!("{symbol}, joint {}", coordinate.joint);
         let plot = Plot { number: index + 1, title, unit, t: &found.t, curves };
-        body.push(holding("figure", plot.build()).into());
+        body.push(holding("figure", plot.build()).class("wide").into());
     }
     body.push(table.build().into());
     body

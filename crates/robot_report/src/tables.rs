@@ -29,7 +29,7 @@ pub(crate) fn kinematics(robot: &Robot) -> Element {
             text::pose(robot, &link.placement).into(),
             limits
                 .map_or_else(String::new, |[low, high]| {
-                    format!("{}\u{a0}…\u{a0}{}", text::number(low), text::number(high))
+                    format!("{} …\u{a0}{}", text::number(low), text::number(high))
                 })
                 .into(),
         ];

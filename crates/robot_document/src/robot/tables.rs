@@ -216,9 +216,11 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
         let without = range.filter(|column| !columns.contains(column));
         without.filter_map(|column| names.get(column).copied()).collect::<Vec<_>>()
     };
+    let is_merged = robot.links.iter().any(|link| link.bodies.len() > 1);
+    let merged = if is_merged { " A link includes the bodies that are fixed to it." } else { "" };
     let caption = format!(
         "Masses, kg; centers of mass, m; moments of inertia about the center of mass in the axes of the link frame, \
-         kg m². Values are rounded.{}",
+         kg m². Values are rounded.{merged}{}",
         words::zeros(&omitted(1..4), &omitted(4..names.len()))
     );
     Ok(Table { caption, head, rows, keys })

@@ -61,7 +61,7 @@ impl<'r> Drawing<'r> {
             .with(holding("title", title).attribute("id", "scheme-title"))
             .with(holding("desc", description).attribute("id", "scheme-description"))
             .with_all(shapes.iter().map(Shape::svg));
-        Picture { element, width: size.x }
+        Picture { element, width: size.x, height: size.y }
     }
 
     /// Returns the drawing as a figure for documents.

@@ -36,6 +36,8 @@ pub(crate) struct Picture {
     pub(crate) element: Element,
     /// The width in pixels.
     pub(crate) width: f64,
+    /// The height in pixels.
+    pub(crate) height: f64,
 }
 
 /// Draws the scheme as SVG.
