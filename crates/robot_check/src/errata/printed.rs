@@ -254,13 +254,13 @@ mod tests {
 
     #[test]
     fn every_bad_line_is_reported_at_its_place() {
-        let text = "Q1\nQ2 = a + 2q3\nQ3 =\nQ 4 = q1\n(5) Q5 = a\n  + b c\n";
+        let text = "Q1\nQ2 = a + 2q3\nQ3 =\nQ 4 = q1\n= c\n(5) Q5 = a\n  + b c\n";
         let errors = read(text).unwrap_err();
         let places: Vec<&str> = errors
             .iter()
             .map(|error| &text[error.primary.as_ref().unwrap().span.clone()])
             .collect();
-        assert_eq!(places, ["Q1", "2q3", "Q3", "Q 4", "b c"]);
+        assert_eq!(places, ["Q1", "2q3", "Q3", "Q 4", "=", "b c"]);
         assert_eq!(read("# nothing\n").unwrap_err().len(), 1);
     }
 

@@ -159,6 +159,7 @@ mod tests {
             "cos(pi/2)",
             "sign(a - 3*b)",
             "0^0",
+            "1/(pi/1e16)",
         ] {
             assert_eq!(reason(text), "", "{text}");
         }
@@ -170,6 +171,7 @@ mod tests {
             "1/(a - 3*b)",
             "1/sin(pi)",
             "(a - 3*b)^-1",
+            "1/((a - 3*b)/1e-9)",
             "2/(x - x*0)^0/0",
             "1/(sqrt(2)*sqrt(3) - sqrt(6))",
             "x + 1/cos(pi/2)",

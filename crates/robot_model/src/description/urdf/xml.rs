@@ -108,3 +108,16 @@ fn byte_of(text: &str, position: TextPos) -> Span {
     let length = text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
     at..at + length
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_errors_keep_the_words_of_the_parser() {
+        let text = "<robot name=arm/>";
+        let error = Document::parse(text).unwrap_err();
+        let message = words(text, &error).message;
+        assert_eq!(message, "invalid XML: expected a quote not 'a'");
+    }
+}
