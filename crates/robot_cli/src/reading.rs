@@ -66,3 +66,19 @@ impl ReadingArguments {
         text::warnings(&new, terminal)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_flag_sets_its_own_option() {
+        for (allow_massless, allow_unphysical) in [(true, false), (false, true)] {
+            let options = ReadingArguments { allow_massless, allow_unphysical }.options();
+            assert_eq!(
+                (options.allow_massless, options.allow_unphysical),
+                (allow_massless, allow_unphysical)
+            );
+        }
+    }
+}

@@ -7,7 +7,7 @@ mod harmless;
 mod packages;
 
 use harmless::{Chosen, PLAIN, in_every_language};
-use robot_build::languages::{Language, package};
+use robot_build::languages::{Language, package, sources};
 use robot_build::{Builder, Options, Scalar, Source, Trigonometry};
 use robot_model::functions::{FunctionKind, Functions};
 use robot_symbolic::Random;
@@ -107,6 +107,20 @@ fn a_readme_has_the_names_of_the_code() {
         let files = package(&source, &Options::default(), language).unwrap();
         let readme = text_of(&files, "README.md");
         assert!(readme.contains("| `DOF_2` |") && readme.contains("```text\nDOF_2\n"), "{readme}");
+    }
+}
+
+/// What else can be generated is listed in Rust, because the places to choose it are those of Rust.
+#[test]
+fn sources_in_rust_alone_list_the_functions_that_can_be_added() {
+    let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
+    for language in [Language::Rust, Language::C] {
+        let files = sources(&source, &options(Scalar::F64), language).unwrap();
+        let has_list = files
+            .iter()
+            .filter_map(|file| file.contents.text())
+            .any(|text| text.contains("Other functions can be generated too"));
+        assert_eq!(has_list, language == Language::Rust, "{}", language.name());
     }
 }
 
@@ -219,7 +233,7 @@ fn options_of_rust_are_refused_in_other_languages() {
     ] {
         for language in Language::ALL {
             let printed = [
-                robot_build::languages::sources(&source, &options, *language).map(|_| ()),
+                sources(&source, &options, *language).map(|_| ()),
                 package(&source, &options, *language).map(|_| ()),
             ];
             for printed in printed {

@@ -43,28 +43,3 @@ fn has_free_geometry(robot: &Robot) -> bool {
                 || formulas.any(|formula| formula.symbols().next().is_some())
         })
 }
-
-#[cfg(test)]
-mod tests {
-    use super::has_shared_coordinates;
-    use crate::description::read_toml;
-
-    #[test]
-    fn coordinates_of_several_joints_or_with_ratios_are_shared() {
-        let link = |name: &str, rest: &str| {
-            format!(
-                "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"z\"{rest} }}\n\
-                 mass = 1\ncenter_of_mass = [0.5, 0, 0]\n\
-                 inertia = {{ xx = 0.01, yy = 0.01, zz = 0.01 }}\n"
-            )
-        };
-        let shared = |rest: &str| {
-            let links = link("one", "") + &link("two", rest);
-            let text = format!("format = 1\n[robot]\nname = \"gripper\"\n{links}");
-            has_shared_coordinates(&read_toml("gripper", &text).unwrap().robot)
-        };
-        assert!(!shared(""));
-        assert!(shared(", mimic = { joint = \"one\" }"));
-        assert!(shared(", mimic = { joint = \"one\", ratio = 2 }"));
-    }
-}

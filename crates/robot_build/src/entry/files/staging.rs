@@ -180,3 +180,33 @@ pub(super) fn remove_leftovers(target: &Path) {
 fn remove(path: &Path) {
     let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
 }
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::*;
+
+    #[test]
+    fn a_temporary_file_that_another_process_took_or_removed_is_passed_over() {
+        let name = format!("robot_build-staging-{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        let _ = fs::remove_dir_all(&folder);
+        fs::create_dir_all(&folder).unwrap();
+        let others = RefCell::new(vec![]);
+        let staged = Staged::beside(&folder.join("a.rs"), |path| {
+            let file = fs::File::create_new(path)?;
+            let other = fs::File::open(path)?;
+            match others.borrow().len() {
+                0 => other.try_lock()?,
+                1 => fs::remove_file(path)?,
+                _ => {}
+            }
+            others.borrow_mut().push(other);
+            Ok(Some(file))
+        });
+        assert!(staged.unwrap().path().exists());
+        assert_eq!(others.borrow().len(), 3);
+        let _ = fs::remove_dir_all(&folder);
+    }
+}

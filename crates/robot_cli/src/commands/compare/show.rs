@@ -197,4 +197,18 @@ mod tests {
             assert!(line.starts_with(start), "{line:?}");
         }
     }
+
+    #[test]
+    fn colors_change_no_text() {
+        let text = "(31) F_l5.x\n  printed -x\n  derived x\n  why\n";
+        let colored = colored(text);
+        assert_ne!(colored, text);
+        let mut plain = String::new();
+        let mut rest = colored.as_str();
+        while let Some((before, after)) = rest.split_once('\u{1b}') {
+            plain.push_str(before);
+            rest = after.split_once('m').map_or("", |(_, after)| after);
+        }
+        assert_eq!(plain + rest, text);
+    }
 }
