@@ -193,6 +193,7 @@ fn symbols_of_the_robot_name_nothing_else() {
     for form in [Form::Expanded, Form::Collected, Form::Grouped, Form::Regrouped] {
         assert!(why(latex("Q_1"), form).starts_with("the letter Q is that of other symbols"));
         assert!(why(latex(r"\pi"), form).contains("`r1` and `pi` are both printed as"));
+        assert!(why(latex(r"\mathrm{sin}"), form).contains("`r1` and `sin` are both printed as"));
         assert!(why(latex("r_2^2"), form).contains("`r1` and `r2^2` are both printed as"));
     }
     for vector in ["q", r"\dot{q}", r"\ddot{q}"] {

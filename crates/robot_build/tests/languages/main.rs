@@ -108,6 +108,11 @@ fn a_readme_has_the_names_of_the_code() {
         let readme = text_of(&files, "README.md");
         assert!(readme.contains("| `DOF_2` |") && readme.contains("```text\nDOF_2\n"), "{readme}");
     }
+    // Classes of C++.
+    let text = ARM.to_owned() + "[code.bundles]\nModel = [\"gravity\", \"energies\"]\n";
+    let source = Source { name: "a.toml".to_owned(), text };
+    let files = package(&source, &Options::default(), Language::Cpp).unwrap();
+    assert!(text_of(&files, "README.md").contains("| `Model_2` |"));
 }
 
 /// What else can be generated is listed in Rust, because the places to choose it are those of Rust.

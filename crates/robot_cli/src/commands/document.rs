@@ -60,6 +60,9 @@ pub(crate) struct Arguments {
 
 /// Parses the path of a document source.
 fn source_path(text: &str) -> Result<PathBuf, String> {
+    if text.is_empty() {
+        return Err("the name is empty; name a file".to_owned());
+    }
     let path = PathBuf::from(text);
     let is_typeset = path.extension().is_some_and(|extension| extension == "pdf");
     let refusal = "only sources are written; name the file NAME.tex, NAME.typ or NAME.md";

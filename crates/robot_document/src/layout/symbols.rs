@@ -13,8 +13,15 @@ use super::{Order, Trigonometry, polynomial};
 use crate::error::Error;
 use crate::latex;
 
-/// The printed form of the number π.
-const PI: &str = "\\pi";
+/// The number π and the functions that equations have, with printed forms that read as these.
+const OWN: [(&str, &str); 6] = [
+    ("pi", "\\pi"),
+    ("sin", "\\mathrm{sin}"),
+    ("cos", "\\mathrm{cos}"),
+    ("tanh", "\\mathrm{tanh}"),
+    ("sign", "\\mathrm{sign}"),
+    ("sign", "\\mathrm{sgn}"),
+];
 
 /// The layouts of a robot's symbols and of symbols that a form of the equations defines, and the notation of sines and
 /// cosines.
@@ -65,9 +72,11 @@ impl SymbolTable {
             }
         }
         table.check_powers()?;
-        if let Some(name) = table.printed_as(PI) {
-            let (name, other) = (name.to_owned(), "pi".to_owned());
-            return Err(Error::Alike { name, other, latex: PI.to_owned() });
+        for (other, latex) in OWN {
+            if let Some(name) = table.printed_as(latex) {
+                let (name, other) = (name.to_owned(), (*other).to_owned());
+                return Err(Error::Alike { name, other, latex: (*latex).to_owned() });
+            }
         }
         Ok(table)
     }

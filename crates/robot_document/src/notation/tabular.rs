@@ -1,5 +1,5 @@
-//! Tables that fit a column of text: in smaller type, with cells of several lines, in two halves side by side, across
-//! all columns of the page, or in parts.
+//! Tables that fit a column of text: in smaller type, with cells of several lines, in parts side by side, across
+//! all columns of the page, or on several pages.
 
 use crate::document::{Block, Cell, Document, Inline, Table};
 use crate::width::{text_width, width};
@@ -25,8 +25,8 @@ pub(super) struct Part {
     pub(super) lines: f64,
 }
 
-/// The number of rows from which a narrow table is set in two halves side by side, and the number of rows in each of
-/// more parts.
+/// The number of rows from which a narrow table is set in two halves side by side, and the least number of rows in each
+/// of more parts.
 const LONG: usize = 14;
 /// The largest number of parts of a table that stand side by side.
 const BESIDE: usize = 4;

@@ -118,8 +118,8 @@ impl Runner for Thumb {
     }
 }
 
-/// Compiles each function separately and checks that its machine code has no calls and no branches except the return.
-/// Very long functions call their parts.
+/// Compiles each function that has a batch separately and checks that its machine code has no calls and no branches
+/// except the return. Very long functions call their parts.
 fn straight(tree: &Tree<'_>, folder: &Path) -> Result<(), String> {
     let names = Names::new(&tree.name);
     let mut text = format!("#include \"{}.h\"\n", tree.name);

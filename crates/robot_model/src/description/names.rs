@@ -114,7 +114,14 @@ pub(super) fn reserved(name: &str) -> Option<String> {
     if OWN.contains(&name) || JointVariable::from_name(name).is_some() {
         return Some("a symbol of the equations".to_owned());
     }
-    is_coordinate(name).then(|| "a joint's position, velocity, acceleration or torque".to_owned())
+    const COORDINATE: &str = "a joint's position, velocity, acceleration or torque";
+    // `q_1` is printed like `q1`.
+    let plain: String = name.chars().filter(|letter| *letter != '_').collect();
+    match is_coordinate(&plain) {
+        true if plain == name => Some(COORDINATE.to_owned()),
+        true => Some(format!("`{plain}` is {COORDINATE}")),
+        false => None,
+    }
 }
 
 /// Whether a name is that of a joint variable in equations, such as `q1`, `qd1`, `qdd1`, `Q1` or `tau1`.

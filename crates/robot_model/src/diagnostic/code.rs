@@ -92,7 +92,7 @@ codes! {
     LIMIT_SIGN = "R0618", "A joint limit has an impossible sign.";
     TAKEN_AS_BASE = "R0701", "A link is used as the base.";
     TAKEN_TOGETHER = "R0702", "A fixed link is merged into its parent.";
-    TAKEN_COORDINATE = "R0703", "A joint's coordinate needs attention.";
+    TAKEN_COORDINATE = "R0703", "The coordinate of a joint is stated.";
     TAKEN_DEFAULT = "R0704", "A value that is not in the file has the format's default.";
     TAKEN_NAME = "R0705", "A name is changed.";
     LEFT_OUT = "R0706", "Content of the file is not used.";

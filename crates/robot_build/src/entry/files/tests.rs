@@ -281,6 +281,7 @@ mod unix {
         // A file that does not exist yet, but will be read by the next run.
         let plan = folder.path("arm.plan");
         assert!(Writer::new().inputs([&plan]).write(&[output(&plan, NEW)]).is_err());
+        assert!(Writer::new().inputs([&plan]).write_folder(&plan, &[]).is_err());
         assert_eq!(fs::read_to_string(&input).unwrap(), OWN);
         assert_eq!(folder.names(), ["arm.toml", "hard", "soft"]);
     }

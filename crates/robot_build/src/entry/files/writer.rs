@@ -191,8 +191,9 @@ impl Writer {
     ///
     /// # Errors
     ///
-    /// The errors of [`Writer::write`], and a folder whose path is a file.
+    /// The errors of [`Writer::write`], and a folder whose path is a file or that of an input.
     pub fn write_folder(&self, folder: &Path, files: &[File]) -> Result<usize, Errors> {
+        self.check_input(folder)?;
         let failed = |error| cannot_write(folder, &error);
         let target = match place(folder).map_err(failed)? {
             Place::Free(target) => target,
@@ -245,11 +246,17 @@ impl Writer {
         Ok(Some(target))
     }
 
+    /// Returns an error if the path of an output is that of an input, which does not have to exist.
+    fn check_input(&self, path: &Path) -> Result<(), Error> {
+        match self.inputs.iter().find(|input| is_same(path, input)) {
+            Some(input) => Err(Error::IsInput { path: path.to_owned(), input: input.clone() }),
+            None => Ok(()),
+        }
+    }
+
     /// Finds the target at the path of an output; inputs, folders and system files are errors.
     fn target(&self, path: &Path) -> Result<Target, Error> {
-        if let Some(input) = self.inputs.iter().find(|input| is_same(path, input)) {
-            return Err(Error::IsInput { path: path.to_owned(), input: input.clone() });
-        }
+        self.check_input(path)?;
         let is_folder = || {
             let reason = "it is a folder; name a file".to_owned();
             Error::File { action: "write", path: path.to_owned(), reason }

@@ -14,6 +14,9 @@ pub(super) const TAKEN: &[&str] = &[
     "with_payload",
     "model_init",
     "nominal",
+    // Classes in C++.
+    "Model",
+    "Parameters",
 ];
 
 /// The names of a module's items, which begin with the name of the module. Names of items for internal use end with an

@@ -142,7 +142,7 @@ static void finish(const char *what)
     text.push_str(&format!(
         "    {real} *memory = nullptr;
     if (cudaMallocManaged(&memory, {size} * sizeof({real})) != cudaSuccess) {{
-        printf(\"the device has no memory for a state\\n\");
+        printf(\"cannot allocate memory for a state on the device\\n\");
         return 2;
     }}
 "
