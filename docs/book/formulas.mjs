@@ -15,7 +15,7 @@ let count = 0;
 const set = (latex) => {
     count += 1;
     // Temml leaves no space between a factor and a function behind it.
-    latex = latex.replace(/(?<=[\w})]) (?=\\(?:sin|cos) )/g, " \\, ");
+    latex = latex.replace(/(?<=[\w})]) (?=\\(?:sin|cos)\b)/g, " \\, ");
     const options = { displayMode: true, throwOnError: true, strict: true };
     return `<div class="formula">${temml.renderToString(latex.trim(), options).replace(/\s*\n\s*/g, " ")}</div>\n`;
 };

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 
 use robot_model::diagnostic::{Diagnostics, quote, visible};
-use robot_model::functions::WrongName;
+use robot_model::functions::{ALL_FUNCTIONS, WrongName};
 use robot_model::snap::InvalidSnap;
 
 /// An error; its text states the place, the reason and the remedy.
@@ -41,6 +41,9 @@ pub enum Error {
         default"
     )]
     NoFunctions,
+    /// The word for all functions in a list with names of functions.
+    #[error("`{ALL_FUNCTIONS}` selects all functions; leave the others out")]
+    AllFunctionsAndOthers,
     /// An invalid snapping tolerance.
     #[error(transparent)]
     Snap(#[from] InvalidSnap),

@@ -25,10 +25,7 @@ pub fn check_value(robot: &Robot, friction: bool) -> Option<CheckValue> {
     let [fx, fy, fz, mx, my, mz] = WRENCH.each_ref().map(number);
     let wrench = Wrench { force: [fx, fy, fz].into(), moment: [mx, my, mz].into() };
     // The solver takes the wrench of each frame; only those of tips are part of the equations.
-    let of_frame = |frame: &Frame| match frame.wrench {
-        Some(_) => wrench,
-        None => Wrench { force: [0.0; 3].into(), moment: [0.0; 3].into() },
-    };
+    let of_frame = |frame: &Frame| frame.wrench.as_ref().map_or_else(Wrench::zero, |_| wrench);
     let loads = Loads { wrenches: robot.frames.iter().map(of_frame).collect(), friction };
     let mechanism = Mechanism::nominal(robot).ok()?;
     let (q, qd, qdd) = (numbers(&positions), numbers(&velocities), numbers(&accelerations));

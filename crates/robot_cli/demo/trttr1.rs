@@ -10,7 +10,7 @@
 /// - Inertia tensors are about the center of mass, in link axes unless the file says otherwise.
 /// - A tip's wrench is the wrench that the tip exerts on its surroundings, in the tip's axes, with the moment about the tip's origin; the external wrench, which acts on the tip, is its negative. With upright axes, a mass m that hangs from the tip is force z = +m g.
 /// - Armature, rotor inertia and gear ratio are separate values; the reflected inertia is armature + ratio² · rotor inertia.
-/// - Friction is b q̇ + c (d/2) F sgn q̇ for a revolute joint and b q̇ + c F sgn q̇ for a prismatic joint, where F is the magnitude of the contact force across the axis and sgn 0 = 0.
+/// - Friction is b q̇, an offset, and dry friction times sgn q̇, as far as the joint has them. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.
 ///
 /// Other functions can be generated too: list them with `functions = ["…"]` in `[code]` of the robot file or in the macro, `.functions(["…"])` in the builder, or the command's option for functions; `"all"` selects all. Also available for this robot:
 /// `inverse_dynamics_wrench`, `inverse_dynamics_friction`, `inverse_dynamics_wrench_friction`, `link_wrenches`, `mass_matrix`, `mass_matrix_lower`, `bias`, `gravity`, `forward_dynamics`, `forward_dynamics_wrench`, `forward_dynamics_friction`, `forward_dynamics_wrench_friction`, `forward_kinematics`, `frame_poses`, `jacobian`, `jacobian_dot_qd`, `energies`, `coriolis_matrix`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`, `regressor`, `regressor_base`, `base_parameters`.

@@ -104,6 +104,7 @@ fn is_of_options(error: &Error) -> bool {
             | Error::Bundle { .. }
             | Error::FunctionName(_)
             | Error::NoFunctions
+            | Error::AllFunctionsAndOthers
             | Error::OfRust { .. }
             | Error::ParallelWithoutBatch
             | Error::Snap(_)

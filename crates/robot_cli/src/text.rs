@@ -15,6 +15,11 @@ use crate::robot::PRINT_SNAP;
 
 /// The message ``there is no function `invers`; did you mean `inverse`? There are …``.
 pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
+    format!("there is no {what} `{}`.{}", quote(name), meant(name, known))
+}
+
+/// The known name that resembles a wrong one, and all known names, behind a space.
+pub(crate) fn meant(name: &str, known: &[&str]) -> String {
     let near = nearest_word(name, known.iter().copied())
         .map(|near| format!(" Did you mean `{near}`?"))
         .unwrap_or_default();
@@ -22,7 +27,7 @@ pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
         [] => "None are available.".to_owned(),
         known => format!("Available: {}.", known.join(", ")),
     };
-    format!("there is no {what} `{}`.{near} {known}", quote(name))
+    format!("{near} {known}")
 }
 
 /// Prints the warnings of a robot file.

@@ -107,7 +107,8 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
     let found = found(&derivation)?;
     let symbols = SymbolTable::new(robot, Trigonometry::Named)?;
     let formulas = Formulas { symbols: &symbols, order: &Order::new(robot) };
-    check_names(&symbols, &found)?;
+    let values = found.nominal();
+    check_names(&symbols, &found, &values)?;
     let standard: Vec<Option<Written>> = found
         .standard
         .iter()
@@ -117,7 +118,7 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
         })
         .collect();
     let mut list = vec![];
-    for (parameter, value) in found.base.iter().zip(&polynomials(&found.nominal())?) {
+    for (parameter, value) in found.base.iter().zip(&polynomials(&values)?) {
         let coefficients = coefficients(parameter)?;
         let places = parameter.terms.iter().map(|(place, _)| *place);
         let texts: Result<Vec<_>, Error> = places
@@ -138,14 +139,17 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
 }
 
 /// Returns an error if a symbol of the robot has the name or the layout of a standard or base parameter without being
-/// the value of this parameter.
-fn check_names(symbols: &SymbolTable, found: &BaseParameters<'_>) -> Result<(), Error> {
+/// the value of this parameter. `values` are those of the base parameters.
+fn check_names(
+    symbols: &SymbolTable,
+    found: &BaseParameters<'_>,
+    values: &[Expr<'_>],
+) -> Result<(), Error> {
     let standard = found
         .standard
         .iter()
         .map(|(one, value)| (one.name(), shape(one.quantity, "", one.link), *value));
-    let values = found.nominal();
-    let base = found.base.iter().zip(&values).map(|(one, value)| (one.name(), look(one), *value));
+    let base = found.base.iter().zip(values).map(|(one, value)| (one.name(), look(one), *value));
     for (name, shape, value) in standard.chain(base) {
         let printed = symbols.printed_as(&latex::formula(&shape)).map(str::to_owned);
         let named = symbols.has(&name).then(|| name.clone());

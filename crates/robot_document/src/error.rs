@@ -60,6 +60,15 @@ pub enum Error {
         /// The name.
         name: String,
     },
+    /// A symbol of the robot has the name of a vector or matrix in text.
+    #[error(
+        "in text, these equations name a vector `{name}`, like a symbol of this robot; print them with \
+         components (the layout `scalars`), or rename the symbol in the robot file"
+    )]
+    TakenArray {
+        /// The name.
+        name: String,
+    },
     /// A symbol of the robot has the name or the printed form of a standard or base parameter.
     #[error(
         "`{name}` would be both a symbol of the robot and one of the base parameters or of the parameters \

@@ -229,3 +229,41 @@ fn entries_with_long_numbers_are_printed_once() {
         }
     }
 }
+
+/// An entry on or above the diagonal is 0, stands in the matrix, or has an equation, also if it equals another entry: a
+/// reader takes an entry that is not printed as 0.
+#[test]
+fn entries_of_matrices_and_columns_are_all_printed() {
+    let mut equal = 0;
+    for robot in robots() {
+        let printed = equations(
+            &robot,
+            &EquationOptions { form: Form::Grouped, ..EquationOptions::default() },
+        );
+        let printed = printed.unwrap();
+        for room in [Room::Points(150.0), Room::Points(450.0), Room::Characters(40)] {
+            let shown = printed.arranged(room);
+            let is_shown = |name: &str| {
+                shown.groups.iter().flat_map(|group| &group.equations).any(|one| one.name == name)
+            };
+            for array in printed.arrays().filter(|array| !is_shown(&array.name)) {
+                for cell in array.rows.iter().flatten() {
+                    let is_zero = cell.whole.as_ref().is_some_and(|whole| whole.text == "0");
+                    let own = cell.alias.as_ref().map_or(&cell.name, |alias| &alias.name);
+                    assert!(is_zero || is_shown(own), "{} {room:?}: {own}", robot.name);
+                    equal += usize::from(cell.alias.is_some());
+                }
+            }
+        }
+        // The places of equal entries are those of the mass matrix.
+        let masses = printed.arrays().next().unwrap();
+        for (row, cells) in masses.rows.iter().enumerate() {
+            for (column, cell) in cells.iter().enumerate().skip(row) {
+                let own = cell.alias.as_ref().map_or(&cell.name, |alias| &alias.name);
+                let place = format!("_{}_{}", row + 1, column + 1);
+                assert!(own.starts_with("0_") || own.ends_with(&place), "{}: {own}", robot.name);
+            }
+        }
+    }
+    assert!(equal >= 8, "{equal}");
+}

@@ -79,8 +79,16 @@ impl Arguments {
             let (all, names): (Vec<&LitStr>, Vec<&LitStr>) =
                 names.iter().partition(|name| name.value() == ALL_FUNCTIONS);
             let kinds = kinds(names, robot)?;
-            options.functions =
-                if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All };
+            options.functions = match all.first() {
+                None => Functions::Chosen(kinds),
+                Some(_) if kinds.is_empty() => Functions::All,
+                Some(all) => {
+                    return Err(syn::Error::new(
+                        all.span(),
+                        robot_build::Error::AllFunctionsAndOthers,
+                    ));
+                }
+            };
         }
         for (name, functions) in &self.bundles {
             let functions = kinds(functions, robot)?;

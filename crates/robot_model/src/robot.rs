@@ -294,7 +294,7 @@ impl Placement {
 pub struct Friction {
     /// The coefficient b of equation (4), N m s/rad or N s/m.
     pub viscous: Formula,
-    /// The coefficient c of equation (5): dry friction divided by the contact force across the axis.
+    /// The coefficient c of equation (5): dry friction divided by the contact force perpendicular to the axis.
     pub coulomb: Formula,
     /// The diameter d in equation (5): the journal diameter of a revolute joint, m (the paper's spindle diameter).
     pub spindle_diameter: Formula,

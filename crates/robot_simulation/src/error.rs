@@ -81,8 +81,8 @@ impl fmt::Display for Cause {
                  (a coordinate moves no mass) or the motion has diverged",
             ),
             Cause::Torques => formatter.write_str(
-                "the joint torques do not have finite values there; look for a division by zero \
-                 or the square root of a negative number in their expressions",
+                "the joint torques do not have finite values there; look for a division by zero, \
+                 the square root of a negative number or an overflow in their expressions",
             ),
             Cause::Friction => formatter.write_str(
                 "no acceleration is consistent with the load-dependent friction; check the \
@@ -94,7 +94,7 @@ impl fmt::Display for Cause {
             ),
             Cause::Steps(limit) => write!(
                 formatter,
-                "{limit} steps were not enough. {SMALL}; otherwise allow more steps, or increase \
+                "the limit of {limit} steps was reached. {SMALL}; otherwise allow more steps, or increase \
                  the tolerance"
             ),
             Cause::Slow(steps, limit) => write!(

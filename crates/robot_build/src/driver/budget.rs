@@ -33,7 +33,7 @@ pub struct Over {
     pub function: String,
     /// The resource that exceeds its limit.
     pub resource: Resource,
-    /// The amount used.
+    /// The operation count, or the estimated stack in bytes.
     pub found: u64,
     /// The limit.
     pub limit: u64,
@@ -50,8 +50,7 @@ impl Over {
             }
             Resource::Stack => {
                 "this is an upper bound for builds without optimization, sines and cosines excluded: measure the \
-                 compiled code; \
-                 use `f32`, generate fewer outputs, or raise `max_stack`"
+                 compiled code; use `f32`, generate fewer outputs, or raise `max_stack`"
             }
         }
     }
@@ -138,7 +137,7 @@ fn excess(cost: Cost<'_>, limit: &Limit) -> Option<Diagnostic> {
     )
 }
 
-/// Returns the limits of operations and stack that the file sets for a function.
+/// Returns the limits on operations and stack that the file sets for a function.
 fn limits<'p>(
     programs: &'p Programs,
     function: &str,

@@ -12,7 +12,7 @@ pub const CONVENTIONS: [&str; 7] = [
      negative. With upright axes, a mass m that hangs from the tip is force z = +m g.",
     "Armature, rotor inertia and gear ratio are separate values; the reflected inertia is \
      armature + ratio² · rotor inertia.",
-    "Friction is b q̇ + c (d/2) F sgn q̇ for a revolute joint and b q̇ + c F sgn q̇ for a \
-     prismatic joint, where F is the magnitude of the contact force across the axis and sgn 0 = \
-     0.",
+    "Friction is b q̇, an offset, and dry friction times sgn q̇, as far as the joint has them. Dry \
+     friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where \
+     F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.",
 ];

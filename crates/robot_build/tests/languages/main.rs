@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::panic)]
 
 mod harmless;
+mod names;
 mod packages;
 
 use harmless::{Chosen, PLAIN, in_every_language};
@@ -64,7 +65,7 @@ fn the_builder_writes_the_packages_of_the_command() {
 #[test]
 fn functions_over_columns_of_a_single_joint_use_all_parameters() {
     let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
-    for language in [Language::C, Language::Cpp] {
+    for language in [Language::C, Language::Cpp, Language::Cuda] {
         let files = package(&source, &Options::default(), language).unwrap();
         let texts = files.iter().map(|file| String::from_utf8_lossy(file.contents.bytes()));
         let text: String = texts.collect();

@@ -9,7 +9,7 @@ use robot_dynamics::quantity::Kind;
 use robot_model::functions::Effects;
 use robot_model::robot::Robot;
 use robot_symbolic::{
-    AngleSums, Expr, Graph, Id, Number, Polynomial, PolynomialError, PolynomialOptions, print,
+    AngleSums, Expr, Graph, Id, Number, Polynomial, PolynomialError, PolynomialOptions, View, print,
 };
 
 use crate::difference::{Options, Refusal};
@@ -128,10 +128,13 @@ fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
         .collect())
 }
 
-/// The text of powers, such as `m2*qd1^2*sin(q2)`.
+/// The text of powers, such as `m2*qd1^2*sin(q2)`; a sum is in parentheses.
 fn powers(factors: &[(Expr<'_>, i32)]) -> String {
     let power = |(atom, exponent): &(Expr<'_>, i32)| {
-        let text = print::to_text(*atom).unwrap_or_else(|error| error.to_string());
+        let mut text = print::to_text(*atom).unwrap_or_else(|error| error.to_string());
+        if !matches!(atom.view(), View::Symbol(_) | View::Call(..) | View::Pi) {
+            text = format!("({text})");
+        }
         match exponent {
             1 => text,
             exponent => format!("{text}^{exponent}"),
@@ -164,5 +167,13 @@ mod tests {
         let found = terms([Some(sum), None]).unwrap();
         let powers: Vec<&str> = found.iter().map(|term| term.powers.as_str()).collect();
         assert_eq!(powers, ["m1^2", "m1*l1", "m1*sin(q1)", "m1", "1"]);
+    }
+
+    #[test]
+    fn sums_are_in_parentheses() {
+        let graph = Graph::new();
+        let quotient = graph.parse("m1/(m1 + mt)^2").unwrap();
+        let found = terms([Some(quotient), None]).unwrap();
+        assert_eq!(found[0].powers, "m1*(m1 + mt)^-2");
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::unit::Dimension;
 use robot_model::variable::JointVariable;
-use robot_symbolic::View;
+use robot_symbolic::{Expr, Function, View};
 
 use super::term::Term;
 
@@ -42,7 +42,8 @@ impl Dimensions {
         Dimensions { symbols }
     }
 
-    /// The dimension of a term, which is that of the product of its symbols' powers; `None` if one of them has no unit.
+    /// The dimension of a term, which is that of the product of its symbols' powers; `None` if a factor has an unknown
+    /// dimension.
     ///
     /// # Errors
     ///
@@ -50,14 +51,41 @@ impl Dimensions {
     pub(super) fn of_term(&self, term: &Term<'_>) -> Result<Option<Dimension>, String> {
         let mut product = Some(Dimension::NONE);
         for factor in &term.factors {
-            let View::Symbol(symbol) = factor.atom.view() else { continue };
-            let name = factor.atom.graph().symbol_name(symbol);
-            let Some(dimension) = self.symbols.get(&name) else { return Err(name) };
             let exponent = i8::try_from(factor.exponent).unwrap_or(i8::MAX);
             product = product
-                .zip(*dimension)
+                .zip(self.of_atom(factor.atom)?)
                 .map(|(product, dimension)| product.product(dimension.to_power(exponent)));
         }
         Ok(product)
+    }
+
+    /// The dimension of a symbol or function; `None` if it is unknown.
+    fn of_atom(&self, atom: Expr<'_>) -> Result<Option<Dimension>, String> {
+        match atom.view() {
+            View::Symbol(symbol) => {
+                let name = atom.graph().symbol_name(symbol);
+                self.symbols.get(&name).copied().ok_or(name)
+            }
+            View::Pi
+            | View::Call(Function::Sin | Function::Cos | Function::Sign | Function::Tanh, _) => {
+                Ok(Some(Dimension::NONE))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// Whether the derived terms of equations, each given with the dimension of its quantity, have these dimensions as
+    /// far as they are known. If one has not, its coefficient has a dimension, as with numbers in place of masses and
+    /// lengths, and so may the coefficient of any printed term.
+    pub(super) fn explain<'t, 'g: 't>(
+        &self,
+        derived: impl Iterator<Item = (&'t [Term<'g>], Dimension)>,
+    ) -> bool {
+        let known = derived.flat_map(|(terms, expected)| {
+            let known = terms.iter().filter_map(|term| self.of_term(term).ok()?);
+            known.map(move |dimension| dimension == expected)
+        });
+        let mut known = known.peekable();
+        known.peek().is_some() && known.all(|agrees| agrees)
     }
 }

@@ -21,6 +21,8 @@ pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
 const PHANTOM: &str = r"\phantom{";
 /// The maximum number of bytes of a left side in `\phantom`.
 const LONGEST_LEFT_SIDE: usize = 1000;
+/// The maximum number of bytes between the displays of one equation.
+const LONGEST_PROSE: usize = 1000;
 
 /// A printed equation in the text of the file, in which comments and marks are replaced by spaces.
 #[derive(Clone, Debug)]
@@ -44,9 +46,7 @@ impl Entry {
     pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
         let whole = self.part(0..self.text.len());
         let Some(place) = self.text.find('=') else {
-            let error = Diagnostic::error(code::EXPRESSION, "an equation without `=`");
-            let error = error.at(&whole.trimmed().span, "");
-            return Err(error.help("write `(number) quantity = terms`").into());
+            return Err(not_an_equation(&whole.trimmed()).into());
         };
         let left = self.part(0..place).trimmed();
         if left.text.is_empty() {
@@ -92,10 +92,12 @@ impl<'e> Part<'e> {
             let bracket = |c: char| " \t\r\n()[].,;&\\".contains(c);
             let rest = around.text.replace(r"\left", "").replace(r"\right", "").replace(r"\,", "");
             if !rest.chars().all(bracket) {
-                let error =
-                    Diagnostic::error(code::EXPRESSION, "a column vector next to other terms");
+                let error = Diagnostic::error(
+                    code::EXPRESSION,
+                    "these terms stand outside the column vector",
+                );
                 let error = error.at(&around.trimmed().span, "");
-                return Err(error.help("move them into the rows").into());
+                return Err(error.help("write them in its rows").into());
             }
         }
         let columns = self.sub(inside..inside + end);
@@ -109,9 +111,22 @@ impl<'e> Part<'e> {
     }
 }
 
+/// The error for text without `=`, which may be a heading between equations.
+fn not_an_equation(part: &Part<'_>) -> Diagnostic {
+    let in_words = |c: char| c.is_alphanumeric() || matches!(c, ' ' | ',' | ':' | '.');
+    let is_heading = part.text.contains(' ') && part.text.chars().all(in_words);
+    let help = if is_heading {
+        "begin a heading with `#`; of the forms that `equations` prints, `expanded` and `collected` can be read"
+    } else {
+        "write `quantity = terms`, with a number such as `(31)` in front if it has one"
+    };
+    let error = Diagnostic::error(code::EXPRESSION, "the equation has no `=`");
+    error.at(&part.span, "").help(help)
+}
+
 /// The error for a left side that is not a quantity.
 pub(super) fn unnamed(span: &Span) -> Diagnostic {
-    let message = "expected a quantity on the left, such as `F_l5.x` or `Q1`";
+    let message = "expected a quantity on the left side, such as `F_l5.x` or `Q1`";
     let help = "in LaTeX `F_{l_x}^{5}` or `Q_{1}`";
     Diagnostic::error(code::EXPRESSION, message).at(span, "").help(help)
 }
@@ -208,29 +223,23 @@ fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
 }
 
 /// Joins equations that continue in the next display, which begins with `\phantom` of their left side. Between the two
-/// parts, only a line break and spaces remain.
+/// parts, only a line break and spaces remain. Other `\phantom` become spaces, too, because they print nothing.
 fn rejoined(text: &str) -> String {
-    let seams: Vec<Range<usize>> =
-        text.match_indices(PHANTOM).filter_map(|(place, _)| seam(text, place)).collect();
-    let mut whole = blanked(text, &seams);
-    for seam in seams {
-        whole.replace_range(seam.start..seam.start + 2, r"\\");
+    let phantoms = text.match_indices(PHANTOM).filter_map(|(place, _)| {
+        let end = phantom_end(text, place)?;
+        Some((seam(text, place), place..end))
+    });
+    let phantoms: Vec<_> = phantoms.collect();
+    let start = |(seam, own): &(Option<usize>, Range<usize>)| seam.unwrap_or(own.start)..own.end;
+    let mut whole = blanked(text, &phantoms.iter().map(start).collect::<Vec<_>>());
+    for seam in phantoms.iter().filter_map(|(seam, _)| *seam) {
+        whole.replace_range(seam..seam + 2, r"\\");
     }
     whole
 }
 
-/// The range from the end of a display to the end of the `\phantom` at `place`, which begins the next display.
-fn seam(text: &str, place: usize) -> Option<Range<usize>> {
-    // The last command in the text before `end`, if it is `start` with a word in braces.
-    let word = |end: usize, start: &str| {
-        let text = text.get(..end)?.trim_end();
-        let open = text.len() - text.bytes().rev().take(24).position(|byte| byte == b'\\')? - 1;
-        let name = text.get(open..)?.strip_prefix(start)?.strip_suffix('}')?;
-        Some((open, name))
-    };
-    let (open, name) = word(place, r"\begin{")?;
-    let (end, closed) = word(open, r"\end{")?;
-    (name == closed && DISPLAYS.contains(&name.trim_end_matches('*'))).then_some(())?;
+/// The end of the `\phantom` at `place`.
+fn phantom_end(text: &str, place: usize) -> Option<usize> {
     let inside = place + PHANTOM.len();
     let mut depth = 1_usize;
     let close = text.get(inside..)?.bytes().take(LONGEST_LEFT_SIDE).position(|byte| {
@@ -241,7 +250,24 @@ fn seam(text: &str, place: usize) -> Option<Range<usize>> {
         }
         depth == 0
     })?;
-    Some(end..inside + close + 1)
+    Some(inside + close + 1)
+}
+
+/// The end of the preceding display, if the `\phantom` at `place` begins a display of the same name and there is none
+/// between them.
+fn seam(text: &str, place: usize) -> Option<usize> {
+    let before = text.get(..place)?.trim_end_matches(|c: char| c.is_whitespace() || c == '&');
+    let open = before.len() - before.bytes().rev().take(24).position(|byte| byte == b'\\')? - 1;
+    let name = before.get(open..)?.strip_prefix(r"\begin{")?.strip_suffix('}')?;
+    let end = format!(r"\end{{{name}}}");
+    // The start of the search may be in the middle of a character.
+    let near =
+        (open.saturating_sub(LONGEST_PROSE)..=open).find_map(|start| text.get(start..open))?;
+    let (_, between) = near.rsplit_once(end.as_str())?;
+    let others = [r"\begin{", r"\end{", r"\[", "$$"];
+    let is_display = DISPLAYS.contains(&name.trim_end_matches('*'));
+    (is_display && !others.iter().any(|other| between.contains(other)))
+        .then(|| open - between.len() - end.len())
 }
 
 /// The ranges of displayed equations, or errors at places at which something is not closed.

@@ -99,9 +99,9 @@ pub(super) fn mistakes(printed: Option<&Term<'_>>, derived: Option<&Term<'_>>) -
         (None, _) => return vec![bare(MistakeKind::MissingTerm)],
     };
     let mut mistakes = vec![];
-    if printed.coefficient == -&derived.coefficient {
+    if printed.stands_for(&-&derived.coefficient) {
         mistakes.push(bare(MistakeKind::Sign));
-    } else if printed.coefficient != derived.coefficient {
+    } else if !printed.stands_for(&derived.coefficient) {
         let [one, other] = [printed, derived].map(|term| Some(term.coefficient_text()));
         mistakes.push(Mistake { kind: MistakeKind::Coefficient, printed: one, derived: other });
     }

@@ -12,6 +12,7 @@ mod latex;
 mod mistake;
 mod order;
 mod printed;
+mod rounding;
 #[cfg(test)]
 mod spoiled;
 mod symbols;
@@ -92,6 +93,8 @@ pub struct Comparison {
     pub terms: usize,
     /// Whether the derived equations contain the wrenches of the tips: this is the case if any printed one does.
     pub wrench: bool,
+    /// The number of derived coefficients that agree with the printed decimals only to the digits printed.
+    pub rounded: usize,
     /// The differences, in the order of the printed equations.
     pub differences: Vec<Difference>,
 }
@@ -124,14 +127,15 @@ pub fn compare(
         .collect();
     let compared = expand(&graph, &printed, &quantities).map_err(|error| failed(vec![*error]))?;
     let lines = Lines::of(&source.text);
-    let found = find(&compared, &Dimensions::of(robot), &lines);
+    let (rounded, differences) = find(&compared, &Dimensions::of(robot), &lines).map_err(failed)?;
     let terms = compared.iter().filter(|one| !one.is_name).map(|one| one.print.len()).sum();
     Ok(Comparison {
         equations: compared.len(),
         names: compared.iter().filter(|one| one.is_name).count(),
         terms,
         wrench,
-        differences: found.map_err(failed)?,
+        rounded,
+        differences,
     })
 }
 
@@ -236,43 +240,81 @@ fn expand<'p, 'g>(
     Ok(compared
         .into_iter()
         .map(|(one, range)| {
-            let own = terms.get_mut(range).unwrap_or_default();
-            let print = own.iter_mut().flat_map(std::mem::take).collect();
+            let own = terms.get_mut(range).unwrap_or_default().iter_mut().map(std::mem::take);
+            let own = own.zip(&one.equation.terms);
+            let print = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
             Compared { print, ..one }
         })
         .collect())
 }
 
-/// All differences, or errors for the equations that have too many.
+/// The terms of a printed formula, with the errors of their coefficients.
+fn rounded<'g>(mut terms: Vec<Term<'g>>, formula: &robot_symbolic::Formula) -> Vec<Term<'g>> {
+    let Some(share) = rounding::of_formula(formula) else { return terms };
+    for term in &mut terms {
+        let error = &share * &term.coefficient;
+        term.rounding = Some(if error.is_negative() { -&error } else { error });
+    }
+    terms
+}
+
+/// The number of coefficients that agree only to the digits printed, and all differences, or errors for the equations
+/// that have too many.
 fn find(
     compared: &[Compared<'_, '_>],
     dimensions: &Dimensions,
     lines: &Lines,
-) -> Result<Vec<Difference>, Vec<Diagnostic>> {
-    let mut index = PrintedTerms::default();
+) -> Result<(usize, Vec<Difference>), Vec<Diagnostic>> {
+    let mut printed = PrintedTerms::default();
     for one in compared.iter().filter(|one| !one.is_name) {
-        index.insert(one.name(), &one.print);
+        printed.insert(one.name(), &one.print);
     }
-    let (mut differences, mut errors) = (vec![], vec![]);
+    let derived = compared.iter().map(|one| (one.derived.as_slice(), one.dimension));
+    let has_units = dimensions.explain(derived);
+    let known = Known { printed, dimensions, has_units };
+    let (mut rounded, mut differences, mut errors) = (0, vec![], vec![]);
     for one in compared {
-        let (wrong, missing) = term::leftover(&one.print, &one.derived);
-        if wrong.len().saturating_mul(one.derived.len()) > MAX_PAIRS {
-            let message = format!(
-                "{} of {} printed terms are not among the {} derived terms",
-                wrong.len(),
-                one.print.len(),
-                one.derived.len()
-            );
-            let error = Diagnostic::error(code::LIMIT, message).at(&one.equation.span, "");
-            errors.push(error.help("is this an equation of this robot?"));
+        let left = term::leftover(&one.print, &one.derived);
+        if left.wrong.len().saturating_mul(one.derived.len()) > MAX_PAIRS {
+            errors.push(too_different(one, left.wrong.len()));
             continue;
         }
-        for (printed, derived) in term::pair(wrong, missing) {
+        rounded += left.rounded;
+        for (printed, derived) in term::pair(left.wrong, left.missing) {
             let pair = (printed.as_ref(), derived.as_ref());
-            differences.push(one.difference(pair, &index, dimensions, lines));
+            differences.push(one.difference(pair, &known, lines));
         }
     }
-    if errors.is_empty() { Ok(differences) } else { Err(errors) }
+    if errors.is_empty() { Ok((rounded, differences)) } else { Err(errors) }
+}
+
+fn too_different(one: &Compared<'_, '_>, wrong: usize) -> Diagnostic {
+    let (print, derived) = (one.print.len(), one.derived.len());
+    let message =
+        format!("{wrong} of {print} printed terms are not among the {derived} derived terms");
+    let error = Diagnostic::error(code::LIMIT, message).at(&one.equation.span, "");
+    error.help("is this an equation of this robot?")
+}
+
+/// What evidence is found with.
+struct Known<'d> {
+    printed: PrintedTerms,
+    dimensions: &'d Dimensions,
+    /// Whether the dimension of a term is that of its symbols.
+    has_units: bool,
+}
+
+impl Known<'_> {
+    /// The evidence from the units of a printed term.
+    fn of_units(&self, term: &Term<'_>, expected: Dimension) -> Option<Evidence> {
+        match self.dimensions.of_term(term) {
+            Ok(Some(printed)) if printed != expected && self.has_units => {
+                Some(Evidence::Dimension { printed, expected })
+            }
+            Ok(_) => None,
+            Err(symbol) => Some(Evidence::UnknownSymbol(symbol)),
+        }
+    }
 }
 
 impl<'g> Compared<'_, 'g> {
@@ -287,22 +329,11 @@ impl<'g> Compared<'_, 'g> {
     fn difference(
         &self,
         (printed, derived): (Option<&Term<'g>>, Option<&Term<'g>>),
-        index: &PrintedTerms,
-        dimensions: &Dimensions,
+        known: &Known<'_>,
         lines: &Lines,
     ) -> Difference {
-        let mut evidence = vec![];
-        if let Some(term) = printed {
-            match dimensions.of_term(term) {
-                Ok(Some(dimension)) if dimension != self.dimension => evidence
-                    .push(Evidence::Dimension { printed: dimension, expected: self.dimension }),
-                Ok(_) => {}
-                Err(symbol) => evidence.push(Evidence::UnknownSymbol(symbol)),
-            }
-        }
-        if let Some(term) = derived {
-            evidence.extend(index.support(term, &self.name()));
-        }
+        let units = printed.and_then(|term| known.of_units(term, self.dimension));
+        let same = derived.and_then(|term| known.printed.support(term, &self.name()));
         let nearest = match (printed, derived) {
             (Some(term), None) => term.nearest(&self.derived),
             _ => None,
@@ -315,7 +346,7 @@ impl<'g> Compared<'_, 'g> {
             derived: derived.map(Term::to_string),
             nearest: nearest.map(Term::to_string),
             mistakes: mistake::mistakes(printed, derived),
-            evidence,
+            evidence: units.into_iter().chain(same).collect(),
         }
     }
 }

@@ -59,7 +59,7 @@ pub(super) fn read_printed(
     let mut errors = vec![];
     for entry in entries(&source.text, notation) {
         let read = entry.and_then(|entry| match notation {
-            Notation::Text => read_text(&entry),
+            Notation::Text => read_text(&entry, symbols),
             Notation::Latex => read_latex(&entry, symbols),
         });
         match read {
@@ -74,7 +74,7 @@ pub(super) fn read_printed(
     if errors.is_empty() { Ok(equations) } else { Err(errors) }
 }
 
-fn read_text(entry: &Entry) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
+fn read_text(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
     let (left, right) = entry.sides()?;
     let (number, quantity) = numbered(left.text);
     if quantity.is_empty() || quantity.contains(char::is_whitespace) {
@@ -84,7 +84,7 @@ fn read_text(entry: &Entry) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
     let number = number.or(entry.number.clone()).unwrap_or_default();
     complete(vec![PrintedEquation {
         number,
-        quantity: quantity.to_owned(),
+        quantity: symbols.quantity_in_text(quantity),
         span: left.span,
         terms,
     }])
@@ -206,7 +206,7 @@ fn split_terms(text: &str) -> Vec<Range<usize>> {
 }
 
 /// The length of the name or number that begins at a byte, including the exponent of a number.
-fn operand_length(bytes: &[u8], start: usize) -> usize {
+pub(super) fn operand_length(bytes: &[u8], start: usize) -> usize {
     let run = |from: usize, member: fn(&u8) -> bool| {
         bytes.get(from..).unwrap_or_default().iter().take_while(|byte| member(byte)).count()
     };
@@ -302,6 +302,24 @@ mod tests {
             .map(|equation| texts(equation).into_iter().map(str::to_owned).collect())
             .collect();
         assert_eq!(shown, [["a", "b"], ["c", "-d"]]);
+        // A setting of lengths or prose may be between the displays, and a phantom within one prints nothing.
+        for between in [
+            "\\end{align*}}%\n{\\abovedisplayskip=\\jot\n\\begin{align*}",
+            "\\end{align*} where $\\mu = 1$, é,\n\\begin{align*} &",
+            "\\\\",
+        ] {
+            let text = text.replace("\\end{align*}\n\\begin{align*}", between);
+            let found = read(&text).unwrap();
+            let shown: Vec<_> = found.iter().map(texts).collect();
+            assert_eq!(shown, [["a", "b"], ["c", "-d"]], "{text}");
+        }
+        let text_of_equals = text.replace("&\\quad {}+ b", "\\phantom{=} + b");
+        assert_eq!(read(&text_of_equals).unwrap().len(), 2);
+        // Another display between the two is not passed over.
+        assert!(
+            read(&text.replace("\\begin{align*}\n  \\ph", "$$Q_3 = a$$ \\begin{align*}\n  \\ph"))
+                .is_err()
+        );
         // An environment with another name does not continue the equation.
         assert_eq!(
             read(&text.replace("{align*} \\phantom", "{gather} \\phantom")).unwrap_err().len(),

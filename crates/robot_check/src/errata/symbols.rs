@@ -88,6 +88,18 @@ impl Symbols {
         known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
     }
 
+    /// The name of the quantity that infix text on a left side denotes: `tau1` is the joint torque `Q1`. Other text is
+    /// returned unchanged.
+    pub(super) fn quantity_in_text(&self, text: &str) -> String {
+        let torque = match JointVariable::parse(text) {
+            Some((JointVariable::Torque, joint)) => {
+                self.quantities.get(&format!(r"\tau_{}", joint + 1))
+            }
+            _ => None,
+        };
+        torque.map_or_else(|| text.to_owned(), String::clone)
+    }
+
     /// The name of the quantity, or of the vector of quantities, that LaTeX on a left side denotes. Other text is
     /// returned unchanged.
     pub(super) fn quantity(&self, latex: &str, vector: bool) -> String {

@@ -4,13 +4,17 @@ use std::collections::HashMap;
 use std::fmt;
 
 use robot_symbolic::{
-    Expr, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, print,
+    Expr, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, View, print,
 };
+
+use super::rounding;
 
 /// A term: a coefficient and powers of atoms.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Term<'g> {
     pub(super) coefficient: Number,
+    /// The largest error of a coefficient that is printed as a decimal; `None` if it is exact.
+    pub(super) rounding: Option<Number>,
     /// The factors, in the order of the polynomial; each atom occurs once.
     pub(super) factors: Vec<Power<'g>>,
 }
@@ -35,6 +39,7 @@ pub(super) fn terms_of<'g>(
         let graph = polynomial.graph();
         let term = |(monomial, coefficient): (&Monomial, &Number)| Term {
             coefficient: coefficient.clone(),
+            rounding: None,
             factors: monomial
                 .factors()
                 .iter()
@@ -49,23 +54,56 @@ pub(super) fn terms_of<'g>(
     Ok(terms.collect())
 }
 
-/// The printed terms without a counterpart, and the derived terms without one.
+/// The sum of like printed terms.
+#[derive(Clone, Debug)]
+struct Sum {
+    coefficient: Number,
+    /// The largest error of the terms that are printed as decimals.
+    roundings: Vec<Number>,
+}
+
+impl Sum {
+    fn add(&mut self, term: &Term<'_>) {
+        self.coefficient = &self.coefficient + &term.coefficient;
+        self.roundings.extend(term.rounding.clone());
+    }
+
+    /// Whether the sum stands for a derived coefficient. Of several decimals, each might have a wrong digit although
+    /// their sum is right to its digits, so they have to be exact.
+    fn stands_for(&self, derived: &Number) -> bool {
+        let rounded = match &self.roundings[..] {
+            [error] => rounding::stands_for(&self.coefficient, derived, error),
+            _ => false,
+        };
+        rounded || self.coefficient == *derived
+    }
+}
+
+/// The terms of a printed and a derived equation that have no counterpart.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Leftover<'g> {
+    /// The printed terms without a counterpart.
+    pub(super) wrong: Vec<Term<'g>>,
+    /// The derived terms without a counterpart.
+    pub(super) missing: Vec<Term<'g>>,
+    /// The number of derived coefficients that agree with the printed ones only to the digits printed.
+    pub(super) rounded: usize,
+}
+
+/// Removes the terms on which a printed and a derived equation agree.
 ///
 /// Like terms may be printed separately: if their sum is the derived term, all of them are right.
-pub(super) fn leftover<'g>(
-    printed: &[Term<'g>],
-    derived: &[Term<'g>],
-) -> (Vec<Term<'g>>, Vec<Term<'g>>) {
-    let mut sums: HashMap<Key, Number> = HashMap::default();
+pub(super) fn leftover<'g>(printed: &[Term<'g>], derived: &[Term<'g>]) -> Leftover<'g> {
+    let mut sums: HashMap<Key, Sum> = HashMap::default();
     for term in printed {
-        let sum = sums.entry(term.key()).or_insert_with(|| Number::integer(0));
-        *sum = &*sum + &term.coefficient;
+        let none = || Sum { coefficient: Number::integer(0), roundings: vec![] };
+        sums.entry(term.key()).or_insert_with(none).add(term);
     }
     let known: HashMap<Key, &Number> =
         derived.iter().map(|term| (term.key(), &term.coefficient)).collect();
     let is_right = |key: &Key| match (sums.get(key), known.get(key)) {
-        (Some(sum), Some(coefficient)) => sum == *coefficient,
-        (Some(sum), None) => sum.is_zero(),
+        (Some(sum), Some(coefficient)) => sum.stands_for(coefficient),
+        (Some(sum), None) => sum.coefficient.is_zero(),
         (None, _) => false,
     };
     let wrong = printed.iter().filter(|term| !is_right(&term.key()));
@@ -74,17 +112,27 @@ pub(super) fn leftover<'g>(
     for (place, term) in wrong.iter().enumerate() {
         places.entry(term.as_ref().map_or_else(Key::new, Term::key)).or_default().push(place);
     }
-    let mut missing: Vec<Term<'g>> = vec![];
-    for term in derived.iter().filter(|term| !is_right(&term.key())) {
+    let mut left = Leftover::default();
+    for term in derived {
+        let key = term.key();
+        if is_right(&key) {
+            let sum = sums.get(&key).map(|sum| &sum.coefficient);
+            left.rounded += usize::from(sum != Some(&term.coefficient));
+            continue;
+        }
         // One of several like terms may still be right if they do not add up to the derived term.
-        let like = places.get(&term.key()).into_iter().flatten();
-        let right = like.copied().find(|place| wrong.get(*place) == Some(&Some(term.clone())));
-        match right.and_then(|place| wrong.get_mut(place)) {
-            Some(right) => *right = None,
-            None => missing.push(term.clone()),
+        let mut like = places.get(&key).into_iter().flatten().copied();
+        let stands = |place: &usize| match wrong.get(*place) {
+            Some(Some(one)) => one.stands_for(&term.coefficient),
+            _ => false,
+        };
+        match like.find(stands).and_then(|place| wrong.get_mut(place)).and_then(Option::take) {
+            Some(right) => left.rounded += usize::from(right.coefficient != term.coefficient),
+            None => left.missing.push(term.clone()),
         }
     }
-    (wrong.into_iter().flatten().collect(), missing)
+    left.wrong = wrong.into_iter().flatten().collect();
+    left
 }
 
 type Pair<'g> = (Option<Term<'g>>, Option<Term<'g>>);
@@ -132,7 +180,13 @@ impl<'g> Term<'g> {
             .filter(|power| self.exponent(power.atom) == 0)
             .map(|power| power.exponent.unsigned_abs())
             .sum();
-        gone + come + u32::from(self.coefficient != other.coefficient)
+        gone + come + u32::from(!self.stands_for(&other.coefficient))
+    }
+
+    /// Whether the term's coefficient is a given one, at least to the digits printed.
+    pub(super) fn stands_for(&self, coefficient: &Number) -> bool {
+        let within = |error| rounding::stands_for(&self.coefficient, coefficient, error);
+        self.coefficient == *coefficient || self.rounding.as_ref().is_some_and(within)
     }
 
     /// The atoms and exponents of the term.
@@ -164,8 +218,13 @@ impl<'g> Term<'g> {
     }
 }
 
+/// The text of an atom as a factor: a sum is in parentheses, such as `(m1 + m2)`.
 fn atom_text(atom: Expr<'_>) -> String {
-    print::to_text(atom).unwrap_or_else(|error| error.to_string())
+    let text = print::to_text(atom).unwrap_or_else(|error| error.to_string());
+    match atom.view() {
+        View::Symbol(_) | View::Call(..) | View::Pi => text,
+        _ => format!("({text})"),
+    }
 }
 
 /// The text of a power, such as `qd2^2`.

@@ -261,7 +261,7 @@ fn errors_show_the_place() {
     let column = "\\begin{bmatrix} 0 \\\\ 0 \\\\ 0 \\end{bmatrix}";
     for beside in [format!("{column} + m_1"), format!("m_1 {column}")] {
         let shown = message(&format!("\\[ F_{{1}}^{{1}} = {beside} \\]"));
-        assert!(shown.contains("next to other terms"), "{shown}");
+        assert!(shown.contains("stand outside the column vector"), "{shown}");
     }
     assert!(message("").contains("no equations"));
 }
@@ -371,4 +371,118 @@ fn mistakes_are_counted_in_words() {
     let counted = [(MistakeKind::Sign, 1), (MistakeKind::Index, 9), (MistakeKind::Dot, 2)]
         .map(|(kind, count)| kind.counted(count));
     assert_eq!(counted, ["1 sign", "9 indices", "2 dots"]);
+}
+
+/// A planar arm of one link with a formula or number for its mass, the place of its center of mass and its moment of
+/// inertia.
+fn link(mass: &str, center: &str, inertia: &str) -> Robot {
+    let text = format!(
+        "format = 1\n[robot]\nname = \"link\"\ngravity = [0, 0, 0]\n[parameters]\nm1 = {{ unit = \"kg\" }}\n\
+        mt = {{ unit = \"kg\" }}\nr1 = {{ unit = \"m\" }}\n[[link]]\nname = \"1\"\n\
+        joint = {{ type = \"revolute\", axis = \"z\" }}\norigin = {{ xyz = [0, 0, 0] }}\nmass = \"{mass}\"\n\
+        center_of_mass = [\"{center}\", 0, 0]\ninertia = {{ zz = \"{inertia}\", unchecked = true }}\n"
+    );
+    read_toml("robot.toml", &text).unwrap_or_else(|error| panic!("{error}")).robot
+}
+
+#[test]
+fn sums_in_terms_are_in_parentheses() {
+    let robot = link("m1", "r1*m1/(m1 + mt)", "0");
+    let found = compared(&robot, "Q1 = 0\n").unwrap().differences;
+    let derived: Vec<_> = found.iter().filter_map(|one| one.derived.as_deref()).collect();
+    assert_eq!(derived, ["qdd1*m1^3*r1^2*(m1 + mt)^-2"]);
+    let found = compared(&robot, "Q1 = m1^3*r1^2*qdd1/(m1 + mt)\n").unwrap().differences;
+    let mistakes: Vec<_> = found[0].mistakes.iter().map(Mistake::to_string).collect();
+    assert_eq!(mistakes, ["power: (m1 + mt)^-1 for (m1 + mt)^-2"]);
+    // The units of the sum are not known, and neither are those of the term.
+    assert_eq!(found[0].evidence, []);
+}
+
+/// If derived coefficients have dimensions, those of a printed term's symbols say nothing.
+#[test]
+fn numbers_with_units_are_no_evidence() {
+    let evidence = |robot: &Robot, text: &str| -> Vec<Vec<String>> {
+        let found = compared(robot, text).unwrap().differences.into_iter();
+        found.map(|one| one.evidence.iter().map(ToString::to_string).collect()).collect()
+    };
+    let none: Vec<Vec<String>> = vec![vec![]];
+    assert_eq!(evidence(&link("1", "0", "0.13"), "Q1 = 0.12*qdd1\n"), none);
+    // One number with a unit in one of the equations is enough; nothing is known where nothing is derived.
+    let (mixed, symbols) = (link("m1", "r1", "0.13"), link("m1", "r1", "0"));
+    let acceleration = "a_c1.x = -r1*qd1\n";
+    assert_eq!(evidence(&mixed, &format!("{acceleration}Q1 = m1*r1^2*qdd1 + 0.13*qdd1\n")), none);
+    assert_eq!(evidence(&symbols, "F_l1.z = m1*qdd1\n"), none);
+    let dot = "has units m s^-1, but an acceleration has m s^-2: a time derivative is missing";
+    assert_eq!(evidence(&symbols, acceleration), [[dot]]);
+    let unknown = evidence(&mixed, "Q1 = m1*r1^2*qdd1 + 0.13*k*qdd1\n");
+    assert_eq!(unknown, [["the robot does not have the symbol k"]]);
+}
+
+/// The number of coefficients that agree only to the digits printed, and the mistakes.
+fn rounded(inertia: &str, right: &str) -> (usize, Vec<String>) {
+    let found = compared(&link("1", "0", inertia), &format!("Q1 = {right}\n")).unwrap();
+    let mistakes = found.differences.iter().flat_map(|one| &one.mistakes);
+    (found.rounded, mistakes.map(Mistake::to_string).collect())
+}
+
+#[test]
+fn a_decimal_agrees_with_what_rounds_to_it() {
+    let inertia = "1.126125000000000182";
+    let right = vec![];
+    for text in
+        ["1.126125*qdd1", "1.1*qdd1", "qdd1*1.13", "(1.126)*qdd1", "2*0.563*qdd1", "1126.1e-3*qdd1"]
+    {
+        assert_eq!(rounded(inertia, text), (1, right.clone()), "{text}");
+    }
+    assert_eq!(rounded(inertia, "1.126125000000000182*qdd1"), (0, right.clone()));
+    assert_eq!(rounded("1.255", "1.26*qdd1"), (1, right.clone()));
+    assert_eq!(rounded("1.255", "1.25*qdd1"), (1, right.clone()));
+    assert_eq!(rounded("1/3", "0.3333*qdd1"), (1, right.clone()));
+    // Like terms of which only one is rounded, and a term in front of another that is wrong.
+    assert_eq!(rounded("1.126125", "qdd1/4 + 0.876*qdd1"), (1, right));
+    assert_eq!(rounded("1.126125", "1.126*qdd1 + 3*qdd1"), (1, vec!["extra term".to_owned()]));
+}
+
+#[test]
+fn a_wrong_digit_is_a_difference() {
+    for (inertia, printed, shown) in [
+        ("1.126125", "1.12*qdd1", "1.12 for 1.126125"),
+        ("1.126125", "1.126126*qdd1", "1.126126 for 1.126125"),
+        ("1.2551", "1.25*qdd1", "1.25 for 1.2551"),
+        ("0.0004", "0.00*qdd1", ""),
+        // Integers and quotients of integers are exact.
+        ("1.0001", "qdd1", "1 for 1.0001"),
+        ("2.9999", "3*qdd1", "3 for 2.9999"),
+        ("0.3333", "1/3*qdd1", "1/3 for 0.3333"),
+    ] {
+        let (count, mistakes) = rounded(inertia, printed);
+        let expected = match shown {
+            "" => "missing term".to_owned(),
+            shown => format!("coefficient: {shown}"),
+        };
+        assert_eq!((count, mistakes), (0, vec![expected]), "{inertia}, {printed}");
+    }
+    // Of two rounded numbers, one may be wrong although their sum is right to its digits.
+    assert_eq!(rounded("1.126125", "0.563*qdd1 + 0.563*qdd1").0, 0);
+    assert!(!rounded("1.126125", "0.563*qdd1 + 0.563*qdd1").1.is_empty());
+    // A difference of another kind is not also one of the coefficient.
+    assert_eq!(rounded("1.126125", "-1.126*qdd1").1, ["sign"]);
+    assert_eq!(rounded("1.126125", "1.126*qd1").1, ["dot: qd1 for qdd1"]);
+}
+
+#[test]
+fn a_heading_is_an_error_that_says_what_can_be_read() {
+    let planar = robot("planar_2r");
+    let shown = compared(&planar, "Link 1, outward\n\nomega1.x = 0\n").unwrap_err().to_string();
+    assert!(shown.contains("begin a heading with `#`") && shown.contains("`expanded`"), "{shown}");
+    let shown = compared(&planar, "Q1 - m1\n").unwrap_err().to_string();
+    assert!(shown.contains("write `quantity = terms`") && !shown.contains("heading"), "{shown}");
+}
+
+#[test]
+fn a_joint_torque_in_text_may_be_tau() {
+    let found = compared(&robot("planar_2r"), "(2) tau2 = I2*qdd1\n").unwrap();
+    assert!(found.differences.iter().all(|one| one.quantity == "Q2"));
+    let shown = compared(&robot("planar_2r"), "tau3 = 0\n").unwrap_err().to_string();
+    assert!(shown.contains("does not have the quantity `tau3`"), "{shown}");
 }

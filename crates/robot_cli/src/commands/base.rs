@@ -65,7 +65,11 @@ impl Arguments {
         if self.digits.is_some() && matches!(self.format, Format::Json) {
             return Err(Failure::Usage(vec![NO_DIGITS.to_owned()]));
         }
-        let robot = self.robot.read(terminal)?.robot;
+        // Values are those of the file; what people read has multiples of π/2 for rounded angles, as equations have.
+        let robot = match self.format {
+            Format::Json => self.robot.read(terminal)?.robot,
+            _ => self.robot.printed(terminal)?,
+        };
         let failed = |error| failed(&self.robot, &error);
         let exact = base(&robot, self.robot.snap()).map_err(failed)?;
         let (set, is_rounded) = exact.readable(self.digits.map_or(DIGITS, usize::from));

@@ -29,7 +29,13 @@ impl Arguments {
         let output = self.output.open([])?;
         let mut script = vec![];
         clap_complete::generate(self.shell, &mut Cli::command(), NAME, &mut script);
-        output.deliver(&marked(&String::from_utf8_lossy(&script)), terminal)
+        let mut script = String::from_utf8_lossy(&script).into_owned();
+        if self.shell == Shell::Bash {
+            // The labels of clap_complete's cases for a name with a hyphen are not those that it looks for:
+            // https://github.com/clap-rs/clap/issues/6421.
+            script = script.replace("robot__subcmd__symbolic", "robot__symbolic");
+        }
+        output.deliver(&marked(&script), terminal)
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::builder::NonEmptyStringValueParser;
 use clap::{ArgAction, Args, ValueEnum};
-use robot_build::MARKER;
+use robot_build::{MARKER, Ownership};
 use robot_document::document::{Block, Document};
 use robot_document::robot::{Extras, document};
 use robot_document::{EquationOptions, Form, equations};
@@ -109,9 +109,13 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let inputs = self.robot.inputs().into_iter().chain(self.equations.inputs());
         let writer = self.force.writer(inputs, file_of(self.output.as_deref()).is_some())?;
-        let output = Delivery::open(self.output.as_deref(), writer)?;
-        // The error about an output that is an input has priority over one about its name.
+        // The error about an output that is an input has priority over one about its name, and this one over that about a
+        // file of others.
+        if let Some(path) = file_of(self.output.as_deref()) {
+            writer.check(&[(path, Ownership::Edited)])?;
+        }
         let format = self.format()?;
+        let output = Delivery::open(self.output.as_deref(), writer)?;
         check_values_once("--form", &self.form)?;
         let forms = self.equations.forms(&self.form);
         self.equations.check(&forms, true)?;

@@ -21,7 +21,7 @@ use crate::text;
   robot-symbolic equations robots/trttr1.toml --like docs/trttr1.printed --format latex
   robot-symbolic equations robots/panda.toml --form compact --format latex --width 8.5cm
 
-Quantities: a_c accelerations of the centers of mass, F and M_c inertia forces and moments of the links,
+Quantities: a_c accelerations of the centers of mass, F and M_c resultant forces and moments on the links,
 F_l and M_l contact forces and moments in the joints, Q joint torques; vectors are in link frames. In the
 expanded form, products are multiplied out, even powers of sines are replaced by cosines, and like terms are
 merged. The order of factors is: wrenches, masses and inertias, other parameters, sines and cosines, symbols
@@ -82,6 +82,9 @@ impl Arguments {
             self.equations.note_rounding(&equations, terminal)?;
         }
         let has_arrays = self.equations.has_arrays(&forms, typeset);
+        if has_arrays && !typeset {
+            equations.check_array_names().map_err(failed)?;
+        }
         let displayed = |notation| {
             let room = Room::Points(self.layout.line());
             let arranged = has_arrays.then(|| equations.arranged(room));

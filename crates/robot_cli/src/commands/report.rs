@@ -66,13 +66,13 @@ impl Arguments {
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
-            let name = self.output.file().map(|path| (path, path.with_extension("html")));
             let others = ["pdf", "png", "svg", "md", "tex", "typ"];
             let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
-            if let Some((path, html)) = name
+            if let Some(path) = self.output.file()
                 && path.extension().is_some_and(is_other)
             {
-                let message = format!("a report is an HTML page; name the file {}", shown(&html));
+                let html = shown(&path.with_extension("html"));
+                let message = format!("a report is an HTML page; name the file {html}");
                 return Err(Failure::Usage(vec![message]));
             }
             let output = self.output.open(inputs)?;

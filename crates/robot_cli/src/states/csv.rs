@@ -58,7 +58,9 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
     let columns = layout.columns();
     for (index, name) in header.iter().enumerate() {
         if !columns.contains(name) {
-            let (unknown, unit) = (text::unknown("column", name, &columns), unit(name));
+            let unknown =
+                format!("unknown column `{}`.{}", quote(name), text::meant(name, &columns));
+            let unit = unit(name);
             let unknown = if unit.is_empty() { &unknown } else { unknown.trim_end_matches('.') };
             errors.push(format!("the header: {unknown}{unit}"));
         } else if header[..index].contains(name) {

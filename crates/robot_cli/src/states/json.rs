@@ -117,7 +117,8 @@ fn state<'l>(
             continue;
         }
         let Some(index) = layout.position(key) else {
-            sink.error(format!("{place}: {}", text::unknown("key", key, &layout.names())));
+            let meant = text::meant(key, &layout.names());
+            sink.error(format!("{place}: unknown key `{}`.{meant}", quote(key)));
             continue;
         };
         let found = entries(value, layout.arrays[index].columns.len(), state.begin_array(index));

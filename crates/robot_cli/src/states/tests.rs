@@ -77,7 +77,7 @@ fn everything_that_is_wrong_with_json_is_named() {
     let expected = [
         "state 1: `q` has a string at entry 2, not a number",
         "state 1: `qd` has 1 entry, not 2",
-        "state 1: there is no key `qdt`. Did you mean `qd`? Available: q, qd, qdd, tau, wrench.",
+        "state 1: unknown key `qdt`. Did you mean `qd`? Available: q, qd, qdd, tau, wrench.",
         "state 2: expected an object, not a number",
         "state 3: `q` is a number, not an array of 2 numbers",
         "state 3: `qd` has null at entry 1, not a number",
@@ -98,7 +98,7 @@ fn everything_that_is_wrong_with_json_is_named() {
 #[test]
 fn everything_that_is_wrong_with_csv_is_named() {
     let header = errors("q1,q3,q1\n");
-    assert!(header[0].contains("there is no column `q3`. Did you mean `q1`?"), "{header:?}");
+    assert!(header[0].contains("unknown column `q3`. Did you mean `q1`?"), "{header:?}");
     assert_eq!(header[1..], ["`q1` appears twice in the header", "the header lacks q2 of `q`"]);
     // Files that other programs write have a remedy.
     let deg = errors("q1 [deg],q2\n");
@@ -144,7 +144,7 @@ fn a_character_may_come_in_parts() {
     for most in [1, 2, 3, 5, text.len()] {
         let Collected { states, errors } = read_slowly(text.as_bytes(), most).unwrap();
         assert_eq!(errors.len(), 1, "{most}: {errors:?}");
-        assert!(errors[0].starts_with("state 1: there is no key `ä€🦾`."), "{most}: {errors:?}");
+        assert!(errors[0].starts_with("state 1: unknown key `ä€🦾`."), "{most}: {errors:?}");
         assert_eq!(states.last().unwrap().array("q"), Some(&[3.0, 4.0][..]));
     }
 }

@@ -1,6 +1,8 @@
 //! A quantity that equals one printed before has no equation of its own.
 
-use crate::{complaint, output, robot};
+use std::fs;
+
+use crate::{complaint, folder, output, robot};
 
 /// The equations that a form prints, as pairs of the left and the right side.
 fn equations(name: &str, form: &str) -> Vec<(String, String)> {
@@ -54,6 +56,17 @@ fn a_document_has_a_name_of_its_notation() {
     let file = robot("planar_2r");
     let found = complaint(2, &["document", &file, "-o", "arm.docx"], "");
     assert!(found.contains("a document is not written as .docx"), "{found}");
+    // No advice to replace a file that cannot be replaced so, and none about the name of an input.
+    let folder = folder("named_otherwise");
+    let other = folder.join("notes.docx");
+    fs::write(&other, "notes of somebody").unwrap();
+    let found = complaint(2, &["document", &file, "-o", other.to_str().unwrap()], "");
+    assert!(found.contains("a document is not written as .docx"), "{found}");
+    let input = folder.join("arm.toml");
+    fs::copy(&file, &input).unwrap();
+    let input = input.to_str().unwrap();
+    let found = complaint(1, &["document", input, "-o", input], "");
+    assert!(found.contains("an output never replaces an input"), "{found}");
 }
 
 #[test]

@@ -87,6 +87,40 @@ fn what_equations_prints_does_not_differ() {
     }
 }
 
+/// The summary of the comparison of a robot's own equations, printed with the given options.
+fn of_own(file: &str, options: &[&str]) -> String {
+    let path = crate::folder(&format!("compare-{}", options.concat())).join("equations");
+    std::fs::write(&path, output(&[&["equations", file], options].concat(), "")).unwrap();
+    output(&["compare", file, path.to_str().unwrap()], "").lines().last().unwrap().to_owned()
+}
+
+#[test]
+fn a_long_equation_goes_on_in_the_next_environment() {
+    let expected = "6 equations, 451 terms: no differences; \
+        4 coefficients agree only to the digits printed";
+    for format in ["text", "latex"] {
+        let shown = of_own(&robot("stanford"), &["--form", "expanded", "--format", format]);
+        assert_eq!(shown, expected, "{format}");
+    }
+}
+
+#[test]
+fn letters_of_the_field_are_read() {
+    for format in ["text", "latex"] {
+        let shown = of_own(&robot("planar_2r"), &["--letters", "field", "--format", format]);
+        assert_eq!(shown, "2 equations, 29 terms: no differences", "{format}");
+    }
+}
+
+#[test]
+fn a_heading_of_the_recursive_form_says_what_to_do() {
+    let path = crate::folder("compare-heading").join("equations");
+    let file = robot("planar_2r");
+    std::fs::write(&path, output(&["equations", &file, "--form", "recursive"], "")).unwrap();
+    let shown = complaint(2, &["compare", &file, path.to_str().unwrap()], "");
+    assert!(shown.contains("begin a heading with `#`; of the forms that"), "{shown}");
+}
+
 #[test]
 fn what_is_wrong_has_its_code_and_place() {
     let path = crate::folder("compare-wrong").join("printed");

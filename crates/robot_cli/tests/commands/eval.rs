@@ -184,10 +184,7 @@ fn everything_that_is_wrong_is_said_at_once() {
         "{shown}"
     );
     assert_eq!(lines[1], "error: standard input: state 2: `q` has 2 entries, not 5");
-    assert!(
-        lines[2].starts_with("error: standard input: state 2: there is no key `tip`"),
-        "{shown}"
-    );
+    assert!(lines[2].starts_with("error: standard input: state 2: unknown key `tip`"), "{shown}");
     assert_eq!(
         lines[3],
         "error: standard input: state 1: `qdd` is missing; inverse_dynamics needs it"

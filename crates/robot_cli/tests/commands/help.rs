@@ -124,6 +124,32 @@ fn shells_complete_every_command() {
     assert!(complaint(2, &["completions", "sh"], "").contains("possible values"));
 }
 
+/// The words that bash offers for the last of these words.
+#[cfg(unix)]
+fn completed(script: &str, words: &[&str]) -> String {
+    let last = words.last().unwrap();
+    let text = format!(
+        "{script}\nCOMP_WORDS=({}); COMP_CWORD={}\n_robot__symbolic robot-symbolic {last:?} {:?}\necho \"${{COMPREPLY[@]}}\"",
+        words.iter().map(|word| format!("{word:?}")).collect::<Vec<_>>().join(" "),
+        words.len() - 1,
+        words[words.len() - 2],
+    );
+    let ran = std::process::Command::new("bash").args(["-c", &text]).output().unwrap();
+    String::from_utf8(ran.stdout).unwrap().trim().to_owned()
+}
+
+#[test]
+#[cfg(unix)]
+fn bash_completes_what_follows_a_command() {
+    let script = output(&["completions", "bash"], "");
+    let completed = |words: &[&str]| completed(&script, &[&["robot-symbolic"], words].concat());
+    assert_eq!(completed(&["equa"]), "equations");
+    assert_eq!(completed(&["equations", "--fo"]), "--form --format");
+    assert!(completed(&["equations", "arm.toml", "--form", "gr"]).contains("grouped"));
+    assert_eq!(completed(&["completions", "ba"]), "bash");
+    assert_eq!(completed(&["help", "equa"]), "equations");
+}
+
 #[test]
 fn colors_are_for_terminals() {
     use robot_cli::colors;

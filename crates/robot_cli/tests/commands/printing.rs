@@ -102,7 +102,7 @@ fn letters_are_those_of_the_field() {
     assert!(typst.contains("τ_1 ") && typst.contains("C_112"), "{typst}");
     assert!(of(&["--letters", "field", "--format", "mathml"]).contains("<mi>τ</mi>"));
     for (wrong, why) in [
-        ("tau,M,C", "3 letters are given, not four"),
+        ("tau,M,C", "four letters are needed, not 3"),
         ("tau,M,M,g", "`M` is given twice"),
         ("tau,M,C,g1", "`g1` is not a letter"),
         ("feild", "`feild` is not a letter"),

@@ -118,7 +118,7 @@ fn everything_that_is_wrong_is_said() {
     assert!(shown(&["--time", "0"]).contains("the duration is 0 s"));
     assert!(shown(&["--torques", "none.csv"]).contains("cannot read none.csv"));
     assert!(shown(&["--set", "x=1"]).contains("there is no parameter `x`"));
-    assert!(shown(&["--max-steps", "5"]).contains("5 steps were not enough"));
+    assert!(shown(&["--max-steps", "5"]).contains("the limit of 5 steps was reached"));
     assert!(shown(&["--friction"]).contains("friction"));
     let usage = run(&["simulate", &file, "--smoothing", "1"]);
     assert_eq!(usage.code, 2);

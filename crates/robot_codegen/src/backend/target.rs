@@ -1,6 +1,6 @@
 //! The properties of a language that the rest of the compiler needs.
 
-use super::common::identifier;
+use super::common::{Reserved, identifier, unreserved};
 use crate::error::Errors;
 use crate::module::Module;
 use crate::program::Limits;
@@ -13,7 +13,7 @@ pub struct Language {
     /// The extension of its source files.
     pub extension: &'static str,
     /// The words that cannot be names in printed code; names from robot files are adapted if necessary.
-    pub reserved: &'static [&'static str],
+    pub reserved: &'static Reserved,
     /// Further names that a module cannot have: its files or its scope would hide what the language comes with.
     pub modules: &'static [&'static str],
     /// The sizes of expressions, blocks and functions that its compilers handle well.
@@ -25,11 +25,7 @@ impl Language {
     /// that would hide a part of the language's own library, gets an underscore.
     #[must_use]
     pub fn module_name(&self, text: &str) -> String {
-        let mut name = identifier(text, self.reserved);
-        if self.modules.binary_search(&name.as_str()).is_ok() {
-            name.push('_');
-        }
-        name
+        unreserved(identifier(text, self.reserved), &[self.modules])
     }
 }
 
@@ -92,18 +88,64 @@ pub trait Target {
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors>;
 }
 
-#[cfg(all(test, feature = "c", feature = "python", feature = "rust"))]
+#[cfg(all(
+    test,
+    feature = "c",
+    feature = "javascript",
+    feature = "matlab",
+    feature = "python",
+    feature = "rust",
+    feature = "wgsl"
+))]
 mod tests {
-    use crate::backend::{c, python, rust};
+    use super::{Language, Target};
+    use crate::backend::{c, javascript, matlab, python, rust, wgsl};
+
+    fn languages() -> [&'static Language; 7] {
+        [
+            &c::LANGUAGE,
+            c::Arduino::default().language(),
+            &javascript::LANGUAGE,
+            &matlab::LANGUAGE,
+            &python::LANGUAGE,
+            &rust::LANGUAGE,
+            &wgsl::LANGUAGE,
+        ]
+    }
+
+    #[test]
+    fn lists_of_names_are_sorted() {
+        for language in languages() {
+            for list in language.reserved.iter().chain([&language.modules]) {
+                assert!(list.is_sorted_by(|a, b| a < b), "{}", language.name);
+            }
+        }
+    }
+
+    /// A robot file has no names that begin or end with an underscore, or contain two in a row.
+    #[test]
+    fn macros_are_names_that_robots_can_have() {
+        for language in languages() {
+            for macros in language.reserved.iter().skip(1) {
+                let cannot = macros.iter().find(|name| {
+                    name.starts_with('_') || name.ends_with('_') || name.contains("__")
+                });
+                assert_eq!(cannot, None, "{}", language.name);
+            }
+        }
+        assert_eq!(c::LANGUAGE.module_name("__INT16_MAX__"), "INT16_MAX_");
+    }
 
     #[test]
     fn modules_do_not_hide_libraries() {
-        for language in [&c::LANGUAGE, &python::LANGUAGE, &rust::LANGUAGE] {
-            assert!(language.modules.is_sorted_by(|a, b| a < b), "{}", language.name);
+        for language in languages() {
             assert_eq!(language.module_name("planar 2r"), "planar_2r");
         }
         for name in ["printf", "stdio", "y0", "stat", "servo", "int"] {
             assert_eq!(c::LANGUAGE.module_name(name), format!("{name}_"));
+        }
+        for name in ["std", "mean", "cross", "check", "test_functions", "timetable", "sin"] {
+            assert_eq!(matlab::LANGUAGE.module_name(name), format!("{name}_"));
         }
         for name in ["random", "numpy", "test", "lambda"] {
             assert_eq!(python::LANGUAGE.module_name(name), format!("{name}_"));

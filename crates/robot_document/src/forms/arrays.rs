@@ -3,6 +3,7 @@
 use super::grouped::arranged_title;
 use super::{Equation, Equations, Group, Relation};
 use crate::breaking::broken;
+use crate::error::Error;
 use crate::math::Math;
 use crate::width::width;
 
@@ -30,6 +31,9 @@ pub struct Cell {
     pub parts: Option<Written>,
     /// Whether the entry is 0 or another name of something.
     pub is_plain: bool,
+    /// The equation of the entry under its own name, `M_3_5 = M_2_5`, if it equals an earlier coefficient and has the name
+    /// of this one.
+    pub alias: Option<Equation>,
 }
 
 /// A value as text and as layout.
@@ -63,6 +67,19 @@ const MAX_LINES: usize = 16;
 const MAX_ENTRY: usize = 6;
 
 impl Equations {
+    /// Returns an error if a symbol of the robot has the name that a matrix or column has in text.
+    ///
+    /// # Errors
+    ///
+    /// The first such name.
+    pub fn check_array_names(&self) -> Result<(), Error> {
+        let is_taken = |name: &&String| self.symbols.has(name) && !self.symbols.is_defined(name);
+        match self.arrays().map(|array| &array.name).find(is_taken) {
+            Some(name) => Err(Error::TakenArray { name: name.clone() }),
+            None => Ok(()),
+        }
+    }
+
     /// Replaces the equations that are entries of matrices and columns by these arrays, if they fit. Groups without
     /// remaining equations are dropped.
     ///
@@ -115,7 +132,7 @@ impl Group {
 
     fn with_arrays(&self, arrays: &[Array], room: Room) -> Vec<Equation> {
         let room = self.beside_left_sides(arrays, room);
-        let mut list = List { shown: vec![], known: vec![], used: vec![] };
+        let mut list = List { shown: vec![], known: vec![], used: vec![], aliases: vec![] };
         let mut rest = self.equations.iter().peekable();
         let is_entry = |equation: &Equation| arrays.iter().any(|array| array.has(&equation.name));
         for array in arrays {
@@ -132,6 +149,7 @@ impl Group {
             true => list.add_definitions(&self.equations),
             false => list.shown.extend(rest.cloned()),
         }
+        list.add_aliases();
         list.shown
     }
 
@@ -162,6 +180,8 @@ struct List<'a> {
     known: Vec<&'a str>,
     /// The names of entries that are shown in place of an equation.
     used: Vec<&'a str>,
+    /// The equations of entries that equal others, each with the names of the entries before it.
+    aliases: Vec<(Vec<&'a str>, Equation)>,
 }
 
 impl<'a> List<'a> {
@@ -174,14 +194,32 @@ impl<'a> List<'a> {
             self.known.extend(names.filter(|name| !by_parts.contains(name)));
             return;
         }
-        for cell in cells.filter(|cell| !cell.is_plain) {
-            match cell.equation() {
+        let mut before = vec![];
+        for cell in cells {
+            if let Some(alias) = &cell.alias {
+                self.aliases.push((before.clone(), alias.clone()));
+                self.used.push(&cell.name);
+                before.push(&*alias.name);
+                continue;
+            }
+            before.push(&*cell.name);
+            match cell.equation().filter(|_| !cell.is_plain) {
+                None if cell.is_plain => {}
                 Some(equation) if !self.known.contains(&cell.name.as_str()) => {
                     self.shown.push(equation);
                     self.known.push(&cell.name);
                 }
                 _ => self.used.push(&cell.name),
             }
+        }
+    }
+
+    /// Adds the equations of entries that equal others at their places among the entries.
+    fn add_aliases(&mut self) {
+        for (before, alias) in std::mem::take(&mut self.aliases) {
+            let is_before = |one: &Equation| before.contains(&one.name.as_str());
+            let place = self.shown.iter().rposition(is_before).map_or(0, |place| place + 1);
+            self.shown.insert(place, alias);
         }
     }
 

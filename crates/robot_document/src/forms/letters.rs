@@ -84,7 +84,7 @@ impl Letters {
         let again = again.map(|(_, letter)| format!("`{}` is given twice", quote(letter)));
         let mut wrong: Vec<String> = others.chain(again).collect();
         wrong.extend(
-            (letters.len() != 4).then(|| format!("{} letters are given, not four", letters.len())),
+            (letters.len() != 4).then(|| format!("four letters are needed, not {}", letters.len())),
         );
         let letters: Vec<Option<String>> =
             letters.iter().map(|letter| Some((*letter).to_owned())).collect();
@@ -125,9 +125,14 @@ impl Writer<'_, '_> {
     /// The letter that is given, or one that no symbol has. A letter of the gravity terms may also be that of the
     /// acceleration of gravity, as usual.
     pub(super) fn letter(&self, given: Option<&str>, candidates: &[&'static str]) -> String {
-        let free = || match candidates == candidates::GRAVITY {
-            true => self.symbols.free_letter(candidates),
-            false => self.symbols.free_letter_alone(candidates),
+        let free = || match candidates {
+            [usual, others @ ..] if candidates == candidates::GRAVITY => {
+                match self.symbols.free_letter(candidates) {
+                    free if free == *usual => free,
+                    _ => self.symbols.free_letter_alone(others),
+                }
+            }
+            _ => self.symbols.free_letter_alone(candidates),
         };
         given.map_or_else(|| free().to_owned(), str::to_owned)
     }
@@ -162,9 +167,13 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// Returns an error if a joint torque would look like a symbol of the robot or like one that the form has defined.
-    /// The letter can be that of a symbol with the number of no joint.
-    pub(super) fn check_torque_letter(&self, groups: &[Group]) -> Result<(), Error> {
+    /// Returns an error if a joint torque or a vector of the equations would look like a symbol of the robot or like one
+    /// that the form has defined. The letter of the torques can be that of a symbol with the number of no joint.
+    pub(super) fn check_letters(&self, groups: &[Group]) -> Result<(), Error> {
+        let has_vectors = groups.iter().any(|group| group.vector.is_some());
+        if has_vectors {
+            self.check_vectors()?;
+        }
         let letter = self.options.letters.torque();
         let joints = 1..=self.robot.degrees_of_freedom();
         let own: Vec<String> = joints.map(|joint| format!("{letter}{joint}")).collect();
@@ -181,7 +190,6 @@ impl Writer<'_, '_> {
         let first = format!("{letter}1.");
         let names = groups.iter().flat_map(|group| &group.equations).map(|one| &one.name);
         let is_quantity = names.into_iter().any(|name| name.starts_with(&first));
-        let has_vectors = groups.iter().any(|group| group.vector.is_some());
         let owner = if is_quantity || others.any(is_alike) {
             "other symbols of these equations"
         } else if has_vectors && self.symbols.is_symbol(letter) {
@@ -192,19 +200,22 @@ impl Writer<'_, '_> {
         Err(Error::TakenLetter { letter: letter.to_owned(), owner })
     }
 
+    /// Returns an error if a left side of the equations or of their matrices and columns is printed like a symbol of the
+    /// robot.
+    pub(super) fn check_left_sides(&self, groups: &[Group]) -> Result<(), Error> {
+        let sides = groups.iter().flat_map(|group| {
+            let equations = group.equations.iter().chain(&group.vector);
+            let arrays = group.arrays.iter().flatten().map(|array| (&array.name, &array.left));
+            equations.map(|one| (&one.name, &one.left)).chain(arrays)
+        });
+        sides.into_iter().try_for_each(|(name, left)| self.symbols.check_left_side(name, left))
+    }
+
     /// Returns an error if a symbol of the robot is printed like the vector of the joint positions, velocities or
     /// accelerations.
-    pub(super) fn check_vectors(&self) -> Result<(), Error> {
-        let vectors = JointVariable::MOTION.map(JointVariable::name);
-        vectors.into_iter().try_for_each(|vector| {
-            let latex = latex::formula(&Math::spelled(vector));
-            match self.symbols.printed_as(&latex) {
-                Some(name) => {
-                    let (name, other) = (name.to_owned(), vector.to_owned());
-                    Err(Error::Alike { name, other, latex })
-                }
-                None => Ok(()),
-            }
+    fn check_vectors(&self) -> Result<(), Error> {
+        JointVariable::MOTION.map(JointVariable::name).into_iter().try_for_each(|vector| {
+            self.symbols.check_printed(vector, &latex::formula(&Math::spelled(vector)))
         })
     }
 
@@ -237,9 +248,7 @@ mod tests {
             assert!(Letters::parse(wrong).is_err(), "{wrong}");
         }
         let all = Letters::parse("tau,M,M,gg,1").unwrap_err().to_string();
-        for part in
-            ["`gg` is not a letter", "`1` is not a letter", "`M` is given twice", "5 letters"]
-        {
+        for part in ["`gg` is not a letter", "`1` is not a letter", "`M` is given twice", "not 5"] {
             assert!(all.contains(part), "{part}: {all}");
         }
     }

@@ -90,6 +90,7 @@ impl<'g> Known<'g> {
                 whole,
                 parts: Some(parts),
                 is_plain: false,
+                alias: None,
             });
         }
         let parts = aliases::terms(writer, sum)?;
@@ -99,11 +100,11 @@ impl<'g> Known<'g> {
             && *factor == -graph.one()
         {
             let (name, look) = (only.clone(), writer.symbols.look(only));
-            return Ok(Cell { name, look, whole, parts: Some(parts), is_plain: true });
+            return Ok(Cell { name, look, whole, parts: Some(parts), is_plain: true, alias: None });
         }
         writer.define(&name, look)?;
         let (look, is_plain) = (writer.symbols.look(&name), sum.is_empty());
-        Ok(Cell { name, look, whole, parts: Some(parts), is_plain })
+        Ok(Cell { name, look, whole, parts: Some(parts), is_plain, alias: None })
     }
 
     /// A sum of coefficients times factors, written out; `None` if that is too long.
@@ -171,7 +172,7 @@ fn masses<'g>(
     for row in 0..known.sums.len() {
         let sum = known.row(section, row);
         let mut cells = vec![];
-        for rate in &rates {
+        for (column, rate) in rates.iter().enumerate() {
             let one = writer.graph.one();
             let mut own = sum.iter().filter_map(|(name, factor)| match () {
                 () if factor == rate => Some((name, one)),
@@ -181,7 +182,9 @@ fn masses<'g>(
             cells.push(match own.next() {
                 Some((name, sign)) => {
                     let one = vec![(name.clone(), sign)];
-                    known.entry(writer, String::new(), Math::default(), &one)?
+                    let cell = known.entry(writer, String::new(), Math::default(), &one)?;
+                    // Below the diagonal, the entry has the name of its equal.
+                    if column < row { cell } else { aliased(cell, section, &[row + 1, column + 1]) }
                 }
                 None => zero(&format!("0_{}", plain.next().unwrap_or_default())),
             });
@@ -235,7 +238,8 @@ fn column<'g>(
         writer.letter(given.filter(|_| term == Term::Velocities), &candidates::VELOCITY_COLUMN);
     let mut rows = vec![];
     for row in 0..known.sums.len() {
-        rows.push(vec![indexed(writer, known, &letter, &[row + 1], &known.row(section, row))?]);
+        let cell = indexed(writer, known, &letter, &[row + 1], &known.row(section, row))?;
+        rows.push(vec![aliased(cell, section, &[row + 1])]);
     }
     let (name, left) = match term {
         Term::Velocities => called(&sign(&letter), &[positions(), state(JointVariable::Velocity)]),
@@ -262,9 +266,25 @@ fn indexed<'g>(
     known.entry(writer, name, look, sum)
 }
 
+/// An entry with its equation under its own name, if it is an earlier coefficient of the section.
+fn aliased(cell: Cell, section: &Section<'_>, numbers: &[usize]) -> Cell {
+    let own = shapes::indexed_name(base(section).0, numbers);
+    let coefficient = section.coefficients.iter().find(|one| one.name == own);
+    let is_earlier = section.coefficients.iter().any(|one| one.name == cell.name);
+    let alias = coefficient.zip(cell.parts.as_ref()).filter(|_| is_earlier && own != cell.name);
+    let alias = alias.map(|(coefficient, parts)| Equation {
+        name: own,
+        text: parts.text.clone(),
+        left: coefficient.shape.clone(),
+        right: parts.math.clone(),
+    });
+    Cell { alias, ..cell }
+}
+
 fn zero(name: &str) -> Cell {
     let whole = Some(Written { text: "0".to_owned(), math: Math::integer(0) });
-    Cell { name: name.to_owned(), look: Math::default(), whole, parts: None, is_plain: true }
+    let look = Math::default();
+    Cell { name: name.to_owned(), look, whole, parts: None, is_plain: true, alias: None }
 }
 
 fn written(equation: Equation) -> Written {

@@ -244,10 +244,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     }
     let mut groups: Vec<Group> =
         groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
-    if groups.iter().any(|group| group.vector.is_some()) {
-        writer.check_vectors()?;
-    }
-    writer.check_torque_letter(&groups)?;
+    writer.check_letters(&groups)?;
     let mut rounded = false;
     for group in &mut groups {
         rounded |= group.tidy(options.digits);
@@ -255,6 +252,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         own.chain(&mut group.vector).for_each(|equation| writer.name_torque(equation));
         group.numbers = options.order.numbers();
     }
+    writer.check_left_sides(&groups)?;
     Ok(Equations { groups, symbols: writer.symbols, rounded, differences: writer.differences })
 }
 

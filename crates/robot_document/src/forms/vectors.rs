@@ -39,5 +39,5 @@ pub(super) fn column(name: String, left: Math, cells: impl Iterator<Item = Cell>
 pub(super) fn cell(equation: &Equation, is_plain: bool) -> Cell {
     let whole = Written { text: equation.text.clone(), math: equation.right.clone() };
     let (name, look) = (equation.name.clone(), equation.left.clone());
-    Cell { name, look, whole: Some(whole), parts: None, is_plain }
+    Cell { name, look, whole: Some(whole), parts: None, is_plain, alias: None }
 }

@@ -2,6 +2,7 @@
 //! and polynomials, [`breaking`] splits it into lines by its [`width`], and [`meaning`] turns it back into an
 //! expression.
 
+mod appearance;
 pub mod breaking;
 mod digits;
 mod expression;

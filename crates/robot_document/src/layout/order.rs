@@ -1,9 +1,9 @@
-//! The order of factors and terms.
+//! The order of factors, by which terms are ordered too.
 //!
 //! The factors of a term come in this order: roots of numbers, components of wrenches, masses and inertias, other
 //! parameters, sines and cosines, symbols that a form defines, and last coordinates, velocities and accelerations.
 //! Within each group they are ordered by number. Terms are ordered by their factors, higher powers of the first factor
-//! first.
+//! first: by `compare_powers` of `robot_symbolic`, and by `forms/arranged.rs` in the compact form.
 
 use robot_model::robot::{Parameter, Robot};
 use robot_model::variable::JointVariable;

@@ -7,6 +7,7 @@ use robot_symbolic::print::{self, ArrangedTerm};
 use robot_symbolic::{Expr, Polynomial, walk};
 use rustc_hash::FxHashMap;
 
+use super::appearance::appearance;
 use super::expression::Expressions;
 use super::math::{Math, Symbol};
 use super::{Order, Trigonometry, polynomial};
@@ -72,13 +73,31 @@ impl SymbolTable {
             }
         }
         table.check_powers()?;
-        for (other, latex) in OWN {
-            if let Some(name) = table.printed_as(latex) {
-                let (name, other) = (name.to_owned(), (*other).to_owned());
-                return Err(Error::Alike { name, other, latex: (*latex).to_owned() });
-            }
-        }
+        OWN.into_iter().try_for_each(|(other, latex)| table.check_printed(other, latex))?;
         Ok(table)
+    }
+
+    /// Returns an error if a symbol is printed like something else, `other`, whose LaTeX is given.
+    pub(crate) fn check_printed(&self, other: &str, latex: &str) -> Result<(), Error> {
+        match self.printed_as(latex) {
+            Some(name) => {
+                let (name, other) = (name.to_owned(), other.to_owned());
+                Err(Error::Alike { name, other, latex: latex.to_owned() })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Returns an error if the left side of an equation or of a matrix is printed like a symbol of the robot.
+    pub(crate) fn check_left_side(&self, name: &str, left: &Math) -> Result<(), Error> {
+        match self.printed_as(&latex::formula(&appearance(left))) {
+            Some(other) if other != name && !self.is_defined(other) => {
+                let (name, other, latex) =
+                    (other.to_owned(), name.to_owned(), latex::formula(left));
+                Err(Error::Alike { name, other, latex })
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Returns an error if a symbol with a number as its upper index looks like a power of another symbol.
@@ -126,7 +145,7 @@ impl SymbolTable {
         let latex = latex::formula(&shape);
         let other = match self.is_like_sine(&latex) {
             true => None,
-            false => self.printed.insert(latex.clone(), name.to_owned()),
+            false => self.printed.insert(latex::formula(&appearance(&shape)), name.to_owned()),
         };
         if let Some(other) = other.filter(|other| other != name) {
             return Err(Error::Alike { name: name.to_owned(), other, latex });
@@ -155,7 +174,8 @@ impl SymbolTable {
 
     /// Whether no symbol has this name or this layout.
     pub(crate) fn is_free(&self, name: &str, shape: &Math) -> bool {
-        !self.entries.contains_key(name) && !self.printed.contains_key(&latex::formula(shape))
+        !self.entries.contains_key(name)
+            && !self.printed.contains_key(&latex::formula(&appearance(shape)))
     }
 
     /// Keeps letters from being chosen by [`free_letter`](Self::free_letter).

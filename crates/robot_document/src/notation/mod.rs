@@ -8,3 +8,4 @@ pub mod math_font;
 pub mod mathml;
 mod tabular;
 pub mod typst;
+mod words;

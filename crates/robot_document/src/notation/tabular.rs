@@ -1,6 +1,7 @@
 //! Tables that fit a column of text: in smaller type, with cells of several lines, in parts side by side, across
 //! all columns of the page, or on several pages.
 
+use super::words;
 use crate::document::{Block, Cell, Document, Inline, Table};
 use crate::width::{text_width, width};
 
@@ -36,8 +37,6 @@ const BETWEEN: [Cell; 1] = [vec![]];
 const LINES: f64 = 28.0;
 /// The largest number of lines of a group of a longer table.
 const GROUP: f64 = 6.0;
-/// The number of letters after which words can be broken.
-const LONGEST_WORD: usize = 12;
 /// The smallest width of a column with broken cells, in pt, unless there is no other way.
 const NARROW: f64 = 70.0;
 
@@ -309,10 +308,7 @@ pub(super) fn natural_width(cell: &[Inline]) -> f64 {
 fn least_width(cell: &[Inline]) -> f64 {
     let word = |inline: &Inline| match inline {
         Inline::Text(text) | Inline::Emphasis(text) => {
-            let words = text.split(' ').map(|word| {
-                let end = word.char_indices().nth(LONGEST_WORD).map_or(word.len(), |(at, _)| at);
-                1.2 * text_width(word.get(..end).unwrap_or(word))
-            });
+            let words = text.split(' ').map(|word| 1.2 * text_width(words::longest_part(word)));
             words.fold(0.0, f64::max)
         }
         whole => inline_width(whole),

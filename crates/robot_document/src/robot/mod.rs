@@ -129,13 +129,14 @@ fn conventions(
             Inline::Math(indexed('q')),
             Inline::text(", or translated along it by "),
             Inline::Math(indexed('q')),
-            Inline::text(". All vectors are given in the axes of their own link. "),
+            Inline::text(". Vectors of a link are given in the axes of its frame. "),
             Inline::Math(options.letters.torque_sign().with_lower(Math::Letter('i'))),
             Inline::text(
                 " is the joint torque of a revolute joint or the joint force of a prismatic \
                  joint, positive along the axis. The wrench of a tip is the wrench that the tip \
-                 exerts on its surroundings; the external wrench, which acts on the tip, is its \
-                 negative. Units are SI, with angles in radians. ",
+                 exerts on its surroundings, in the axes of the tip's frame and about its origin; \
+                 the external wrench, which acts on the tip, is its negative. Units are SI, with \
+                 angles in radians. ",
             ),
             Inline::text(format!("{friction}{rounded}{}", snapped(snaps))),
         ]),

@@ -8,6 +8,9 @@ use crate::math::{Fence, Math};
 /// The number of bytes of text above which a constant is rounded in tables.
 const LONG: usize = 10;
 
+/// The number of digits of rounded values in tables.
+pub(super) const DIGITS: usize = 6;
+
 /// Whether a constant with this text is rounded in tables.
 pub(super) const fn is_long(text: &str) -> bool {
     text.len() > LONG

@@ -2,16 +2,17 @@
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Placement, Robot};
-use robot_symbolic::{Expr, Formula, Graph, walk};
+use robot_symbolic::{AngleSums, Expr, Formula, Graph, Polynomial, PolynomialOptions, walk};
 
 use super::{dh, heading, numbers, paragraph};
 use crate::document::{Block, Cell, Inline, Table};
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::layout::{SymbolTable, has_longer, tidied};
+use crate::layout::{Order, SymbolTable, has_longer, tidied};
 use crate::math::Math;
 use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
+use crate::width::width;
 
 /// The section of the robot.
 pub(super) struct Tables {
@@ -165,13 +166,37 @@ fn frames(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     Ok(Table { caption: "Named frames.".to_owned(), head, rows, keys: 1 })
 }
 
-/// A value in a table; long constants are rounded to six digits.
-fn value_cell(symbols: &SymbolTable, value: Expr<'_>) -> Result<Math, Error> {
-    let long = robot_symbolic::print::to_text(value).is_ok_and(|text| numbers::is_long(&text));
-    if !long || !walk::symbols(&[value]).is_empty() {
-        return Ok(tidied(&symbols.expression(value)?, None));
+/// The width in pt above which a formula in a table is written as a sum, which breaks at its signs.
+const WIDE: f64 = 250.0;
+/// The limits of this sum.
+const SUM: PolynomialOptions =
+    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 500, max_products: 100_000 };
+
+/// The values of a table.
+struct Values<'t> {
+    symbols: &'t SymbolTable,
+    order: Order<'t>,
+    /// Whether a value was rounded.
+    are_rounded: bool,
+}
+
+impl Values<'_> {
+    /// A value; long constants are rounded to six digits.
+    fn cell(&mut self, value: Expr<'_>) -> Result<Math, Error> {
+        let long = robot_symbolic::print::to_text(value).is_ok_and(|text| numbers::is_long(&text));
+        if long && walk::symbols(&[value]).is_empty() {
+            self.are_rounded = true;
+            return Ok(numbers::rounded(value.evaluate(|_| f64::NAN)));
+        }
+        let nested = tidied(&self.symbols.expression(value)?, None);
+        if width(&nested) <= WIDE {
+            return Ok(nested);
+        }
+        let Ok(sum) = Polynomial::of(value, &SUM) else { return Ok(nested) };
+        let exact = self.symbols.polynomial(&sum, &self.order)?;
+        self.are_rounded |= has_longer(&exact, numbers::DIGITS);
+        Ok(tidied(&exact, Some(numbers::DIGITS)))
     }
-    Ok(numbers::rounded(value.evaluate(|_| f64::NAN)))
 }
 
 /// The mass, center of mass and inertia tensor of each link, in the link's axes; columns of zeros are omitted.
@@ -194,10 +219,11 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     };
     let columns: Vec<usize> = (0..names.len()).filter(shown).collect();
     let mut rows = vec![];
+    let mut formulas = Values { symbols, order: Order::new(robot), are_rounded: false };
     for (index, values) in values.iter().enumerate() {
         let mut row = link_cells(robot, index);
         for value in columns.iter().filter_map(|column| values.get(*column)) {
-            row.push(vec![Inline::Math(value_cell(symbols, *value)?)]);
+            row.push(vec![Inline::Math(formulas.cell(*value)?)]);
         }
         rows.push(row);
     }
@@ -218,9 +244,10 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     };
     let is_merged = robot.links.iter().any(|link| link.bodies.len() > 1);
     let merged = if is_merged { " A link includes the bodies that are fixed to it." } else { "" };
+    let rounded = if formulas.are_rounded { " Values are rounded." } else { "" };
     let caption = format!(
         "Masses, kg; centers of mass, m; moments of inertia about the center of mass in the axes of the link frame, \
-         kg m². Values are rounded.{merged}{}",
+         kg m².{rounded}{merged}{}",
         words::zeros(&omitted(1..4), &omitted(4..names.len()))
     );
     Ok(Table { caption, head, rows, keys })

@@ -123,7 +123,7 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
 /// The places in order of preference: among parameters that the joint torques cannot distinguish, the first is kept.
 /// The first seven for a revolute joint, or four for a prismatic joint, are those that the recursion computes. Of the
 /// second moments, a revolute joint does not identify the one along its axis; of the inertia tensor, the one that is
-/// left out is across the axis.
+/// left out is perpendicular to the axis.
 fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
     let size = |component: usize| Scalar::new(link.axis.0[component]).size();
     let z = [0, 1].into_iter().fold(2, |best, k| if size(k) > size(best) { k } else { best });

@@ -13,7 +13,7 @@ use robot_symbolic::{Expr, Graph};
 use crate::vector::{Matrix, Vector};
 pub use snapped::snapped;
 
-/// The options of expressing a robot's values.
+/// The options for expressing a robot's values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MechanismOptions {
     /// The tolerance within which a constant angle becomes a multiple of π/2, rad, so that rotations with rounded

@@ -78,7 +78,7 @@ pub(crate) fn emit_single(
     emit(function, fields, target, Addressing::Row).map(SingleEntry)
 }
 
-/// The largest number of bytes of the stack that code may use; threads of Rust have 2 MiB.
+/// The most stack that code may use, in bytes; threads that the standard library spawns have 2 MiB by default.
 const MOST_STACK: u32 = 256 << 10;
 
 /// The number of steps above which code advances its pointers, because displacements are long.

@@ -45,8 +45,8 @@ pub(crate) struct Model {
     pub(crate) overlap: u32,
 }
 
-/// A step that is ready. Steps are ordered by the cycles for which results wait for them; among equals, the earlier
-/// step is greater.
+/// A step that is ready. Steps are ordered by their height, the cycles of the longest path from them to a result; among
+/// equals, the earlier step is greater.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Ready {
     height: u32,

@@ -51,7 +51,7 @@ impl Entries<'_, '_, '_> {
             self.reader.report(
                 Diagnostic::error(code::FRICTION, message)
                     .at(&entry.value.span(), must)
-                    .help("correct the value, or leave out the key"),
+                    .help("correct the value, or leave out the key if no other key needs it"),
             );
         }
         Some(entry.key)

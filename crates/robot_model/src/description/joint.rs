@@ -22,13 +22,13 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
         && let Some(help) = elsewhere(word)
     {
         reader.report(
-            Diagnostic::error(code::UNKNOWN_WORD, format!("`{word}` is not a type of joint"))
+            Diagnostic::error(code::UNKNOWN_WORD, format!("`{word}` is not a joint type"))
                 .at(&entry.value.span(), "")
                 .help(help),
         );
         return None;
     }
-    Some(match reader.word(entry.value, "a type of joint", JOINT_TYPES)? {
+    Some(match reader.word(entry.value, "a joint type", JOINT_TYPES)? {
         "revolute" => Some(JointKind::Revolute),
         "prismatic" => Some(JointKind::Prismatic),
         _ => None,
@@ -216,7 +216,11 @@ fn limits(reader: &mut Reader<'_>, value: Value<'_>) -> Option<[Rational; 2]> {
     reader.report(
         Diagnostic::error(code::LIMITS, "the lower limit is not below the upper limit")
             .at(&value.span(), "expected `[lower, upper]`")
-            .help("swap them, or leave out `limits` if the joint has none"),
+            .help(if lower == upper {
+                "write two different limits, or use the type `fixed` for a joint that does not move"
+            } else {
+                "swap them, or leave out `limits` if the joint has none"
+            }),
     );
     None
 }

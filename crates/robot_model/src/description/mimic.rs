@@ -105,10 +105,10 @@ fn leader<'l>(
                     "the expressions of this chain of mimic joints \
                     are too large",
                 )
-                .at(&wanted.span, "part of a chain of joints that follow each other")
+                .at(&wanted.span, "part of a chain in which each joint mimics the next")
                 .help(
-                    "let the joint follow the leading joint directly, with the product of \
-                         the ratios",
+                    "let the joint mimic the leading joint directly, with the combined ratio and \
+                     offset",
                 ),
             );
             return None;
@@ -123,7 +123,7 @@ fn circle(chain: &[&DraftLink], wanted: &Named) -> Diagnostic {
     let [_] = chain else {
         let names: Vec<String> =
             chain.iter().map(|link| format!("`{}`", quote(&link.joint.name.name))).collect();
-        let message = format!("joints follow each other in a cycle: {}", names.join(", "));
+        let message = format!("joints mimic each other in a cycle: {}", names.join(", "));
         let mut diagnostic = Diagnostic::error(code::MIMIC, message)
             .at(&wanted.span, "leads back to the first")
             .because("at least one of them must move independently")
@@ -136,7 +136,7 @@ fn circle(chain: &[&DraftLink], wanted: &Named) -> Diagnostic {
         return diagnostic;
     };
     let name = quote(&wanted.name);
-    Diagnostic::error(code::MIMIC, format!("the joint `{name}` follows itself"))
+    Diagnostic::error(code::MIMIC, format!("the joint `{name}` mimics itself"))
         .at(&wanted.span, "its own name")
         .help("name the leading joint, or remove `mimic`")
 }

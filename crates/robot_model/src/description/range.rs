@@ -173,7 +173,7 @@ impl Range<'_, '_> {
                         "products and quotients of smaller values are outside the range of \
                          floating-point numbers",
                     )
-                    .help("give the value in SI units, or write 0"),
+                    .help("give the value in SI units, or 0 if it may be 0"),
             );
         }
     }

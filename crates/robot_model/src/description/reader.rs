@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use robot_symbolic::{Formula, Graph, Id, Number, Rational, nearest_word, walk};
 
 use super::locations::AngleLocation;
-use super::names::{Registry, is_coordinate};
+use super::names::{self, Registry, is_coordinate};
 use super::options::Options;
 use crate::diagnostic::{Diagnostic, Severity, Span, code, quote};
 use crate::unit::Unit;
@@ -159,11 +159,18 @@ impl<'a> Reader<'a> {
             }
             None => diagnostic.at(span, "not in [parameters]"),
         }
-        .help(format!(
-            "names in an expression are parameters: add `{}` to [parameters], or write `pi` or a \
-             function such as `sin(…)`",
-            quote(name)
-        ))
+        .help(match names::reserved(name) {
+            Some(owner) => format!(
+                "names in an expression are parameters, and no parameter can be called `{}` ({owner}): add one of \
+                 another name to [parameters]",
+                quote(name)
+            ),
+            None => format!(
+                "names in an expression are parameters: add `{}` to [parameters], or write `pi` or a \
+                 function such as `sin(…)`",
+                quote(name)
+            ),
+        })
     }
 
     /// Reports a formula whose value is not finite; returns whether it is finite.

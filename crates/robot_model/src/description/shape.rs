@@ -319,7 +319,7 @@ pub static FRICTION: Shape = Shape {
             "coulomb",
             Formula,
             "Coulomb friction coefficient c: friction force per contact force \
-            across the axis.",
+            perpendicular to the axis.",
         ),
         key("spindle_diameter", Formula, "Journal diameter of a revolute joint with `coulomb`, m."),
         key(

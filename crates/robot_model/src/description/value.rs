@@ -88,7 +88,10 @@ impl Reader<'_> {
         self.report(
             Diagnostic::error(
                 code::WRONG_COUNT,
-                format!("expected {expected}, found {} entries", entries.len()),
+                match entries.len() {
+                    1 => format!("expected {expected}, found one entry"),
+                    count => format!("expected {expected}, found {count} entries"),
+                },
             )
             .at(&value.span(), format!("{N} entries are expected here"))
             .help(format!("write {expected}")),
@@ -140,7 +143,7 @@ impl Reader<'_> {
             return None;
         }
         if text.len() > MAX_TEXT {
-            let message = format!("the text has {} bytes; at most {MAX_TEXT}", text.len());
+            let message = format!("the text has {} bytes; the limit is {MAX_TEXT}", text.len());
             let start = value.span().start;
             self.report(
                 Diagnostic::error(code::LIMIT, message)

@@ -51,7 +51,18 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
     let Some(entry) = root.get("code") else { return wanted };
     let Some(mut table) = reader.table(entry.value, &CODE) else { return wanted };
     if let Some(entry) = table.get("functions") {
-        wanted.functions = Some(names(reader, entry.value, &[ALL_FUNCTIONS]));
+        let names = names(reader, entry.value, &[ALL_FUNCTIONS]);
+        let all = names.iter().find(|named| named.name == ALL_FUNCTIONS);
+        if let Some(all) = all.filter(|_| names.len() > 1) {
+            let message =
+                format!("`{ALL_FUNCTIONS}` selects all functions, and others are named too");
+            reader.report(
+                Diagnostic::error(code::DUPLICATE, message)
+                    .at(&all.span, "this includes the others")
+                    .help("leave the others out"),
+            );
+        }
+        wanted.functions = Some(names);
     }
     if let Some(entry) = table.get("bundles") {
         wanted.bundles(reader, &entry);

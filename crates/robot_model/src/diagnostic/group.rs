@@ -95,10 +95,13 @@ fn lines<'l>(source: &Source, labels: impl Iterator<Item = &'l Label>) -> (Strin
     if let (&[line], [_, _, ..]) = (lines.as_slice(), labels.as_slice()) {
         let start = line.checked_sub(2).and_then(|end| ends.get(end)).map_or(0, |end| end + 1);
         let columns = columns(source.text.get(start..).unwrap_or_default(), start, &labels);
-        return (format!("on line {line} at columns "), columns);
+        return (format!("on line {line} at column{} ", plural(&columns)), columns);
     }
-    let plural = if lines.len() == 1 { "" } else { "s" };
-    (format!("on line{plural} "), lines.iter().map(ToString::to_string).collect())
+    (format!("on line{} ", plural(&lines)), lines.iter().map(ToString::to_string).collect())
+}
+
+fn plural<T>(list: &[T]) -> &'static str {
+    if list.len() == 1 { "" } else { "s" }
 }
 
 /// The columns at which labels in a line begin, in order and each once; `start` is the first byte of the line.

@@ -33,6 +33,23 @@ struct Group {
     is_index: bool,
     /// Whether this is the argument of an accent or a font or within one, where several letters are read as a name.
     is_word: bool,
+    /// Whether the letters are calligraphic; LaTeX has only capital ones, and prints other signs for small letters.
+    is_calligraphic: bool,
+}
+
+impl Group {
+    /// A group of the same kind, within this one.
+    fn nested(self) -> Group {
+        let Group { is_index, is_word, is_calligraphic, .. } = self;
+        Group { is_index, is_word, is_calligraphic, ..Group::default() }
+    }
+
+    /// This group as the argument of an accent or a font.
+    fn argument(self, command: &str) -> Group {
+        let is_calligraphic =
+            self.is_calligraphic || Font::of_latex(command) == Some(Font::Calligraphic);
+        Group { is_word: true, is_calligraphic, ..self }
+    }
 }
 
 /// Checks that LaTeX given for a name only prints a symbol.
@@ -101,8 +118,7 @@ impl Walk<'_> {
         let Some(group) = self.groups.last_mut() else {
             return Err("closes nothing");
         };
-        let same = Group { is_index: group.is_index, is_word: group.is_word, ..Group::default() };
-        let inner = self.waiting.as_ref().map_or(same, |waiting| waiting.inner);
+        let inner = self.waiting.as_ref().map_or(group.nested(), |waiting| waiting.inner);
         if self.waiting.is_none() {
             check_name(token, group)?;
         }
@@ -136,7 +152,7 @@ impl Walk<'_> {
                 if next != Some(b'{') {
                     return Err("needs a group `{…}`");
                 }
-                let (message, inner) = ("needs a group `{…}`", Group { is_word: true, ..inner });
+                let (message, inner) = ("needs a group `{…}`", inner.argument(command));
                 self.waiting = Some(Waiting { place: here, message, inner });
             }
             [b'\\', ..] => {
@@ -146,6 +162,7 @@ impl Walk<'_> {
                 item(group, self.waiting.take().is_some());
             }
             [b' '] if self.waiting.is_none() => {}
+            [b'a'..=b'z'] if inner.is_calligraphic => return Err(CALLIGRAPHIC),
             [byte] if byte.is_ascii_alphanumeric() || b"*+-,.()".contains(byte) => {
                 item(group, self.waiting.take().is_some());
             }
@@ -154,6 +171,9 @@ impl Walk<'_> {
         Ok(())
     }
 }
+
+/// The problem of a small letter in the calligraphic font.
+const CALLIGRAPHIC: &str = "calligraphic letters are capitals, such as `\\mathcal{K}`";
 
 /// The problem of a prime without a base, or after an upper index.
 const PRIME: &str = "a second superscript, or a prime without a base";

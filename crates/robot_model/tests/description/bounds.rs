@@ -128,5 +128,5 @@ fn texts_are_not_too_long() {
         with("", "").replacen("[robot]", &format!("[robot]\ndescription = \"{text}\""), 1)
     };
     hold(&described(4096), true, "");
-    hold(&described(4097), false, "the text has 4097 bytes; at most 4096");
+    hold(&described(4097), false, "the text has 4097 bytes; the limit is 4096");
 }

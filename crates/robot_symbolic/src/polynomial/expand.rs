@@ -30,8 +30,11 @@ pub(super) fn expand(
             expander.store(expr.id(), terms)?;
         }
     }
-    let take = |root: &Expr<'_>| Rc::unwrap_or_clone(expander.take(root.id()));
-    Ok(roots.iter().map(take).collect())
+    let one = |root: &Expr<'_>| {
+        let terms = Rc::unwrap_or_clone(expander.take(root.id()));
+        expander.without_denominators(terms)
+    };
+    roots.iter().map(one).collect()
 }
 
 pub(super) struct Expander<'g> {

@@ -310,3 +310,27 @@ fn packed_and_unpacked_products_agree() {
     }
     assert!(packed > 100 && squares > 100, "{packed} {squares}");
 }
+
+/// The inertia about the joint of two bodies that are given by the center of mass of both has no denominator.
+#[test]
+fn sums_of_symbols_cancel_with_denominators() {
+    let graph = Graph::new();
+    let of = |text: &str| {
+        let options = PolynomialOptions::default();
+        Polynomial::of(graph.parse(text).unwrap(), &options).unwrap()
+    };
+    let center = "(2*a + 3*b)/(a + b)";
+    let about = |center: &str| {
+        format!("x*(a*(2 - {center})^2 + b*(3 - {center})^2 + (a + b)*({center})^2)")
+    };
+    assert_eq!(of(&about(center)), of("x*(4*a + 9*b)"));
+    // One body more, whose mass comes last.
+    let both = format!("((a + b)*({center}) + 5*c)/(a + b + c)");
+    let sum =
+        format!("(a + b)*(({center}) - ({both}))^2 + c*(5 - ({both}))^2 + (a + b + c)*({both})^2");
+    let whole = format!("{sum} + a*(2 - {center})^2 + b*(3 - {center})^2");
+    assert_eq!(of(&whole), of("4*a + 9*b + 25*c"));
+    // Without a shorter form, fractions stay.
+    assert_eq!(of("a*b/(a + b)").len(), 1);
+    assert_eq!(of("x*a/(a + b) + y*b/(a + b)").len(), 2);
+}

@@ -128,7 +128,7 @@ pub fn sources_of(
             let errors = robot_codegen::Error::Single { language: "the library of Arduino" };
             return Err(Errors::of_code(&source.name, &errors.into()));
         }
-        Language::Arduino => Box::new(backend::c::C { options: flat() }),
+        Language::Arduino => Box::new(backend::c::Arduino { options: flat() }),
         Language::Cpp => Box::new(backend::c::Cpp { options: flat() }),
         Language::Cuda => Box::new(backend::c::Cuda { options: flat() }),
         Language::Matlab => Box::new(backend::matlab::Matlab { options: flat() }),

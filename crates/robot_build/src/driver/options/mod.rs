@@ -265,7 +265,7 @@ fn once<'f>(
 ///
 /// # Errors
 ///
-/// Each name that is not the name of a function, and an empty list.
+/// Each name that is not the name of a function, an empty list, and names beside [`ALL_FUNCTIONS`].
 pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Errors> {
     if names.is_empty() {
         return Err(Errors::from(Error::NoFunctions));
@@ -273,7 +273,11 @@ pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Err
     let (all, names): (Vec<_>, Vec<_>) =
         names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
     let kinds = kinds_named(&names, robot)?;
-    Ok(if all.is_empty() { Functions::Chosen(kinds) } else { Functions::All })
+    match (all.is_empty(), kinds.is_empty()) {
+        (true, _) => Ok(Functions::Chosen(kinds)),
+        (false, true) => Ok(Functions::All),
+        (false, false) => Err(Errors::from(Error::AllFunctionsAndOthers)),
+    }
 }
 
 /// Finds the functions of a robot with these names.

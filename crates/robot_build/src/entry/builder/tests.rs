@@ -334,6 +334,8 @@ fn wrong_options_are_errors() {
         shown.contains("Pendulum has no function `inverse_dynamics_wrench`: the robot has no tip")
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("the list of functions is empty"));
+    let shown = message(&with(&["all", "bias"]), &["robots/a.toml"]);
+    assert!(shown.contains("`all` selects all functions; leave the others out"), "{shown}");
     let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
     assert!(shown.contains("no function `bia`. Did you mean `bias`? Available: "), "{shown}");
     let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);

@@ -228,7 +228,7 @@ mod tests {
     }
 
     fn comparison(differences: Vec<Difference>) -> Comparison {
-        Comparison { equations: 1, names: 0, terms: 1, wrench: true, differences }
+        Comparison { equations: 1, names: 0, terms: 1, wrench: true, rounded: 0, differences }
     }
 
     fn planar_2r() -> Robot {

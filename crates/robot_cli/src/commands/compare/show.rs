@@ -62,7 +62,7 @@ fn mistakes(difference: &Difference) -> String {
 
 /// Prints a summary such as `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`.
 pub(super) fn summary(comparison: &Comparison) -> String {
-    let Comparison { equations, names, terms, wrench, differences } = comparison;
+    let Comparison { equations, names, terms, wrench, rounded, differences } = comparison;
     let mut kinds: BTreeMap<MistakeKind, usize> = BTreeMap::new();
     for mistake in differences.iter().flat_map(|difference| &difference.mistakes) {
         *kinds.entry(mistake.kind).or_default() += 1;
@@ -78,11 +78,17 @@ pub(super) fn summary(comparison: &Comparison) -> String {
     if !wrench {
         shown.push_str(", no wrench");
     }
-    match differences.len() {
-        0 => shown + ": no differences",
-        1 => shown + &format!(": 1 term differs ({})", kinds.join(", ")),
-        count => shown + &format!(": {count} terms differ ({})", kinds.join(", ")),
-    }
+    shown += &match differences.len() {
+        0 => ": no differences".to_owned(),
+        1 => format!(": 1 term differs ({})", kinds.join(", ")),
+        count => format!(": {count} terms differ ({})", kinds.join(", ")),
+    };
+    let agreed = match rounded {
+        0 => "",
+        1 => "; 1 coefficient agrees only to the digits printed",
+        count => &format!("; {count} coefficients agree only to the digits printed"),
+    };
+    shown + agreed
 }
 
 /// Prints the comparison as `{"equations": …, "terms": …, "differences": […]}`.
@@ -118,6 +124,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
         "names": comparison.names,
         "terms": comparison.terms,
         "wrench": comparison.wrench,
+        "rounded": comparison.rounded,
         "differences": differences,
     });
     format!("{shown:#}\n")
@@ -144,7 +151,7 @@ mod tests {
     }
 
     fn comparison(differences: Vec<Difference>) -> Comparison {
-        Comparison { equations: 1, names: 0, terms: 1, wrench: true, differences }
+        Comparison { equations: 1, names: 0, terms: 1, wrench: true, rounded: 0, differences }
     }
 
     #[test]
@@ -156,7 +163,17 @@ mod tests {
             summary(&some),
             "2 equations (1 only name a quantity), 0 terms, no wrench: no differences"
         );
+        let one_rounded = Comparison { rounded: 1, ..some.clone() };
+        assert!(
+            summary(&one_rounded)
+                .ends_with(": no differences; 1 coefficient agrees only to the digits printed")
+        );
         let one = difference("", MistakeKind::Index);
+        let two_rounded = Comparison { rounded: 2, ..comparison(vec![one.clone()]) };
+        assert!(
+            summary(&two_rounded)
+                .ends_with("(1 index); 2 coefficients agree only to the digits printed")
+        );
         let shown = summary(&comparison(vec![one.clone()]));
         assert_eq!(shown, "1 equation, 1 term: 1 term differs (1 index)");
         let other = difference("", MistakeKind::Sign);
@@ -184,6 +201,7 @@ mod tests {
         assert_eq!(shown["differences"][1]["printed"], Value::Null);
         assert_eq!(shown["differences"][1]["slips"][0]["kind"], "missing term");
         assert_eq!((&shown["equations"], &shown["wrench"]), (&json!(1), &json!(true)));
+        assert_eq!(shown["rounded"], 0);
     }
 
     #[test]

@@ -149,6 +149,21 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_matrix_without_columns_has_no_entries() {
+        let output = |name: &str, shape: &[usize]| Output {
+            name: name.to_owned(),
+            shape: shape.to_vec(),
+            doc: String::new(),
+            unit: String::new(),
+            values: (),
+        };
+        let printer = Printer::json(&[output("Y", &[3, 0]), output("tau", &[2])]);
+        let mut text = String::new();
+        printer.state(true, [1.0, 2.0].into_iter(), &mut text);
+        assert_eq!(text, "[\n{\"Y\":[],\"tau\":[1.0,2.0]}");
+    }
+
+    #[test]
     fn numbers_are_those_of_serde_json() {
         let numbers = [0.0, -0.0, 1.0, 1e-4, 1e-5, 1e-7, 0.1 + 0.2, 1e16, 1.5e300, 5e-324, -2e22];
         for number in

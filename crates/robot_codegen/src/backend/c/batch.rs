@@ -24,6 +24,18 @@ pub(super) fn column_parameters(header: &Header<'_>, function: &Function<'_>) ->
     counts.chain(inputs).chain(outputs).collect()
 }
 
+/// Prints a statement for each parameter of a function over columns that is not read, so that compilers do not warn:
+/// for unused inputs, and for the distance between columns if every array has a single one.
+pub(super) fn unread(function: &Function<'_>) -> Vec<String> {
+    let (used, unused): (Vec<&Array>, Vec<&Array>) =
+        function.inputs.iter().partition(|array| array.is_used);
+    let mut names: Vec<&str> = unused.iter().map(|array| array.name.as_str()).collect();
+    if !used.into_iter().chain(&function.outputs).any(|array| array.length > 1) {
+        names.push("stride");
+    }
+    names.iter().map(|name| format!("    (void){name};")).collect()
+}
+
 /// Prints the function with a loop over states whose entries are in columns, which compilers vectorize.
 pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     if !has_batch(function) {
@@ -45,15 +57,7 @@ pub(super) fn batch(header: &Header<'_>, function: &Function<'_>) -> Vec<String>
         parameters.join(", ")
     ));
     lines.extend(["{", "    size_t i;"].map(str::to_owned));
-    for array in function.inputs.iter().filter(|array| !array.is_used) {
-        lines.push(format!("    (void){};", array.name));
-    }
-    // If every array has a single column, the distance between columns is not used.
-    let is_wide = |array: &Array| array.length > 1;
-    let used = function.inputs.iter().filter(|array| array.is_used);
-    if !used.chain(&function.outputs).any(is_wide) {
-        lines.push("    (void)stride;".to_owned());
-    }
+    lines.extend(unread(function));
     lines.push("    for (i = 0; i < n; i++) {".to_owned());
     lines.extend(iteration(header, function).into_iter().map(|line| format!("    {line}")));
     lines.extend(["    }", "}", ""].map(str::to_owned));

@@ -1,6 +1,6 @@
 //! CUDA C++: the functions of C for host and device, and for each a kernel over columns of states.
 
-use super::batch::{column_parameters, has_batch, iteration, one, place};
+use super::batch::{column_parameters, has_batch, iteration, one, place, unread};
 use super::comment;
 use super::function::{model_argument, used_by};
 use super::{BATCH, Dialect, Header, LANGUAGE as C, names, tree_of};
@@ -42,7 +42,7 @@ impl Target for Cuda {
 #[must_use]
 pub fn cuda_tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     let taken = [names::TAKEN, WORDS].concat();
-    tree_of(module, options, &taken, &["sc", "kernel"])
+    tree_of(module, &LANGUAGE, options, &taken, &["sc", "kernel"])
 }
 
 /// The includes. NVRTC, the compiler at run time, has no headers, but has their functions built in.
@@ -107,9 +107,7 @@ pub(super) fn kernel(header: &Header<'_>, function: &Function<'_>) -> Vec<String
     }
     lines.push("    const size_t step = (size_t)gridDim.x * blockDim.x;".to_owned());
     lines.push("    size_t i = (size_t)blockIdx.x * blockDim.x + threadIdx.x;".to_owned());
-    for array in function.inputs.iter().filter(|array| !array.is_used) {
-        lines.push(format!("    (void){};", array.name));
-    }
+    lines.extend(unread(function));
     lines.push("    for (; i < n; i += step) {".to_owned());
     let state = if has_batch(function) { iteration } else { call };
     lines.extend(state(header, function).into_iter().map(|line| format!("    {line}")));

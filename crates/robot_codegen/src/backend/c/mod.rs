@@ -5,6 +5,7 @@
 //! columns of states. The code allocates nothing and calls only functions of `<math.h>`. Sines and cosines are the
 //! runtime's polynomials, unless the options choose the standard library.
 
+mod arduino;
 mod batch;
 mod casadi;
 mod comment;
@@ -18,8 +19,10 @@ mod library;
 mod macros;
 mod names;
 mod spelling;
+mod standard;
 mod vectors;
 
+pub use self::arduino::{Arduino, arduino_tree};
 pub use self::batch::has_batch;
 pub use self::casadi::{Casadi, casadi};
 pub use self::cpp::Cpp;
@@ -40,7 +43,7 @@ use crate::program::Limits;
 pub const LANGUAGE: Language = Language {
     name: "C",
     extension: "h",
-    reserved: keywords::RESERVED,
+    reserved: &[keywords::RESERVED, standard::MACROS],
     modules: library::NAMES,
     limits: Limits { expression: 6, block: usize::MAX, function: 4000, part: 1000 },
 };
@@ -60,10 +63,14 @@ impl Target for C {
     /// Prints one header.
     fn files(&self, module: &Module) -> Result<Vec<SourceFile>, Errors> {
         check_range(module, self.options.scalar)?;
-        let tree = tree(module, &self.options);
-        let text = Header::new(&tree, &self.options, Dialect::C).text();
-        Ok(vec![SourceFile::text(format!("{}.{}", tree.name, LANGUAGE.extension), text)])
+        Ok(vec![header_file(&tree(module, &self.options), &self.options)])
     }
+}
+
+/// Prints the header of C.
+fn header_file(tree: &Tree<'_>, options: &FlatOptions) -> SourceFile {
+    let text = Header::new(tree, options, Dialect::C).text();
+    SourceFile::text(format!("{}.{}", tree.name, LANGUAGE.extension), text)
 }
 
 /// The index of the form that takes sines and cosines among a function's additional forms.
@@ -74,22 +81,23 @@ pub const BATCH: usize = 1;
 /// The tree of a module as C prints it.
 #[must_use]
 pub fn tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
-    tree_of(module, options, names::TAKEN, &["sc", "batch"])
+    tree_of(module, &LANGUAGE, options, names::TAKEN, &["sc", "batch"])
 }
 
-/// The tree of a module with these additional forms of functions.
+/// The tree of a module in a language, with these additional forms of functions.
 fn tree_of<'m>(
     module: &'m Module,
+    language: &Language,
     options: &FlatOptions,
     scope: &[&str],
     forms: &[&str],
 ) -> Tree<'m> {
-    let names = Names::new(&LANGUAGE.module_name(&module.name));
+    let names = Names::new(&language.module_name(&module.name));
     let constants = options.constants.iter().map(|item| names.upper(&item.printed_name()));
     let guards = [Dialect::C.guard(), Dialect::Cuda.guard(), cpp::GUARD];
     let macros: Vec<String> = constants.chain(guards.map(|guard| names.upper(guard))).collect();
     let macros: Vec<&str> = macros.iter().map(String::as_str).collect();
-    Tree::new(module, &LANGUAGE, Taken { scope, macros: &macros }, forms, &options.setters)
+    Tree::new(module, language, Taken { scope, macros: &macros }, forms, &options.setters)
 }
 
 /// A language whose functions are those of C.

@@ -10,7 +10,8 @@ mod text;
 
 pub use self::inputs::{angle_names, input_entry, symbols, used_inputs};
 pub use self::items::{ConstantItem, ConstantValue, Setter, SetterArgument};
-pub use self::namer::{Namer, field_names, identifier, type_name};
+pub(in crate::backend) use self::namer::unreserved;
+pub use self::namer::{Namer, Reserved, field_names, identifier, type_name};
 pub use self::paragraph::{comment_lines, wrapped};
 pub use self::scalar::{Scalar, check_range};
 pub use self::text::{

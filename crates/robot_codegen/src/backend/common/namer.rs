@@ -4,17 +4,20 @@ use rustc_hash::FxHashSet;
 
 use crate::module::Module;
 
+/// Words that cannot be names, in lists that are each sorted.
+pub type Reserved = [&'static [&'static str]];
+
 /// Makes the names of one scope: each is an identifier that is not reserved in the language, and no two are equal.
 #[derive(Clone, Debug)]
 pub struct Namer {
-    reserved: &'static [&'static str],
+    reserved: &'static Reserved,
     taken: FxHashSet<String>,
 }
 
 impl Namer {
     /// Makes a namer for a language with these reserved words, whose scope already has the names in `taken`.
     #[must_use]
-    pub fn new(reserved: &'static [&'static str], taken: &[&str]) -> Namer {
+    pub fn new(reserved: &'static Reserved, taken: &[&str]) -> Namer {
         Namer { reserved, taken: taken.iter().map(|name| (*name).to_owned()).collect() }
     }
 
@@ -47,7 +50,7 @@ impl Namer {
 
 /// Makes an identifier of the ASCII letters, digits and underscores of a text; a reserved word gets an underscore.
 #[must_use]
-pub fn identifier(text: &str, reserved: &[&str]) -> String {
+pub fn identifier(text: &str, reserved: &Reserved) -> String {
     let mut name = String::new();
     for character in text.chars().take(64) {
         match character {
@@ -71,7 +74,7 @@ pub fn identifier(text: &str, reserved: &[&str]) -> String {
 
 /// Makes the name of a type: `link_wrenches` becomes `LinkWrenches`.
 #[must_use]
-pub fn type_name(text: &str, reserved: &[&str]) -> String {
+pub fn type_name(text: &str, reserved: &Reserved) -> String {
     let words = identifier(text, reserved);
     let mut name = String::new();
     for word in words.split('_') {
@@ -82,8 +85,9 @@ pub fn type_name(text: &str, reserved: &[&str]) -> String {
     unreserved(name, reserved)
 }
 
-fn unreserved(mut name: String, reserved: &[&str]) -> String {
-    if reserved.contains(&name.as_str()) {
+/// Adds an underscore to a reserved name.
+pub(in crate::backend) fn unreserved(mut name: String, reserved: &Reserved) -> String {
+    if reserved.iter().any(|words| words.binary_search(&name.as_str()).is_ok()) {
         name.push('_');
     }
     name
@@ -112,7 +116,7 @@ pub fn field_names(module: &Module, namer: &mut Namer) -> Vec<String> {
 mod tests {
     use super::*;
 
-    const RESERVED: &[&str] = &["type", "match", "self", "Self", "n"];
+    const RESERVED: &Reserved = &[&["Self", "self"], &["match", "n", "type"]];
 
     #[test]
     fn any_text_becomes_an_identifier() {

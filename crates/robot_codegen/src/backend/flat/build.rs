@@ -19,7 +19,7 @@ impl<'m> Tree<'m> {
         setters: &[Setter],
     ) -> Tree<'m> {
         let mut names = Names::new(module, language, taken, forms, setters);
-        let variables = Namer::new(language.reserved, &[taken.scope, taken.macros].concat());
+        let variables = taken.namer(language);
         let mut builder = Builder { language, variables, items: &mut names.items };
         let constructor = builder.constructor(module);
         let functions = module.functions.iter().zip(&names.functions).zip(&names.forms);

@@ -20,6 +20,11 @@ impl<'n> Taken<'n> {
     pub fn of(scope: &'n [&'n str]) -> Taken<'n> {
         Taken { scope, macros: &[] }
     }
+
+    /// A namer in a language, whose scope has these names.
+    pub(super) fn namer(self, language: &Language) -> Namer {
+        Namer::new(language.reserved, &[self.scope, self.macros].concat())
+    }
 }
 
 /// The names of a module in a language.
@@ -44,9 +49,8 @@ impl Names {
         forms: &[&str],
         setters: &[Setter],
     ) -> Names {
-        let Taken { scope, macros } = taken;
-        let namer = |taken: &[&str]| Namer::new(language.reserved, &[taken, macros].concat());
-        let mut items = namer(scope);
+        let mut items = taken.namer(language);
+        let members = || Taken { scope: &[], ..taken }.namer(language);
         let setters = setters.iter().map(|setter| items.name(&setter.name)).collect();
         let functions = module.functions.iter().map(|function| function.name.as_str());
         let functions = items.names(functions);
@@ -57,8 +61,8 @@ impl Names {
         let forms = forms.collect();
         Names {
             module: language.module_name(&module.name),
-            parameters: namer(&[]).names(module.parameters.iter().map(|one| one.name.as_str())),
-            fields: field_names(module, &mut namer(&[])),
+            parameters: members().names(module.parameters.iter().map(|one| one.name.as_str())),
+            fields: field_names(module, &mut members()),
             setters,
             functions,
             forms,

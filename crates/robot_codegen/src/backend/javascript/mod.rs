@@ -22,7 +22,7 @@ use crate::program::Limits;
 pub const LANGUAGE: Language = Language {
     name: "JavaScript",
     extension: "mjs",
-    reserved: keywords::RESERVED,
+    reserved: &[keywords::RESERVED],
     // The test of a package.
     modules: &["test"],
     limits: Limits { expression: 6, block: usize::MAX, function: 3000, part: 800 },

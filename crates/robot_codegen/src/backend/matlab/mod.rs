@@ -5,6 +5,7 @@
 
 mod helpers;
 mod keywords;
+mod library;
 
 use robot_symbolic::Function as Call;
 
@@ -22,8 +23,8 @@ use crate::program::Limits;
 pub const LANGUAGE: Language = Language {
     name: "MATLAB",
     extension: "m",
-    reserved: keywords::RESERVED,
-    modules: &[],
+    reserved: &[keywords::RESERVED],
+    modules: library::NAMES,
     limits: Limits { expression: 6, block: usize::MAX, function: usize::MAX, part: usize::MAX },
 };
 

@@ -22,7 +22,7 @@ use crate::program::Limits;
 pub const LANGUAGE: Language = Language {
     name: "Python",
     extension: "py",
-    reserved: keywords::RESERVED,
+    reserved: &[keywords::RESERVED],
     modules: keywords::MODULES,
     limits: Limits { expression: 6, block: usize::MAX, function: usize::MAX, part: usize::MAX },
 };

@@ -3,22 +3,32 @@
 /// Words that cannot be identifiers or have a special meaning where names occur; then values of the prelude, which a
 /// pattern would match, and crates and types that a module with this name would hide from the code around it.
 pub(super) const RESERVED: &[&str] = &[
+    "Err",
+    "None",
+    "Ok",
     "Self",
+    "Some",
     "abstract",
+    "alloc",
     "as",
     "async",
     "await",
     "become",
+    "bool",
     "box",
     "break",
+    "char",
     "const",
     "continue",
+    "core",
     "crate",
     "do",
     "dyn",
     "else",
     "enum",
     "extern",
+    "f32",
+    "f64",
     "false",
     "final",
     "fn",
@@ -30,6 +40,7 @@ pub(super) const RESERVED: &[&str] = &[
     "let",
     "loop",
     "macro",
+    "macro_rules",
     "match",
     "mod",
     "move",
@@ -37,10 +48,13 @@ pub(super) const RESERVED: &[&str] = &[
     "override",
     "priv",
     "pub",
+    "raw",
     "ref",
     "return",
+    "safe",
     "self",
     "static",
+    "std",
     "struct",
     "super",
     "trait",
@@ -56,20 +70,6 @@ pub(super) const RESERVED: &[&str] = &[
     "where",
     "while",
     "yield",
-    "macro_rules",
-    "raw",
-    "safe",
-    "Err",
-    "None",
-    "Ok",
-    "Some",
-    "alloc",
-    "bool",
-    "char",
-    "core",
-    "f32",
-    "f64",
-    "std",
 ];
 
 /// Crates that come with the compiler, and the module of the runtime in a package.
@@ -85,7 +85,7 @@ mod tests {
         let identifiers = RESERVED.iter().filter(|word| syn::parse_str::<syn::Ident>(word).is_ok());
         let identifiers: Vec<&str> = identifiers.copied().collect();
         let expected =
-            "gen union macro_rules raw safe Err None Ok Some alloc bool char core f32 f64 std";
+            "Err None Ok Some alloc bool char core f32 f64 gen macro_rules raw safe std union";
         assert_eq!(identifiers.join(" "), expected);
         for word in RESERVED {
             let adapted = super::super::identifier(word);

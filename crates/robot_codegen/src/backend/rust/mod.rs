@@ -49,7 +49,7 @@ use crate::program::Limits;
 pub const LANGUAGE: Language = Language {
     name: "Rust",
     extension: "rs",
-    reserved: keywords::RESERVED,
+    reserved: &[keywords::RESERVED],
     modules: keywords::MODULES,
     limits: Limits { expression: 6, block: 256, function: 8000, part: 1024 },
 };

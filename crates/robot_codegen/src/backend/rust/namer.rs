@@ -19,7 +19,7 @@ impl Default for Namer {
 impl Namer {
     /// Makes a namer whose scope already has these names.
     pub(super) fn with(names: &[&str]) -> Namer {
-        Namer(common::Namer::new(RESERVED, names))
+        Namer(common::Namer::new(&[RESERVED], names))
     }
 
     /// Makes an identifier that is as close to `text` as possible.
@@ -47,12 +47,12 @@ pub(super) fn ident(name: &str) -> Ident {
 /// reserved word gets an underscore.
 #[must_use]
 pub fn identifier(text: &str) -> String {
-    common::identifier(text, RESERVED)
+    common::identifier(text, &[RESERVED])
 }
 
 /// Makes the name of a type: `link_wrenches` becomes `LinkWrenches`.
 pub(super) fn type_name(text: &str) -> String {
-    common::type_name(text, RESERVED)
+    common::type_name(text, &[RESERVED])
 }
 
 /// Makes a name from an existing one and a suffix.

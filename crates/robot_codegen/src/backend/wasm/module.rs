@@ -22,7 +22,7 @@ pub(super) struct Assembly {
     types: Vec<(Vec<ValType>, Vec<ValType>)>,
     functions: FunctionSection,
     code: CodeSection,
-    /// The first address of the variables that parts of functions pass on.
+    /// The first address of the variables that the parts of a function share.
     shared: u32,
     /// The first free address.
     heap: u32,
@@ -34,7 +34,7 @@ impl Assembly {
         Assembly { types: vec![], functions, code, shared, heap: shared }
     }
 
-    /// The first address of the variables that parts of functions pass on.
+    /// The first address of the variables that the parts of a function share.
     pub(super) fn shared(&self) -> u32 {
         self.shared
     }

@@ -21,7 +21,7 @@ use crate::trigonometry::Trigonometry;
 pub const LANGUAGE: Language = Language {
     name: "WGSL",
     extension: "wgsl",
-    reserved: keywords::RESERVED,
+    reserved: &[keywords::RESERVED],
     modules: &[],
     limits: Limits { expression: 6, block: usize::MAX, function: 4000, part: 1000 },
 };

@@ -2,6 +2,8 @@
 
 use robot_model::signs::Letter;
 
+use crate::notation::words;
+
 /// Letters outside ASCII that LaTeX writes with an accent, and the accent.
 const ACCENTED: &[(&str, &str)] = &[
     ("ÀÈÌÒÙàèòù", "`"),
@@ -55,20 +57,22 @@ const OTHERS: &[(char, &str)] = &[
     ('\u{a0}', "~"),
 ];
 
-/// The number of letters after which a longer word can be broken.
-const LONG_WORD: usize = 12;
-
 /// Text for paragraphs. Characters that Computer Modern lacks are printed as their code: `[U+4E2D]`.
 #[must_use]
 pub fn text(text: &str) -> String {
     let mut latex = String::new();
-    let mut letters = 0;
-    for character in text.chars() {
-        letters = if character == ' ' { 0 } else { letters + 1 };
-        if letters > LONG_WORD {
+    for (place, piece) in words::pieces(text).into_iter().enumerate() {
+        if place > 0 {
             latex.push_str(r"\allowbreak{}");
-            letters = 1;
         }
+        push(piece, &mut latex);
+    }
+    latex
+}
+
+/// Appends text without breaks of its own.
+fn push(text: &str, latex: &mut String) {
+    for character in text.chars() {
         match character {
             '#' | '$' | '%' | '&' | '{' | '}' | '_' => {
                 latex.push('\\');
@@ -86,7 +90,6 @@ pub fn text(text: &str) -> String {
             other => latex.push_str(&outside(other)),
         }
     }
-    latex
 }
 
 /// The LaTeX of a character that cannot be written as it is.

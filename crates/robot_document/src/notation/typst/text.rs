@@ -1,25 +1,29 @@
 //! Text from robot files as Typst source that only prints it, whatever it contains.
 
-/// The number of letters after which a longer word can be broken.
-const LONG_WORD: usize = 12;
+use crate::notation::words;
 
 /// Text for paragraphs. Characters that would be markup at their place are escaped, and characters that are not
 /// printable, such as those that change the direction of writing, are printed as their code: `[U+202E]`.
 #[must_use]
 pub fn text(text: &str) -> String {
     let mut typst = String::new();
-    let mut letters = 0;
+    for (place, piece) in words::pieces(text).into_iter().enumerate() {
+        if place > 0 {
+            typst.push_str("\\u{200b}");
+        }
+        push(piece, &mut typst);
+    }
+    typst
+}
+
+/// Appends text without breaks of its own.
+fn push(text: &str, typst: &mut String) {
     let mut characters = text.chars().peekable();
     while let Some(character) = characters.next() {
-        letters = if character == ' ' { 0 } else { letters + 1 };
-        if letters > LONG_WORD {
-            typst.push_str("\\u{200b}");
-            letters = 1;
-        }
         match character {
             '\n' | '\t' => typst.push(' '),
             '!'..='~' => {
-                if is_markup(&typst, character, characters.peek().copied()) {
+                if is_markup(typst, character, characters.peek().copied()) {
                     typst.push('\\');
                 }
                 typst.push(character);
@@ -28,7 +32,6 @@ pub fn text(text: &str) -> String {
             other => typst.push_str(&format!("\\[U+{:04X}\\]", u32::from(other))),
         }
     }
-    typst
 }
 
 /// Whether a character of ASCII would be markup after the source `before`. A text can stand at the start of a line,
@@ -88,7 +91,7 @@ mod tests {
     fn text_is_never_markup() {
         assert_eq!(text("#import $x$ *a* _b_ @c <d>"), r"\#import \$x\$ \*a\* \_b\_ \@c \<d\>");
         assert_eq!(text("`\\ // [] = - + é ω"), r"\`\\ \/\/ \[\] = \- + é ω");
-        assert_eq!(text("abcdefghijklmn"), r"abcdefghijkl\u{200b}mn");
+        assert_eq!(text("abcdefghijk12"), r"abcdefghijk1\u{200b}2");
         assert_eq!(text("a\u{202e}b\u{4e2d}\n"), r"a\[U+202E\]b\[U+4E2D\] ");
     }
 

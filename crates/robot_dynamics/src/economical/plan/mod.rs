@@ -32,7 +32,7 @@ pub struct LinkPlan {
     /// \[c\] Whether the third column of U is computed from the parent's U.
     pub column: bool,
     /// \[u\] Whether, in that case, the third row of U is computed from doubled products, U₃₁ = ω_x 2ω_z − U₁₃. This
-    /// saves an addition if the angular acceleration across the axis is not needed otherwise.
+    /// saves an addition if the angular acceleration perpendicular to the axis is not needed otherwise.
     pub doubled: bool,
     /// \[b\] For each component of the moment, whether products of angular velocities and accelerations are used
     /// instead of entries of U.
@@ -52,8 +52,8 @@ pub struct LinkPlan {
     pub projected_at: Option<Place>,
 }
 
-/// The acceleration that is assumed for a joint in forward dynamics. The bias torques may be computed at any
-/// accelerations q̈*, because q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
+/// The acceleration that is assumed for a joint in forward dynamics. The recursion may be evaluated at any accelerations
+/// q̈*, not only at 0, because q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FreeRate {
     /// The acceleration 0.
@@ -96,7 +96,7 @@ pub struct Place {
 /// The position of a working frame's origin on its joint axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Origin {
-    /// The origin of the robot file.
+    /// The origin of the link's frame in the robot file.
     File,
     /// The foot of the common normal with the next joint's axis (modified Denavit–Hartenberg).
     NextNormal,
@@ -119,7 +119,7 @@ pub enum Turn {
     File,
     /// The x axis is parallel to the common normal with the next joint's axis.
     NextNormal,
-    /// The x axis is in the direction of the regrouped first moment across the axis, so that its y component vanishes.
+    /// The x axis is in the direction of the regrouped first moment perpendicular to the axis, so that its y component vanishes.
     FirstMoment,
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn inward<'g>(
     let mut forces = vec![zero; count];
     // Moments about each link's origin; their z components accumulate along a parallel group.
     let mut moments = vec![zero; count];
-    // For each group, at the index of its first link: the sum of its links' moments across the axis.
+    // For each group, at the index of its first link: the sum of its links' moments perpendicular to the axis.
     let mut across = vec![zero; count];
     for tip in tips {
         forces[tip.link] = forces[tip.link] + tip.force;

@@ -12,7 +12,7 @@
 use super::super::fused::FUSED;
 use super::super::number::Number;
 
-/// The limit below which the absolute value of angles must be, in rad.
+/// Angles must be smaller than this in magnitude, rad.
 pub const LIMIT: f32 = 131072.0;
 
 /// 1.5 · 2²³: if it is added to a smaller number, the low bits of the sum are the nearest integer.

@@ -10,7 +10,7 @@ use crate::driver::generate::unnamed_header;
 
 /// Makes the files of the library.
 pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
-    let tree = c::tree(parts.module, parts.flat);
+    let tree = c::arduino_tree(parts.module, parts.flat);
     let printer = Printer { parts, tree: &tree, names: Names::new(&tree.name), casadi: None };
     let name = &tree.name;
     let mut files = vec![

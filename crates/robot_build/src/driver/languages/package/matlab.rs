@@ -63,7 +63,7 @@ fn test(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     for (function, check) in checked(parts, tree) {
         let arguments = arguments(tree, check, ["[", "]"], "; ");
         let outputs: Vec<String> =
-            (1..=check.outputs.len()).map(|index| format!("found{index}")).collect();
+            (1..=check.outputs.len()).map(|index| format!("found{index}_")).collect();
         text.push_str(&format!(
             "[{}] = {name}.{}({arguments});\n",
             outputs.join(", "),

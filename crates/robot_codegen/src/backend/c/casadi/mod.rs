@@ -13,7 +13,7 @@ mod external;
 use self::external::{External, Port};
 
 /// Names that CasADi does not accept for functions.
-const RESERVED: &[&str] = &["null", "jac", "hess"];
+const RESERVED: &[&str] = &["hess", "jac", "null"];
 
 /// The name endings of the additional functions that CasADi looks up for each function.
 const ENDINGS: &[&str] = &[
@@ -62,7 +62,7 @@ pub fn casadi(module: &Module, options: &FlatOptions) -> Option<Casadi> {
     }
     let tree = tree(module, options);
     let header = Header::new(&tree, options, Dialect::C);
-    let mut namer = Namer::new(RESERVED, &[]);
+    let mut namer = Namer::new(&[RESERVED], &[]);
     let mut symbol = |name: &str| {
         // For a function `gravity`, CasADi also looks up `gravity_work`.
         let is_ending = |ending: &&str| name.ends_with(&format!("_{ending}"));
@@ -152,7 +152,7 @@ static void give_(casadi_real *to, const double *from, int rows, int columns)
 /// Makes the ports of a function's inputs and outputs. Their names are unique, because CasADi uses them as keywords.
 fn ports(function: &Function<'_>, parameters: usize) -> (Vec<Port>, Vec<Port>) {
     let source = function.source;
-    let mut namer = Namer::new(RESERVED, &[]);
+    let mut namer = Namer::new(&[RESERVED], &[]);
     let mut inputs: Vec<Port> = vec![];
     for (input, array) in source.inputs.iter().zip(&function.inputs) {
         inputs.push(Port::dense(namer.name(&input.name), array.length, 1));
