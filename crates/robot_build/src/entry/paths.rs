@@ -12,7 +12,7 @@ use crate::error::{Error, Errors, shown};
 
 /// The message about a pipe or a device. A robot is not read from one, because its pinned plan is stored beside the robot
 /// file.
-const NOT_REGULAR: &str = "it is not a regular file; save the robot in a file";
+const NOT_REGULAR: &str = "it is not a regular file; save its content in one";
 
 /// A robot file that has been read.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl RobotFile {
         let failed = |error: std::io::Error| cannot_read(given, &system_reason(&error));
         let found = std::fs::metadata(&path).map_err(failed)?;
         if found.is_dir() {
-            return Err(Errors::from(cannot_read(given, "it is a folder; name a robot file")));
+            return Err(Errors::from(cannot_read(given, "it is a folder; name a file")));
         }
         if !found.is_file() {
             return Err(Errors::from(cannot_read(given, NOT_REGULAR)));
@@ -200,7 +200,7 @@ mod tests {
     fn what_is_not_a_robot_file_has_its_reason() {
         let reason = |path: &Path| RobotFile::read(path).unwrap_err().to_string();
         assert!(reason(Path::new("")).contains("the path of a robot file is empty"));
-        assert!(reason(&std::env::temp_dir()).contains("it is a folder; name a robot file"));
+        assert!(reason(&std::env::temp_dir()).contains("it is a folder; name a file"));
         if cfg!(unix) {
             assert!(reason(Path::new("/dev/null")).contains(NOT_REGULAR));
         }

@@ -235,7 +235,7 @@ fn expand<'p, 'g>(
     }
     let mut terms = term::terms_of(&values, &LIMITS).map_err(|_| {
         Diagnostic::error(code::LIMIT, "the printed equations are too long to be expanded")
-            .help("split them into several files")
+            .help("leave out the longest equations, or compare each in a file of its own")
     })?;
     Ok(compared
         .into_iter()

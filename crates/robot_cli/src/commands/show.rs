@@ -71,7 +71,7 @@ fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
 fn joints(robot: &Robot) -> Vec<Vec<String>> {
     let title = ["link", "parent", "joint", "type", "coordinate", "limits"];
     let mut rows = vec![row(title)];
-    for LinkRow { link, parent, kind, coordinate, limits } in rows::links(robot) {
+    for LinkRow { link, parent, kind, limits, .. } in rows::links(robot) {
         let axis = words::vector(&link.joint.axis, |formula| formula.text().to_owned());
         let (direction, unit) = match link.joint.kind {
             JointKind::Revolute => ("about", "rad"),
@@ -86,7 +86,7 @@ fn joints(robot: &Robot) -> Vec<Vec<String>> {
             parent.to_owned(),
             link.joint.name.clone(),
             format!("{kind} {direction} {axis}"),
-            coordinate,
+            rows::position_text(&link.joint),
             limits,
         ]);
     }

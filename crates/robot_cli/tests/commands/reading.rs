@@ -433,3 +433,18 @@ fn warnings_of_values_are_added_to_those_of_the_file() {
         assert!(all > known, "{known}: {all}");
     }
 }
+
+#[test]
+fn show_prints_the_positions_of_joints_that_mimic_others() {
+    let link = |name: &str, more: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"z\"{more} }}\nmass = 1\n\
+             center_of_mass = [0.1, 0, 0]\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+        )
+    };
+    let mimic = ", mimic = { joint = \"a\", ratio = -2, offset = 0.3 }";
+    let links = [link("a", ", limits = [-1, 1]"), link("b", mimic)].concat();
+    let shown = output(&["show", "-"], &format!("format = 1\n[robot]\nname = \"arm\"\n{links}"));
+    assert!(shown.contains("0.3 - 2*q1") || shown.contains("-2*q1 + 0.3"), "{shown}");
+    assert_eq!(shown.matches("-1 to 1 rad").count(), 1, "{shown}");
+}

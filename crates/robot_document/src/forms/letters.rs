@@ -219,6 +219,28 @@ impl Writer<'_, '_> {
         })
     }
 
+    /// The error about a given letter, if a symbol of a form with this letter is printed like one of the robot: then another
+    /// letter is the remedy, not another symbol.
+    pub(super) fn blamed(&self, error: Error) -> Error {
+        let Letters { mass, velocity, gravity, .. } = &self.options.letters;
+        let mut given = [mass, velocity, gravity].into_iter().flatten();
+        let of_form = match &error {
+            Error::Alike { name, other, .. } => {
+                [name, other].into_iter().find(|name| self.symbols.is_defined(name))
+            }
+            _ => None,
+        };
+        let letter =
+            of_form.and_then(|name| given.find(|letter| name.starts_with(letter.as_str())));
+        match letter {
+            Some(letter) => Error::TakenLetter {
+                letter: letter.clone(),
+                owner: "indexed symbols of this robot",
+            },
+            None => error,
+        }
+    }
+
     /// Gives the joint torques their letter.
     pub(super) fn name_torque(&self, equation: &mut Equation) {
         let usual = Kind::JointTorque.name();

@@ -242,8 +242,9 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
     if graph.is_full() {
         return Err(Error::TooManyExpressions { limit: MAX_NODES });
     }
+    let groups = groups.map_err(|error| writer.blamed(error))?;
     let mut groups: Vec<Group> =
-        groups?.into_iter().filter(|group| !group.equations.is_empty()).collect();
+        groups.into_iter().filter(|group| !group.equations.is_empty()).collect();
     writer.check_letters(&groups)?;
     let mut rounded = false;
     for group in &mut groups {

@@ -2,6 +2,7 @@
 
 mod check_value;
 mod dh;
+mod drives;
 mod families;
 mod numbers;
 pub mod rows;
@@ -75,7 +76,7 @@ pub fn document(
     blocks.extend(tables.blocks);
     let is_rounded = tables.is_rounded || parts.iter().any(|(_, part)| part.rounded);
     let rounded = options.digits.filter(|_| is_rounded);
-    blocks.extend(conventions(options, rounded, extras.snaps)?);
+    blocks.extend(conventions(robot, options, rounded, extras.snaps)?);
     for (form, part) in &parts {
         blocks.extend(sections::blocks(*form, part, options));
     }
@@ -97,6 +98,7 @@ fn heading(text: &str) -> Block {
 
 /// The paragraph on the conventions for frames and signs.
 fn conventions(
+    robot: &Robot,
     options: &EquationOptions,
     rounded: Option<usize>,
     snaps: &[Snap],
@@ -105,6 +107,12 @@ fn conventions(
     let friction = match options.friction {
         true => "Joint friction is included.",
         false => "Joint friction is not included.",
+    };
+    let mimics = match robot.links.iter().any(|link| rows::is_mimic(&link.joint)) {
+        true => {
+            " For a joint that mimics another, the position in the table of links takes the place of the coordinate."
+        }
+        false => "",
     };
     let rounded = match rounded {
         Some(1) => {
@@ -129,7 +137,9 @@ fn conventions(
             Inline::Math(indexed('q')),
             Inline::text(", or translated along it by "),
             Inline::Math(indexed('q')),
-            Inline::text(". Vectors of a link are given in the axes of its frame. "),
+            Inline::text(format!(
+                ".{mimics} Vectors of a link are given in the axes of its frame. "
+            )),
             Inline::Math(options.letters.torque_sign().with_lower(Math::Letter('i'))),
             Inline::text(
                 " is the joint torque of a revolute joint or the joint force of a prismatic \

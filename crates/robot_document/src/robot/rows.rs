@@ -5,7 +5,7 @@ use robot_model::robot::{
     DhConvention, DhRow, Frame, Joint, JointKind, Link, Parameter, Robot, Wrench,
 };
 use robot_model::variable::JointVariable;
-use robot_symbolic::print::exact_text;
+use robot_symbolic::print::{exact_text, to_text};
 use robot_symbolic::{Expr, Formula, Graph, Rational};
 
 use super::words;
@@ -23,7 +23,7 @@ pub struct LinkRow<'r> {
     pub kind: &'static str,
     /// The symbol of the coordinate, such as `q2`.
     pub coordinate: String,
-    /// The limits of the coordinate, in rad or m.
+    /// The limits of the coordinate, in rad or m; `None` for a joint that mimics another.
     pub limits: Option<&'r [Rational; 2]>,
 }
 
@@ -60,9 +60,53 @@ pub fn links(robot: &Robot) -> impl Iterator<Item = LinkRow<'_>> {
             parent: words::carrier(robot, link.parent),
             kind: words::motion(link.joint.kind),
             coordinate: JointVariable::Position.symbol(link.joint.coordinate),
-            limits: coordinate.and_then(|coordinate| coordinate.limits.as_ref()),
+            limits: coordinate
+                .filter(|_| !is_mimic(&link.joint))
+                .and_then(|coordinate| coordinate.limits.as_ref()),
         }
     })
+}
+
+/// Whether the position of a joint is not simply its coordinate.
+#[must_use]
+pub fn is_mimic(joint: &Joint) -> bool {
+    !joint.ratio.as_number().is_some_and(|ratio| ratio.is_one()) || !words::is_zero(&joint.offset)
+}
+
+/// The position of a joint in terms of its coordinate, as text: `q2`, or `-2*q1 + 0.3` if it mimics another.
+#[must_use]
+pub fn position_text(joint: &Joint) -> String {
+    let graph = Graph::new();
+    let lower = |formula: &Formula| formula.lower(&graph, &mut |name| graph.symbol(name));
+    let coordinate = JointVariable::Position.symbol(joint.coordinate);
+    let position = lower(&joint.ratio) * graph.symbol(&coordinate) + lower(&joint.offset);
+    to_text(position).unwrap_or(coordinate)
+}
+
+/// The layout of a joint's position in terms of its coordinate plus a constant, with the coordinate first: −2 q₁ + 0.3.
+/// `layout` makes the layouts of expressions.
+///
+/// # Errors
+///
+/// The errors of `layout`.
+pub fn position<E>(
+    joint: &Joint,
+    constant: &Formula,
+    layout: impl Fn(Expr<'_>) -> Result<Math, E>,
+) -> Result<Math, E> {
+    let graph = Graph::new();
+    let layout = |value| layout(value).map(|math| tidied(&math, None));
+    let lower = |formula: &Formula| formula.lower(&graph, &mut |name| graph.symbol(name));
+    let coordinate = graph.symbol(&JointVariable::Position.symbol(joint.coordinate));
+    let moving = layout(lower(&joint.ratio) * coordinate)?;
+    let constant = lower(&joint.offset) + lower(constant);
+    if constant.is_zero() {
+        return Ok(moving);
+    }
+    let constant = layout(constant)?;
+    let plus = (constant.pieces().first() != Some(&Math::Sign('-'))).then_some(Math::Sign('+'));
+    let constant = plus.iter().chain(constant.pieces());
+    Ok(Math::Row(moving.pieces().iter().chain(constant).cloned().collect()))
 }
 
 /// A Denavit–Hartenberg parameter of a link.
@@ -81,21 +125,14 @@ impl DhParameter<'_> {
     ///
     /// The errors of `layout`.
     pub fn shown<E>(&self, layout: impl Fn(Expr<'_>) -> Result<Math, E>) -> Result<Math, E> {
-        let graph = Graph::new();
-        let layout = |value| layout(value).map(|math| tidied(&math, None));
-        let lower = |formula: &Formula| formula.lower(&graph, &mut |name| graph.symbol(name));
-        let value = lower(self.formula);
-        let Some(joint) = self.joint else { return layout(value) };
-        let coordinate = graph.symbol(&JointVariable::Position.symbol(joint.coordinate));
-        let moving = layout(lower(&joint.ratio) * coordinate)?;
-        let constant = lower(&joint.offset) + value;
-        if constant.is_zero() {
-            return Ok(moving);
+        match self.joint {
+            Some(joint) => position(joint, self.formula, layout),
+            None => {
+                let graph = Graph::new();
+                let value = self.formula.lower(&graph, &mut |name| graph.symbol(name));
+                layout(value).map(|math| tidied(&math, None))
+            }
         }
-        let constant = layout(constant)?;
-        let plus = (constant.pieces().first() != Some(&Math::Sign('-'))).then_some(Math::Sign('+'));
-        let constant = plus.iter().chain(constant.pieces());
-        Ok(Math::Row(moving.pieces().iter().chain(constant).cloned().collect()))
     }
 }
 

@@ -2,9 +2,11 @@
 
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Placement, Robot};
-use robot_symbolic::{AngleSums, Expr, Formula, Graph, Polynomial, PolynomialOptions, walk};
+use robot_symbolic::{
+    AngleSums, Expr, Formula, Graph, Polynomial, PolynomialOptions, Rational, walk,
+};
 
-use super::{dh, heading, numbers, paragraph};
+use super::{dh, drives, heading, numbers, paragraph};
 use crate::document::{Block, Cell, Inline, Table};
 use crate::error::Error;
 use crate::figure::Figure;
@@ -43,6 +45,7 @@ pub(super) fn blocks(
     blocks.extend(dh::blocks(robot, &formulas)?);
     let place = blocks.len();
     blocks.push(Block::Table(masses(robot, symbols)?));
+    blocks.extend(drives::table(robot, &formulas)?.map(Block::Table));
     if !robot.frames.is_empty() {
         blocks.push(Block::Table(frames(robot, &formulas)?));
     }
@@ -60,7 +63,7 @@ pub(super) struct Formulas<'n> {
 }
 
 impl Formulas<'_> {
-    fn math(&self, formula: &Formula) -> Result<Math, Error> {
+    pub(super) fn math(&self, formula: &Formula) -> Result<Math, Error> {
         self.expression(formula.lower(&self.graph, &mut |name| self.graph.symbol(name)))
     }
 
@@ -109,12 +112,12 @@ fn gravity(robot: &Robot, formulas: &Formulas<'_>) -> Result<Block, Error> {
     Ok(Block::Paragraph(line))
 }
 
-fn heads(names: &[&str]) -> Vec<Cell> {
+pub(super) fn heads(names: &[&str]) -> Vec<Cell> {
     names.iter().map(|name| vec![Inline::text(*name)]).collect()
 }
 
 /// The cells that identify a link: its number, and its name unless all names are numbers.
-fn link_cells(robot: &Robot, index: usize) -> Vec<Cell> {
+pub(super) fn link_cells(robot: &Robot, index: usize) -> Vec<Cell> {
     let number = vec![Inline::Math(Math::integer(index + 1))];
     let name = robot.links.get(index).map_or("", |link| &link.name);
     if are_numbered(robot) { vec![number] } else { vec![number, vec![Inline::text(name)]] }
@@ -136,13 +139,15 @@ pub(super) fn are_numbered(robot: &Robot) -> bool {
 fn links(robot: &Robot, formulas: &Formulas<'_>) -> Result<Table, Error> {
     let mut rows = vec![];
     for (index, row) in rows::links(robot).enumerate() {
-        let LinkRow { link, parent, kind, coordinate, .. } = row;
+        let LinkRow { link, parent, kind, .. } = row;
+        let zero = Formula::number(&Rational::ZERO);
+        let position = rows::position(&link.joint, &zero, |value| formulas.expression(value))?;
         let mut row = link_cells(robot, index);
         row.extend([
             vec![Inline::text(parent)],
             vec![Inline::text(kind)],
             formulas.vector(&link.joint.axis)?,
-            vec![Inline::Math(formulas.symbols.look(&coordinate))],
+            vec![Inline::Math(position)],
             formulas.placement(&link.placement)?,
         ]);
         rows.push(row);

@@ -88,7 +88,7 @@ fn limit(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Limit> {
     let is_whole = (0.0..=9e15).contains(&number) && number.fract() == 0.0;
     if !is_whole {
         reader.report(
-            Diagnostic::error(code::NUMBER, "a limit must be a non-negative whole number")
+            Diagnostic::error(code::NUMBER, "a limit must be a whole number from 0 to 9e15")
                 .at(&place, "")
                 .help(
                     "give `max_operations` as a number of operations and `max_stack` as a \

@@ -1,10 +1,10 @@
 //! The positions of the joints in the scheme. They follow from the offsets of the robot file at q = 0, in the base
 //! frame. Offsets too short to be seen are lengthened, and joints at the same point are drawn apart.
 
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use robot_document::robot::words;
-use robot_model::robot::{Axis, Frame, Move, Placement, Robot};
-use robot_symbolic::Formula;
+use robot_model::robot::{Axis, Frame, Joint, JointKind, Move, Placement, Robot};
+use robot_symbolic::{Formula, Rational};
 
 use super::view::View;
 use crate::text;
@@ -80,7 +80,15 @@ pub(crate) fn layout(robot: &Robot, view: &View, enlarged: f64) -> Layout {
     for link in &robot.links {
         let axis = link.joint.axis.each_ref().map(|part| value(robot, part));
         let axis = direction(&axis.into());
-        let place = layout.place(robot, view, scale, link.parent, &link.placement, axis);
+        let start = at_zero(robot, &link.joint, &link.placement);
+        let mut place = layout.place(robot, view, scale, link.parent, &start, axis);
+        if link.joint.kind == JointKind::Revolute {
+            let angle = value(robot, &link.joint.offset);
+            place.rotation *=
+                Rotation3::from_axis_angle(&Unit::new_unchecked(axis), angle).into_inner();
+        }
+        // The arrow shows the direction in which the coordinate grows.
+        place.axis *= 1_f64.copysign(value(robot, &link.joint.ratio));
         layout.links.push(place);
     }
     for (index, frame) in drawn_frames(robot) {
@@ -115,6 +123,21 @@ fn longest(robot: &Robot) -> f64 {
         Move::Rotate(..) => None,
     });
     lengths.fold(0.0, f64::max)
+}
+
+/// The placement of a link at coordinate 0. The offset of a prismatic joint that mimics another is a displacement along
+/// the axis, if that is an axis of the frame.
+fn at_zero(robot: &Robot, joint: &Joint, placement: &Placement) -> Placement {
+    let mut placement = placement.clone();
+    if joint.kind == JointKind::Prismatic && value(robot, &joint.offset) != 0.0 {
+        let zero = || Formula::number(&Rational::ZERO);
+        let is_zero = joint.axis.each_ref().map(|part| value(robot, part) == 0.0);
+        let along = is_zero.map(|is_zero| if is_zero { zero() } else { joint.offset.clone() });
+        if is_zero.iter().filter(|is_zero| !**is_zero).count() == 1 {
+            placement.0.push(Move::Translate(along));
+        }
+    }
+    placement
 }
 
 fn value(robot: &Robot, formula: &Formula) -> f64 {

@@ -178,6 +178,36 @@ mod tests {
         }
     }
 
+    /// Joints that mimic another are drawn where they are at coordinate 0, and their arrows show where the coordinate
+    /// grows.
+    #[test]
+    fn joints_that_mimic_others_are_drawn_at_coordinate_zero() {
+        let robot = |more: &str, kind: &str| {
+            let link = |name: &str, more: &str| {
+                format!(
+                    "[[link]]\nname = \"{name}\"\njoint = {{ type = \"{kind}\", axis = \"z\"{more} }}\n\
+                     origin = {{ xyz = [0.4, 0, 0] }}\nmass = 1\ncenter_of_mass = [0.1, 0, 0]\n\
+                     inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+                )
+            };
+            let mimic = format!(", mimic = {{ joint = \"a\"{more} }}");
+            let links = [link("a", ""), link("b", &mimic), link("c", "")].concat();
+            let text = format!("format = 1\n[robot]\nname = \"arm\"\n{links}");
+            robot_model::description::read_toml("arm", &text).unwrap().robot
+        };
+        let view = best(&robot("", "revolute")).1;
+        let places = |more: &str, kind: &str| layout::layout(&robot(more, kind), &view, 1.0).links;
+        let usual = places("", "revolute");
+        let turned = places(", offset = 1.5707963267948966", "revolute");
+        assert!((usual[2].position - turned[2].position).norm() > 50.0);
+        assert!((usual[1].position - turned[1].position).norm() < 1e-9);
+        let back = places(", ratio = -1", "revolute");
+        assert!((back[1].axis + usual[1].axis).norm() < 1e-9 && back[0].axis == usual[0].axis);
+        let straight = places("", "prismatic");
+        let moved = places(", offset = 0.3", "prismatic");
+        assert!((straight[1].position - moved[1].position).norm() > 20.0);
+    }
+
     #[test]
     fn joints_lie_apart_on_the_page() {
         for robot in robots() {

@@ -168,7 +168,10 @@ impl Parts<'_> {
              //! The check values of the README.\n\n\
              use {name}::*;\n\n\
              /// Compares to a fraction of the largest entry.\n\
-             fn assert_close(found: &[impl Copy + Into<f64>], stated: &[f64]) {{\n    \
+             fn assert_close<T>(found: &[T], stated: &[f64])\n\
+             where\n    \
+                 T: ::core::marker::Copy + ::core::convert::Into<f64>,\n\
+             {{\n    \
                  let size = stated.iter().fold(0.0_f64, |size, entry| size.max(entry.abs()));\n    \
                  assert_eq!(found.len(), stated.len());\n    \
                  for (found, stated) in found.iter().zip(stated) {{\n        \

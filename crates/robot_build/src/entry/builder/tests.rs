@@ -399,7 +399,7 @@ fn what_is_not_a_robot_file_is_refused() {
     let package = package("nofile");
     fs::write(package.join("big.toml"), vec![b'#'; 10 << 20]).unwrap();
     fs::write(package.join("binary.toml"), [0xff, 0xfe, 0x00]).unwrap();
-    assert!(message(&builder(&package), &["robots"]).contains("it is a folder; name a robot file"));
+    assert!(message(&builder(&package), &["robots"]).contains("it is a folder; name a file"));
     assert!(message(&builder(&package), &[""]).contains("the path of a robot file is empty"));
     assert!(
         message(&builder(&package), &["big.toml"])
