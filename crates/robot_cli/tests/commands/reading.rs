@@ -444,7 +444,10 @@ fn show_prints_the_positions_of_joints_that_mimic_others() {
     };
     let mimic = ", mimic = { joint = \"a\", ratio = -2, offset = 0.3 }";
     let links = [link("a", ", limits = [-1, 1]"), link("b", mimic)].concat();
-    let shown = output(&["show", "-"], &format!("format = 1\n[robot]\nname = \"arm\"\n{links}"));
+    let path = folder("show_mimic").join("arm.toml");
+    let text = format!("format = 1\n[robot]\nname = \"arm\"\n{links}");
+    std::fs::write(&path, text).unwrap();
+    let shown = output(&["show", path.to_str().unwrap()], "");
     assert!(shown.contains("0.3 - 2*q1") || shown.contains("-2*q1 + 0.3"), "{shown}");
     assert_eq!(shown.matches("-1 to 1 rad").count(), 1, "{shown}");
 }

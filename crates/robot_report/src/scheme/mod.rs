@@ -196,7 +196,7 @@ mod tests {
             robot_model::description::read_toml("arm", &text).unwrap().robot
         };
         let view = best(&robot("", "revolute")).1;
-        let places = |more: &str, kind: &str| layout::layout(&robot(more, kind), &view, 1.0).links;
+        let places = |more: &str, kind: &str| layout(&robot(more, kind), &view, 1.0).links;
         let usual = places("", "revolute");
         let turned = places(", offset = 1.5707963267948966", "revolute");
         assert!((usual[2].position - turned[2].position).norm() > 50.0);
