@@ -46,12 +46,13 @@ pub(super) fn table(robot: &Robot, formulas: &Formulas<'_>) -> Result<Option<Tab
 fn caption(robot: &Robot, armature: bool, rotor: bool) -> String {
     let inertia = match (armature, rotor) {
         (true, true) => {
-            "the inertia at the joint is the armature plus the rotor inertia times the square of the gear ratio"
+            "the armature, in kg m² or, at prismatic joints, kg, and the rotor inertia, in kg m², times the square of \
+             the gear ratio make the inertia at the joint"
         }
         (false, _) => {
-            "the inertia at the joint is the rotor inertia times the square of the gear ratio"
+            "the rotor inertia, in kg m², times the square of the gear ratio is the inertia at the joint"
         }
-        _ => "the armature is the inertia at the joint",
+        _ => "the armature is the inertia at the joint, in kg m² or, at prismatic joints, kg",
     };
     let gyroscopic = robot.links.iter().filter(|link| link.drive.gyroscopic);
     let names: Vec<&str> = gyroscopic.map(|link| link.joint.name.as_str()).collect();
@@ -62,5 +63,5 @@ fn caption(robot: &Robot, armature: bool, rotor: bool) -> String {
             names.join(", ")
         ),
     };
-    format!("Drives, kg m² at revolute joints and kg at prismatic ones: {inertia}.{gyroscopic}")
+    format!("Drives: {inertia}.{gyroscopic}")
 }
