@@ -2,7 +2,7 @@
 
 /// The number of letters after which a longer word can be broken.
 const LONG_WORD: usize = 12;
-/// The number of letters up to which a word that is no name stays whole.
+/// The number of letters up to which a word that is not a name stays whole.
 const LONG_PLAIN_WORD: usize = 20;
 
 /// The pieces of a text between which lines may break without a space or a hyphen. Words of letters alone stay whole, and

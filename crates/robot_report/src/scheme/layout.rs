@@ -80,7 +80,7 @@ pub(crate) fn layout(robot: &Robot, view: &View, enlarged: f64) -> Layout {
     for link in &robot.links {
         let axis = link.joint.axis.each_ref().map(|part| value(robot, part));
         let axis = direction(&axis.into());
-        let start = at_zero(robot, &link.joint, &link.placement);
+        let start = at_zero(robot, &link.joint, &link.placement, &axis);
         let mut place = layout.place(robot, view, scale, link.parent, &start, axis);
         if link.joint.kind == JointKind::Revolute {
             let angle = value(robot, &link.joint.offset);
@@ -126,16 +126,17 @@ fn longest(robot: &Robot) -> f64 {
 }
 
 /// The placement of a link at coordinate 0. The offset of a prismatic joint that mimics another is a displacement along
-/// the axis, if that is an axis of the frame.
-fn at_zero(robot: &Robot, joint: &Joint, placement: &Placement) -> Placement {
+/// the axis, whose direction is a unit vector in the link's axes.
+fn at_zero(robot: &Robot, joint: &Joint, placement: &Placement, axis: &Vector3<f64>) -> Placement {
     let mut placement = placement.clone();
-    if joint.kind == JointKind::Prismatic && value(robot, &joint.offset) != 0.0 {
-        let zero = || Formula::number(&Rational::ZERO);
-        let is_zero = joint.axis.each_ref().map(|part| value(robot, part) == 0.0);
-        let along = is_zero.map(|is_zero| if is_zero { zero() } else { joint.offset.clone() });
-        if is_zero.iter().filter(|is_zero| !**is_zero).count() == 1 {
-            placement.0.push(Move::Translate(along));
-        }
+    let offset = value(robot, &joint.offset);
+    if joint.kind == JointKind::Prismatic && offset != 0.0 {
+        // Along an axis of the frame, the length keeps its symbol.
+        let along = [axis.x, axis.y, axis.z].map(|part| match part {
+            1.0 => joint.offset.clone(),
+            part => Formula::number(&Rational::from_f64(offset * part).unwrap_or(Rational::ZERO)),
+        });
+        placement.0.push(Move::Translate(along));
     }
     placement
 }

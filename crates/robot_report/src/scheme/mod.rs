@@ -182,10 +182,10 @@ mod tests {
     /// grows.
     #[test]
     fn joints_that_mimic_others_are_drawn_at_coordinate_zero() {
-        let robot = |more: &str, kind: &str| {
+        let robot_along = |axis: &str, more: &str, kind: &str| {
             let link = |name: &str, more: &str| {
                 format!(
-                    "[[link]]\nname = \"{name}\"\njoint = {{ type = \"{kind}\", axis = \"z\"{more} }}\n\
+                    "[[link]]\nname = \"{name}\"\njoint = {{ type = \"{kind}\", axis = {axis}{more} }}\n\
                      origin = {{ xyz = [0.4, 0, 0] }}\nmass = 1\ncenter_of_mass = [0.1, 0, 0]\n\
                      inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
                 )
@@ -195,6 +195,7 @@ mod tests {
             let text = format!("format = 1\n[robot]\nname = \"arm\"\n{links}");
             robot_model::description::read_toml("arm", &text).unwrap().robot
         };
+        let robot = |more: &str, kind: &str| robot_along("\"z\"", more, kind);
         let view = best(&robot("", "revolute")).1;
         let places = |more: &str, kind: &str| layout(&robot(more, kind), &view, 1.0).links;
         let usual = places("", "revolute");
@@ -205,7 +206,11 @@ mod tests {
         assert!((back[1].axis + usual[1].axis).norm() < 1e-9 && back[0].axis == usual[0].axis);
         let straight = places("", "prismatic");
         let moved = places(", offset = 0.3", "prismatic");
-        assert!((straight[1].position - moved[1].position).norm() > 20.0);
+        let up = moved[1].position - straight[1].position;
+        assert!(up.z > 20.0, "{up}");
+        let down = robot_along("[0, 0, -2]", ", offset = 0.3", "prismatic");
+        let down = layout(&down, &view, 1.0).links[1].position - straight[1].position;
+        assert!(down.z < -20.0, "{down}");
     }
 
     #[test]
