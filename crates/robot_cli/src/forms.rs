@@ -35,6 +35,10 @@ pub(crate) struct EquationArguments {
     /// the form expanded, else keep]
     #[arg(long, value_enum)]
     angle_sums: Option<AngleSumStyle>,
+    /// In the forms collected, grouped and regrouped, write sin(2q) for 2 sin q cos q, and cos(2q) for 1 - 2 sin(q)^2 and
+    /// 2 cos(q)^2 - 1
+    #[arg(long, conflicts_with = "expand")]
+    double_angles: bool,
     /// In the forms grouped and regrouped, multiply the coefficients out instead of factoring them
     #[arg(long)]
     expand: bool,
@@ -51,12 +55,12 @@ pub(crate) struct EquationArguments {
     /// Print equations in the order, form and symbols of the paper on TRTTR1: all quantities multiplied out, terms as
     /// the paper's relations yield them, vectors as columns, those in the joints from the last link to the first,
     /// sines and cosines as sq_2 and cq_2
-    #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
+    #[arg(long, value_enum, conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel", "double_angles",
           "no_references", "letters"])]
     style: Option<StyleName>,
     /// Print equations like the published ones in this file, in the format that `compare` reads: in the paper's
     /// style, with terms and factors in the order of the file, and with its numbers
-    #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel",
+    #[arg(long, value_name = "PRINTED", conflicts_with_all = ["quantities", "form", "trig", "layout", "expand", "christoffel", "double_angles",
           "no_references", "letters"])]
     like: Option<PathBuf>,
     /// Letters for joint torques, mass matrix, Coriolis and centrifugal terms, and gravity terms, such as tau,M,C,g;
@@ -197,6 +201,14 @@ impl EquationArguments {
                     .to_owned(),
             );
         }
+        let is_factored =
+            |form: &Form| matches!(form, Form::Collected | Form::Grouped | Form::Regrouped);
+        if self.double_angles && !forms.iter().any(is_factored) {
+            wrong.push(
+                "--double-angles has no effect in this form; add --form collected, grouped or regrouped, or leave it out"
+                    .to_owned(),
+            );
+        }
         if self.no_references && !forms.contains(&Form::Grouped) {
             wrong.push(
                 "--no-references has no effect in this form; add --form grouped, or leave it out"
@@ -263,17 +275,25 @@ impl EquationArguments {
         Ok(())
     }
 
-    /// Converts an error in the equations of a robot file.
+    /// Converts an error in the equations of a robot file. Messages of the library mention at most the values of the
+    /// options that help.
     pub(crate) fn failed(&self, robot: &RobotArgument, error: &Error) -> Failure {
-        let style = if self.like.is_some() { "--like" } else { "--style" };
-        // A style determines the form, so another form requires that no style is chosen.
-        let condition = match options_that_help(error) {
-            Some(options) if self.has_style() && options.contains("--form") => {
-                format!(", without {style}")
+        let remedy = match error {
+            Error::TooLong { .. } | Error::TooMany { .. } | Error::TooManyExpressions { .. } => {
+                "--form"
             }
-            _ => String::new(),
+            Error::LikeSine { .. } => "--trig named",
+            Error::TakenLetter { .. } => "--letters",
+            Error::Narrow { .. } => "--width, or --form compact, which has the shortest parts",
+            _ => return failed(robot, error),
         };
-        failure(robot, error, &condition)
+        // A style determines the form, the sines and the letters.
+        let condition = match (&self.like, self.has_style()) {
+            (Some(_), _) => ", without --like",
+            (None, true) => ", without --style",
+            (None, false) => "",
+        };
+        Failure::input(format!("{}: {error} ({remedy}{condition})", shown(robot.path())))
     }
 
     /// Returns an error if friction is chosen but the robot does not have any.
@@ -311,6 +331,7 @@ impl EquationArguments {
                 AngleSumStyle::Expand => AngleSums::Expand,
                 AngleSumStyle::Keep => AngleSums::Keep,
             }),
+            double_angles: self.double_angles,
             expand: self.expand,
             references: !self.no_references,
             christoffel: self.christoffel,
@@ -347,29 +368,10 @@ pub(crate) fn no_effect(option: &str) -> String {
     )
 }
 
-/// Converts an error in the equations of a robot file.
+/// Converts an error in equations that have one form, such as those of the base parameters.
 pub(crate) fn failed(robot: &RobotArgument, error: &Error) -> Failure {
-    failure(robot, error, "")
-}
-
-/// The failure with the options that help, under a condition.
-fn failure(robot: &RobotArgument, error: &Error, condition: &str) -> Failure {
-    let options = options_that_help(error);
-    let remedy = options.map(|options| format!(" ({options}{condition})")).unwrap_or_default();
+    let remedy = if let Error::Narrow { .. } = error { " (--width)" } else { "" };
     Failure::input(format!("{}: {error}{remedy}", shown(robot.path())))
-}
-
-/// The options with which the error can be avoided; `None` for other errors. Messages of the library mention at most
-/// the values of these options.
-const fn options_that_help(error: &Error) -> Option<&'static str> {
-    match error {
-        Error::TooLong { .. } | Error::TooMany { .. } | Error::TooManyExpressions { .. } => {
-            Some("--form")
-        }
-        Error::LikeSine { .. } => Some("--trig named"),
-        Error::Narrow { .. } => Some("--form, --width"),
-        _ => None,
-    }
 }
 
 /// Finds the quantities with these names.

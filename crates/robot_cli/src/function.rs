@@ -1,7 +1,7 @@
 //! Names of functions on the command line.
 
 use clap::ValueEnum;
-use robot_build::{ALL_FUNCTIONS, Bundle, FunctionKind, Functions, functions::named};
+use robot_build::{ALL_FUNCTIONS, Bundle, Error, FunctionKind, Functions, functions::named};
 use robot_model::diagnostic::quote;
 use robot_model::robot::Robot;
 
@@ -29,17 +29,10 @@ pub(crate) fn functions(names: &[String], robot: &Robot) -> Result<Functions, Fa
     check_once("--function", names)?;
     let (all, names): (Vec<_>, Vec<_>) =
         names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
-    let kinds = kinds(&names, robot)?;
-    match (all.is_empty(), kinds.is_empty()) {
-        (true, _) => Ok(Functions::Chosen(kinds)),
-        (false, true) => Ok(Functions::All),
-        (false, false) => {
-            let message = format!(
-                "--function: `{ALL_FUNCTIONS}` selects all functions; leave the others out"
-            );
-            Err(Failure::Usage(vec![message]))
-        }
-    }
+    let functions = Functions::listed(!all.is_empty(), kinds(&names, robot)?);
+    functions.ok_or_else(|| {
+        Failure::Usage(vec![format!("--function: {}", Error::AllFunctionsAndOthers)])
+    })
 }
 
 /// Makes bundles from names, with the functions of a robot.

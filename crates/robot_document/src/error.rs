@@ -62,8 +62,8 @@ pub enum Error {
     },
     /// A symbol of the robot has the name of a vector or matrix in text.
     #[error(
-        "in text, these equations name a vector `{name}`, like a symbol of this robot; print them with \
-         components (the layout `scalars`), or rename the symbol in the robot file"
+        "in text, these equations name a vector `{name}`, like a symbol of this robot; rename the symbol in \
+         the robot file, or, without a style, print the equations with components (the layout `scalars`)"
     )]
     TakenArray {
         /// The name.
@@ -115,7 +115,7 @@ pub enum Error {
     #[error(
         "a part of the equation of `{name}` that cannot be broken is {needed} cm wide, but beside \
          the left side and the number of the equation, a line has only {available} cm; choose \
-         another form or wider lines, or set shorter names with `latex` in the robot file"
+         wider lines, or set shorter names for the parameters with `latex` in the robot file"
     )]
     Narrow {
         /// The left side of the equation, as text.

@@ -217,6 +217,18 @@ fn every_style_reads_back() {
 }
 
 #[test]
+fn double_angles_read_back() {
+    for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() < 6) {
+        for trigonometry in [Trigonometry::Named, Trigonometry::Short] {
+            for form in [Form::Collected, Form::Grouped, Form::Regrouped] {
+                let options = EquationOptions { trigonometry, ..in_form(form) };
+                check(robot, &EquationOptions { double_angles: true, ..options }, &[8.2]);
+            }
+        }
+    }
+}
+
+#[test]
 fn friction_reads_back() {
     let robots = robots();
     let mut with_friction = robots.iter().filter(|robot| robot.has_friction()).peekable();

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that fails panics")]
 
 use robot_document::latex::Layout;
-use robot_document::{EquationOptions, Form, markdown, robot};
+use robot_document::{EquationOptions, Form, Trigonometry, markdown, robot};
 use robot_model::description::read_toml;
 
 fn shown(text: &str) -> String {
@@ -41,6 +41,35 @@ fn joints_that_mimic_others_have_their_positions() {
     let note = "the position in the table of links takes the place of the coordinate";
     assert!(of(", ratio = -1").contains(note));
     assert!(!shown(&arm(&[first])).contains(note));
+}
+
+#[test]
+fn the_wrench_of_a_tip_is_explained_if_there_is_one() {
+    let arm = arm(&[link("a", "type = \"revolute\", axis = \"z\"", "")]);
+    let tip = "[tip]\nname = \"hand\"\nparent = \"a\"\n\
+               wrench = { force = [\"Fx\", \"Fy\", \"Fz\"], moment = [\"Mx\", \"My\", \"Mz\"] }\n";
+    let sentence = "The wrench of a tip is the wrench that the tip";
+    assert!(!shown(&arm).contains(sentence));
+    assert!(shown(&format!("{arm}{tip}")).contains(sentence));
+}
+
+#[test]
+fn short_sines_are_explained() {
+    let of = |trigonometry, kind: &str| {
+        let text = arm(&[link("a", &format!("type = \"{kind}\", axis = \"z\""), "")]);
+        let model = read_toml("arm", &text).unwrap().robot;
+        let options = EquationOptions { trigonometry, ..EquationOptions::default() };
+        let forms = [Form::Grouped];
+        let document = robot::document(&model, &options, &forms, Default::default()).unwrap();
+        markdown::document(&document, Layout::of_centimeters(15.0)).unwrap()
+    };
+    let sentence = "are the sine and the cosine of $q_i$";
+    let short = of(Trigonometry::Short, "revolute");
+    assert!(short.contains(&format!("$s_i$ and $c_i$ {sentence}; $s_{{ij}}$ is the")), "{short}");
+    let paper = of(Trigonometry::Paper, "revolute");
+    assert!(paper.contains(&format!("$sq_i$ and $cq_i$ {sentence}.")), "{paper}");
+    assert!(!of(Trigonometry::Named, "revolute").contains(sentence));
+    assert!(!of(Trigonometry::Short, "prismatic").contains(sentence));
 }
 
 #[test]

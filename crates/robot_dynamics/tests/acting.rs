@@ -9,9 +9,10 @@ use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::read_toml;
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::Robot;
-use robot_numeric::Mechanism;
+use robot_model::variable::JointVariable;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots::{parameterized, robot};
+use robot_numeric::{Loads, Mechanism};
 use robot_symbolic::{Expr, Graph, Rational, walk};
 
 fn robot_file(name: &str) -> Robot {
@@ -49,9 +50,25 @@ fn roots<'g>(function: &Function<'g>) -> Vec<Expr<'g>> {
 }
 
 fn evaluated(robot: &Robot, roots: &[Expr<'_>], changed: &str, to: f64) -> Vec<f64> {
+    evaluated_at(robot, roots, 1.0, changed, to)
+}
+
+/// The values with all joint velocities times `direction`.
+fn evaluated_at(
+    robot: &Robot,
+    roots: &[Expr<'_>],
+    direction: f64,
+    changed: &str,
+    to: f64,
+) -> Vec<f64> {
+    let velocities = robot.symbols(JointVariable::Velocity);
     walk::evaluate(roots, |symbol| {
         let name = roots[0].graph().symbol_name(symbol);
-        if name == changed { to } else { value(robot, &name) }
+        match name == changed {
+            true => to,
+            false if velocities.contains(&name) => direction * value(robot, &name),
+            false => value(robot, &name),
+        }
     })
 }
 
@@ -65,7 +82,8 @@ fn every_parameter_of_a_function_acts_on_it() {
         for kind in FunctionKind::ALL.iter().filter(|kind| kind.missing_in(&robot).is_none()) {
             for function in derivation.functions(*kind) {
                 let roots = roots(&function);
-                let usual = evaluated(&robot, &roots, "", 0.0);
+                let [forward, backward] =
+                    [1.0, -1.0].map(|direction| evaluated_at(&robot, &roots, direction, "", 0.0));
                 let symbols = walk::symbols(&roots);
                 for parameter in &robot.parameters {
                     let used = graph
@@ -76,15 +94,19 @@ fn every_parameter_of_a_function_acts_on_it() {
                         left_out += 1;
                         continue;
                     }
-                    let changed = evaluated(&robot, &roots, &parameter.name, 1e3);
-                    // With inertias that no body can have, there may be no accelerations.
-                    let acts = usual.iter().zip(&changed).any(|(a, b)| {
-                        (a - b).abs() > 1e-9 * a.abs() || (b.is_nan() && !a.is_nan())
-                    });
+                    // Dry friction may act in one direction only.
+                    let acts = |direction: f64, usual: &[f64]| {
+                        let changed = evaluated_at(&robot, &roots, direction, &parameter.name, 1e3);
+                        // With inertias that no body can have, there may be no accelerations.
+                        usual.iter().zip(&changed).any(|(a, b)| {
+                            (a - b).abs() > 1e-9 * a.abs() || (b.is_nan() && !a.is_nan())
+                        })
+                    };
                     assert!(
-                        acts,
+                        acts(1.0, &forward) || acts(-1.0, &backward),
                         "{name}: {} reads {}, which does not act",
-                        function.name, parameter.name
+                        function.name,
+                        parameter.name
                     );
                     compared += 1;
                 }
@@ -117,26 +139,32 @@ fn what_does_not_act_on_torques_leaves_no_bit_of_them() {
     }
 }
 
-/// The torques of the numeric solver with one parameter changed.
+/// The torques of the numeric solver, with friction, with one parameter changed.
 fn solved(robot: &Robot, state: &State, changed: &str, to: f64) -> Vec<f64> {
     let mechanism = Mechanism::from_robot(robot, &|name| {
         if name == changed { to } else { nominal(robot, name).unwrap_or(f64::NAN) }
     });
-    let torques = mechanism.unwrap().inverse_dynamics(&state.q, &state.qd, &state.qdd).unwrap();
+    let loads = Loads { friction: true, ..Loads::default() };
+    let (mechanism, State { q, qd, qdd, .. }) = (mechanism.unwrap(), state);
+    let torques = mechanism.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
     torques.iter().copied().collect()
 }
 
-/// Checks that no parameter with an effect is left out.
+/// Checks that no parameter with an effect is left out, also of those that act in one direction of motion only.
 #[test]
 fn torques_without_idle_parameters_are_those_of_the_solver() {
     for (name, robot) in robots() {
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let roots = roots(&derivation.functions(FunctionKind::InverseDynamics(Effects::NONE))[0]);
+        let friction = Effects { friction: robot.has_friction(), ..Effects::NONE };
+        let roots = roots(&derivation.functions(FunctionKind::InverseDynamics(friction))[0]);
         let state = Random::new(5).state(&Mechanism::nominal(&robot).unwrap());
-        for parameter in &robot.parameters {
+        let backward = State { qd: state.qd.iter().map(|rate| -rate).collect(), ..state.clone() };
+        let states = [&state, &backward];
+        for (parameter, state) in robot.parameters.iter().flat_map(|one| states.map(|it| (one, it)))
+        {
             let to = parameter.value.as_ref().map_or(0.0, Rational::to_f64) * 1.25 + 0.5;
-            let expected = solved(&robot, &state, &parameter.name, to);
+            let expected = solved(&robot, state, &parameter.name, to);
             let found = walk::evaluate(&roots, |symbol| {
                 let symbol = graph.symbol_name(symbol);
                 let of = |prefix: &str, values: &[f64]| {

@@ -1,5 +1,6 @@
 //! The arguments of `include_robot!`.
 
+use proc_macro2::Span;
 use robot_build::{
     ALL_FUNCTIONS, Bundle, FunctionKind, Functions, Kind, OPTIONS, OptionSpec, Options, Robot,
     Value, functions,
@@ -78,17 +79,11 @@ impl Arguments {
         if let Some(names) = &self.functions {
             let (all, names): (Vec<&LitStr>, Vec<&LitStr>) =
                 names.iter().partition(|name| name.value() == ALL_FUNCTIONS);
-            let kinds = kinds(names, robot)?;
-            options.functions = match all.first() {
-                None => Functions::Chosen(kinds),
-                Some(_) if kinds.is_empty() => Functions::All,
-                Some(all) => {
-                    return Err(syn::Error::new(
-                        all.span(),
-                        robot_build::Error::AllFunctionsAndOthers,
-                    ));
-                }
-            };
+            let functions = Functions::listed(!all.is_empty(), kinds(names, robot)?);
+            options.functions = functions.ok_or_else(|| {
+                let place = all.first().map_or_else(Span::call_site, |all| all.span());
+                syn::Error::new(place, robot_build::Error::AllFunctionsAndOthers)
+            })?;
         }
         for (name, functions) in &self.bundles {
             let functions = kinds(functions, robot)?;

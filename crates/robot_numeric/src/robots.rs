@@ -54,8 +54,9 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
     }
 }
 
-/// The robot with every mass, center of mass and inertia replaced by a parameter whose nominal value is the former
-/// value: `m1`, `cx1`, `Ixx1` for the first body of the first link, `m1_2` for its second body.
+/// The robot with every mass, center of mass and inertia, and with each value of drives and friction that is not 0,
+/// replaced by a parameter whose nominal value is the former value: `m1`, `cx1`, `Ixx1` for the first body of the first
+/// link, `m1_2` for its second body, `FV1` for the viscous friction of its joint.
 #[must_use]
 pub fn parameterized(robot: &Robot) -> Robot {
     let mut robot = robot.clone();
@@ -81,6 +82,22 @@ pub fn parameterized(robot: &Robot) -> Robot {
             let entries = [xx, yy, zz, xy, xz, yz];
             for (formula, axes) in entries.into_iter().zip(Inertia::NAMES) {
                 replace(formula, format!("I{axes}{suffix}"));
+            }
+        }
+        let (friction, drive) = (&mut link.friction, &mut link.drive);
+        let of_joint = [
+            (&mut friction.viscous, "FV"),
+            (&mut friction.coulomb, "FC"),
+            (&mut friction.spindle_diameter, "FD"),
+            (&mut friction.coulomb_positive, "FP"),
+            (&mut friction.coulomb_negative, "FN"),
+            (&mut friction.offset, "FO"),
+            (&mut drive.armature, "IA"),
+            (&mut drive.rotor_inertia, "IR"),
+        ];
+        for (formula, name) in of_joint {
+            if !formula.as_number().is_some_and(|value| value.is_zero()) {
+                replace(formula, format!("{name}{number}"));
             }
         }
     }

@@ -140,7 +140,10 @@ fn sections(input: &Input<'_>) -> Result<(Robot, Option<Live>, Vec<Section>), Er
         Section {
             id: "masses",
             title: "Masses",
-            body: vec![tables::masses(&shown, &symbols).into()],
+            body: std::iter::once(tables::masses(&shown, &symbols))
+                .chain(tables::drives(&shown, &symbols))
+                .map(Node::from)
+                .collect(),
         },
         parameters(&shown, &symbols),
         Section { id: "equations", title: "Equations of motion", body: equations::forms(&shown) },

@@ -1,6 +1,7 @@
-//! The contents of the robot file as tables: joints, frames, masses and parameters.
+//! The contents of the robot file as tables: joints, frames, masses, drives and parameters.
 
 use robot_document::markup::{Element, Node, element, holding};
+use robot_document::robot::drives::drives as drives_of;
 use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
 use robot_model::robot::{Body, DhConvention, Inertia, Robot};
@@ -152,6 +153,21 @@ pub(crate) fn masses(robot: &Robot, symbols: &Symbols) -> Element {
     table.build()
 }
 
+/// The table of drives; `None` if no joint has a drive with inertia.
+pub(crate) fn drives(robot: &Robot, symbols: &Symbols) -> Option<Element> {
+    let drives = drives_of(robot)?;
+    let mut table = Table::stacked(&drives.caption, ["Link"].into_iter().chain(drives.columns));
+    for (index, values) in drives.rows {
+        let name = robot.links.get(index).map_or("", |link| link.name.as_str());
+        table.row(
+            &parts::link(index),
+            name,
+            values.iter().map(|value| value_cell(robot, symbols, value)),
+        );
+    }
+    Some(table.build())
+}
+
 /// The table of parameters with their values and units; `None` if there are none.
 pub(crate) fn parameters(robot: &Robot, symbols: &Symbols) -> Option<Element> {
     let caption = "Parameters: symbols in the equations, fields of the generated code.";
@@ -196,11 +212,10 @@ fn value_cell(robot: &Robot, symbols: &Symbols, formula: &Formula) -> Element {
 fn position(robot: &Robot, row: &LinkRow<'_>) -> String {
     let joint = &row.link.joint;
     let coordinate = text::symbol(&row.coordinate);
-    let is_one = joint.ratio.as_number().is_some_and(|number| number.is_one());
-    let turned = match is_one {
-        true => coordinate,
-        false => format!("({}) {coordinate}", text::with_value(robot, &joint.ratio)),
-    };
+    if !rows::is_mimic(joint) {
+        return coordinate;
+    }
+    let turned = format!("({}) {coordinate}", text::with_value(robot, &joint.ratio));
     match words::is_zero(&joint.offset) {
         true => turned,
         false => format!("{turned} + ({})", text::with_value(robot, &joint.offset)),
@@ -244,6 +259,21 @@ mod tests {
             assert!(table.contains(part), "{part}: {table}");
         }
         assert_eq!(dh(&robot(PLAIN, "xx = 1, yy = 1, zz = 1"), &symbols).count(), 0);
+    }
+
+    #[test]
+    fn drives_have_a_table_with_nominal_values() {
+        let shown = |drive: &str| {
+            let robot = robot(&format!("{PLAIN}\n{drive}"), "xx = 1, yy = 1, zz = 1");
+            drives(&robot, &Symbols::of(&robot)).map(|table| table.to_string())
+        };
+        assert_eq!(shown(""), None);
+        let table =
+            shown("drive = { rotor_inertia = \"0.1 kg*m * a1\", gear_ratio = -80 }").unwrap();
+        for part in ["Drives: the rotor inertia", "boom", "<small>0.04</small>", ">−80<"] {
+            assert!(table.contains(part), "{part}: {table}");
+        }
+        assert!(!table.contains("Armature"), "{table}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use robot_build::{FrameRef, FunctionKind, Options, functions, snapping, unsolvable};
+use robot_document::robot::drives::{Drives, drives};
 use robot_document::robot::rows::{self, LinkRow, ParameterRow};
 use robot_document::robot::words;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -43,6 +44,10 @@ impl Arguments {
         writeln!(output, "{POSES}\n{}", text::table(&poses(robot)))?;
         let masses = masses(robot, self.robot.snap());
         writeln!(output, "{MASSES}\n{}", table_of_masses(masses))?;
+        if let Some(drives) = drives(robot) {
+            let caption = wrapped(&drives.caption, text::COLUMNS, 0);
+            writeln!(output, "{caption}\n{}", text::table(&rows_of_drives(robot, &drives)))?;
+        }
         if !robot.parameters.is_empty() {
             writeln!(output, "{}", text::table(&parameters(robot)))?;
         }
@@ -208,6 +213,18 @@ fn with(rows: Vec<Vec<String>>, is_wanted: impl Fn(usize) -> bool) -> Vec<Vec<St
         cells.map(|(_, cell)| cell).collect()
     };
     rows.into_iter().map(cut).collect()
+}
+
+fn rows_of_drives(robot: &Robot, drives: &Drives<'_>) -> Vec<Vec<String>> {
+    let headings = drives.columns.iter().map(|heading| heading.to_lowercase());
+    let mut rows: Vec<Vec<String>> =
+        vec![std::iter::once("link".to_owned()).chain(headings).collect()];
+    for (index, values) in &drives.rows {
+        let name = robot.links.get(*index).map_or_else(String::new, |link| link.name.clone());
+        let values = values.iter().map(|value| value.text().to_owned());
+        rows.push(std::iter::once(name).chain(values).collect());
+    }
+    rows
 }
 
 fn parameters(robot: &Robot) -> Vec<Vec<String>> {

@@ -364,6 +364,28 @@ fn equations_unlike_those_of_the_text_are_counted() {
     }
 }
 
+/// A letter of the equations that a parameter has can be changed by an option, unless a style determines it.
+#[test]
+fn the_remedy_for_a_taken_letter_is_the_option_for_letters() {
+    let link = |name: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"z\" }}\nmass = \"Q\"\n\
+             center_of_mass = [1, 0, 0]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
+        )
+    };
+    let text = format!(
+        "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nQ = 1\n{}{}",
+        link("a"),
+        link("b")
+    );
+    let path = folder("taken-letter").join("arm.toml");
+    std::fs::write(&path, text).unwrap();
+    let grouped = ["equations", path.to_str().unwrap(), "--form", "grouped", "--format", "latex"];
+    let shown = complaint(1, &grouped, "");
+    assert!(shown.ends_with("choose another letter for the equations (--letters)\n"), "{shown}");
+    output(&[&grouped[..], &["--letters", "tau,M,C,g"]].concat(), "");
+}
+
 /// The remedy for equations that are too long is an option that can be added to the command.
 #[test]
 fn the_remedy_for_a_long_style_is_another_form() {

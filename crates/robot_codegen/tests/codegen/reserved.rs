@@ -37,8 +37,20 @@ const PARAMETERS: [&str; 20] = [
 ];
 /// The names of the functions: reserved words, names of forms of other functions, of items of a model, and of a
 /// constant.
-const FUNCTIONS: [&str; 10] =
-    ["fn", "fn_", "f", "f_sc", "f_batch", "new", "NOMINAL", "model", "with_payload", "DOF"];
+const FUNCTIONS: [&str; 12] = [
+    "fn",
+    "fn_",
+    "f",
+    "f_sc",
+    "f_batch",
+    "new",
+    "NOMINAL",
+    "model",
+    "with_payload",
+    "DOF",
+    "into",
+    "try_into",
+];
 const INPUTS: [(&str, [&str; 2]); 3] =
     [("self", ["as", "in"]), ("loop", ["loop_", "s"]), ("result", ["count", "half"])];
 const OUTPUTS: [&str; 3] = ["match", "match_", "self"];
@@ -114,7 +126,7 @@ fn names_that_can_stand_stand() {
     );
     assert_eq!(
         found.functions.join(" "),
-        "fn__2 fn_ f f_sc f_batch new_2 NOMINAL_2 model with_payload_2 DOF_2"
+        "fn__2 fn_ f f_sc f_batch new_2 NOMINAL_2 model with_payload_2 DOF_2 into_2 try_into_2"
     );
     assert_eq!((found.module.as_str(), found.setters.join(" ")), ("core_", "with_payload".into()));
     assert_eq!(output_names(&module.functions[1]).join(" "), "match__2 match_ self_");

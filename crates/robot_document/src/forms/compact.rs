@@ -92,7 +92,7 @@ pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<A
         return built;
     }
     let Ok(polynomial) = Polynomial::of(value, &limits) else { return built };
-    let collector = Collector { angles: &[], factors: true };
+    let collector = Collector { angles: &[], factors: true, double_angles: false };
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
     // Among equally long forms, the collector can choose one with an additional product.
     let collected = arranged::positive_first(arranged::factored(collected, &writer.order));

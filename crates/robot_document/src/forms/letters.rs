@@ -75,14 +75,17 @@ impl Letters {
             let single = characters.next().is_some_and(|first| first.is_ascii_alphabetic());
             (single && characters.next().is_none()) || signs::Letter::greek(letter).is_some()
         };
-        let others = letters.iter().filter(|letter| !is_letter(letter)).map(|letter| {
-            let rule = "one of a to z or A to Z, or the name of a Greek one";
-            format!("`{}` is not a letter: {rule}", quote(letter))
-        });
-        let again =
-            letters.iter().enumerate().filter(|(place, one)| letters[..*place].contains(one));
-        let again = again.map(|(_, letter)| format!("`{}` is given twice", quote(letter)));
-        let mut wrong: Vec<String> = others.chain(again).collect();
+        let mut wrong = vec![];
+        for (place, letter) in letters.iter().enumerate() {
+            let (shown, is_again) = (quote(letter), letters[..place].contains(letter));
+            match (is_letter(letter), is_again) {
+                (true, false) | (false, true) => {}
+                (true, true) => wrong.push(format!("`{shown}` is given twice")),
+                (false, false) => wrong.push(format!(
+                    "`{shown}` is not a letter: one of a to z or A to Z, or the name of a Greek one"
+                )),
+            }
+        }
         wrong.extend(
             (letters.len() != 4).then(|| format!("four letters are needed, not {}", letters.len())),
         );

@@ -382,7 +382,8 @@ impl<'g> Writer<'_, 'g> {
         if !factors && self.parallel.is_empty() {
             return value.arranged(|atom| self.order.rank(atom));
         }
-        let collector = Collector { angles: &self.parallel, factors };
+        let double_angles = factors && self.options.double_angles;
+        let collector = Collector { angles: &self.parallel, factors, double_angles };
         let collect = |part: &Polynomial<'g>| {
             collector.collect(part, |atom| self.order.rank(atom), &BRACKETS)
         };

@@ -68,6 +68,9 @@ pub struct EquationOptions {
     /// How sines and cosines of sums of angles of parallel joints are written: kept or expanded. If it is `None`, only
     /// [`Form::Expanded`] expands them. [`Form::Recursive`] ignores this option.
     pub angle_sums: Option<AngleSums>,
+    /// Whether 2 sin x cos x is written as sin 2x, and 1 − 2 sin² x and 2 cos² x − 1 as cos 2x. This applies to the forms
+    /// [`Form::Collected`], [`Form::Grouped`] and [`Form::Regrouped`], unless [`EquationOptions::expand`] is set.
+    pub double_angles: bool,
     /// Whether the coefficients in the forms [`Form::Grouped`] and [`Form::Regrouped`] are multiplied out instead of
     /// collected.
     pub expand: bool,
@@ -111,6 +114,7 @@ impl Default for EquationOptions {
             snap: None,
             trigonometry: Trigonometry::Named,
             angle_sums: None,
+            double_angles: false,
             expand: false,
             references: true,
             christoffel: false,

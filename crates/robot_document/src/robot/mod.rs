@@ -2,7 +2,7 @@
 
 mod check_value;
 mod dh;
-mod drives;
+pub mod drives;
 mod families;
 mod numbers;
 pub mod rows;
@@ -12,7 +12,7 @@ mod tables;
 pub mod words;
 
 use robot_dynamics::mechanism::Snap;
-use robot_model::robot::Robot;
+use robot_model::robot::{JointKind, Robot};
 use robot_model::snap;
 
 use crate::breaking::number_width;
@@ -20,6 +20,7 @@ use crate::document::{Block, Document, Inline};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::forms::{EquationOptions, Form, Group, Room, equations};
+use crate::layout::Trigonometry;
 use crate::math::Math;
 pub use check_value::CheckValue;
 
@@ -108,6 +109,13 @@ fn conventions(
         true => "Joint friction is included.",
         false => "Joint friction is not included.",
     };
+    let tips = match robot.tips().next() {
+        Some(_) => {
+            " The wrench of a tip is the wrench that the tip exerts on its surroundings, in the axes of the tip's frame \
+             and about its origin; the external wrench, which acts on the tip, is its negative."
+        }
+        None => "",
+    };
     let mimics = match robot.links.iter().any(|link| rows::is_mimic(&link.joint)) {
         true => {
             " For a joint that mimics another, the position in the table of links takes the place of the coordinate."
@@ -123,34 +131,66 @@ fn conventions(
         }
         None => String::new(),
     };
-    Ok(vec![
-        heading("Frames and signs"),
-        Block::Paragraph(vec![
-            Inline::text("The frame of link "),
-            Inline::Math(Math::Letter('i')),
-            Inline::text(
-                " is fixed to the link and right-handed, with its origin on the axis of the \
+    let mut words = vec![
+        Inline::text("The frame of link "),
+        Inline::Math(Math::Letter('i')),
+        Inline::text(
+            " is fixed to the link and right-handed, with its origin on the axis of the \
                  link's joint. It is the frame of the parent link (or of the base, if there is \
                  no parent), first displaced as given in the table of links and then moved by \
                  the joint: rotated about the axis by ",
-            ),
-            Inline::Math(indexed('q')),
-            Inline::text(", or translated along it by "),
-            Inline::Math(indexed('q')),
-            Inline::text(format!(
-                ".{mimics} Vectors of a link are given in the axes of its frame. "
-            )),
-            Inline::Math(options.letters.torque_sign().with_lower(Math::Letter('i'))),
-            Inline::text(
-                " is the joint torque of a revolute joint or the joint force of a prismatic \
-                 joint, positive along the axis. The wrench of a tip is the wrench that the tip \
-                 exerts on its surroundings, in the axes of the tip's frame and about its origin; \
-                 the external wrench, which acts on the tip, is its negative. Units are SI, with \
-                 angles in radians. ",
-            ),
-            Inline::text(format!("{friction}{rounded}{}", snapped(snaps))),
-        ]),
-    ])
+        ),
+        Inline::Math(indexed('q')),
+        Inline::text(", or translated along it by "),
+        Inline::Math(indexed('q')),
+        Inline::text(format!(".{mimics} Vectors of a link are given in the axes of its frame. ")),
+        Inline::Math(options.letters.torque_sign().with_lower(Math::Letter('i'))),
+        Inline::text(format!(
+            " is the joint torque of a revolute joint or the joint force of a prismatic joint, positive along the \
+                 axis.{tips} Units are SI, with angles in radians. "
+        )),
+        Inline::text(format!("{friction}{rounded}{}", snapped(snaps))),
+    ];
+    if robot.links.iter().any(|link| link.joint.kind == JointKind::Revolute) {
+        words.extend(sines(options));
+    }
+    Ok(vec![heading("Frames and signs"), Block::Paragraph(words)])
+}
+
+/// The sentence about the short forms of sines and cosines; empty if they are written by name.
+fn sines(options: &EquationOptions) -> Vec<Inline> {
+    let of = |letter: char, index: Math| Inline::Math(Math::Letter(letter).with_lower(index));
+    let letter = Math::Letter;
+    let position = || letter('q').with_lower(letter('i'));
+    let after = |letter: char| Inline::Math(Math::Row(vec![Math::Letter(letter), position()]));
+    let pair = match options.trigonometry {
+        Trigonometry::Named => return vec![],
+        Trigonometry::Short => [of('s', letter('i')), of('c', letter('i'))],
+        Trigonometry::Paper => [after('s'), after('c')],
+    };
+    let [sine, cosine] = pair;
+    let mut words = vec![
+        Inline::text(" "),
+        sine,
+        Inline::text(" and "),
+        cosine,
+        Inline::text(" are the sine and the cosine of "),
+        Inline::Math(position()),
+    ];
+    if options.trigonometry == Trigonometry::Short {
+        words.extend([
+            Inline::text("; "),
+            of('s', Math::Row(vec![letter('i'), letter('j')])),
+            Inline::text(" is the sine of "),
+            Inline::Math(Math::Row(vec![
+                position(),
+                Math::Sign('+'),
+                letter('q').with_lower(letter('j')),
+            ])),
+        ]);
+    }
+    words.push(Inline::text("."));
+    words
 }
 
 /// The number of names in a sentence before the others are only counted.

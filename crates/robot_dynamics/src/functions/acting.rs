@@ -108,9 +108,14 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 
 /// Evaluates expressions at arbitrary parameters, including those that no body can have: a negative pivot must be
 /// evaluated, too, to find the parameters on which it depends.
+///
+/// Signs and absolute values are replaced by smooth functions. Otherwise, a parameter that acts in one direction only,
+/// such as the dry friction for negative velocities, would have no effect in states of the other direction.
 fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
     evaluator.values_by(value, |function, argument| match function {
         Elementary::RecipPositive => argument.recip(),
+        Elementary::Sign => argument.tanh(),
+        Elementary::Abs => argument.hypot(1.0),
         other => other.apply(argument),
     })
 }
@@ -191,9 +196,8 @@ fn slope_of(function: Elementary, argument: f64, value: f64) -> f64 {
         Elementary::Sin => argument.cos(),
         Elementary::Cos => -argument.sin(),
         Elementary::Sqrt => 0.5 / value,
-        Elementary::Abs => argument.signum(),
-        Elementary::Sign => 0.0,
-        Elementary::Tanh => 1.0 - value * value,
+        Elementary::Abs => argument / value,
+        Elementary::Sign | Elementary::Tanh => 1.0 - value * value,
         Elementary::RecipPositive => -value * value,
     }
 }
@@ -247,6 +251,23 @@ mod tests {
                     assert!(off <= 1e-7 * expected.abs().max(1.0), "{place}: {slope} {expected}");
                 }
             }
+        }
+    }
+
+    /// What acts for one sign of a value only acts, whatever the sign in the seeded states.
+    #[test]
+    fn what_acts_on_one_side_is_not_idle() {
+        let graph = Graph::new();
+        for text in [
+            "x + 0.5*k*(sign(x) - sign(x)^2)",
+            "x + k*(sign(x) + sign(x)^2)",
+            "x + k*(abs(x) - x)",
+            "x + k*(abs(x) + x)",
+            "x + k*(1 - sign(x))",
+        ] {
+            let root = graph.parse(text).unwrap();
+            let slope = slopes(&[root], 0)[&graph.symbol("k").as_symbol().unwrap()];
+            assert!(slope.sum.abs() > NOTICED * slope.size, "{text}: {} {}", slope.sum, slope.size);
         }
     }
 

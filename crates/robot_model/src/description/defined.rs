@@ -11,6 +11,9 @@ const DIGITS: f64 = 1e3;
 /// The largest rounding error of an angle whose sine can be computed, rad.
 const ANGLE: f64 = 1e-6;
 
+/// The reason why the sine of a large angle cannot be computed.
+pub(super) const LARGE_ANGLE: &str = "the angle is too large for its sine to be computed";
+
 /// A value and a bound on its rounding error.
 #[derive(Clone, Copy)]
 struct Rounded {
@@ -65,7 +68,7 @@ impl Rounded {
         let result = function.apply(value);
         Ok(match function {
             Function::Sin | Function::Cos if error > ANGLE => {
-                return Err("the angle is too large for its sine to be computed");
+                return Err(LARGE_ANGLE);
             }
             Function::Sqrt if value < -DIGITS * error => {
                 return Err("the square root of a negative number");

@@ -312,14 +312,12 @@ fn wrenches_on_base(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
 
 /// The error for a file that is too large; its text is not shown in the message.
 fn too_large(name: &str) -> Diagnostics {
-    let message =
-        format!("the file has more than the {MAX_BYTES} bytes that a robot file may have");
+    let message = format!("the file has more than {MAX_BYTES} bytes, the most that are read");
     let diagnostic = Diagnostic::error(code::TOO_LARGE, message)
-        .because("a robot of 64 joints, fully commented, needs a tenth of that")
-        .help(
-            "remove everything that does not describe the robot, such as meshes, logs and \
-            trajectories",
-        );
+        .because(
+            "a robot of 64 joints, fully commented, needs a tenth of that, and so do all equations of a paper",
+        )
+        .help("remove everything else, such as meshes, logs and trajectories");
     let source = Source { name: name.to_owned(), text: String::new() };
     Diagnostics::new(source, vec![diagnostic])
 }

@@ -188,6 +188,12 @@ impl<'a> Reader<'a> {
             (None, Some(reason)) => reason.to_owned(),
             _ => "this is not a number".to_owned(),
         };
+        let help = match undefined {
+            Some(LARGE_ANGLE) => "write the angle without its multiples of 2π",
+            _ => {
+                "look for a division by zero, the square root of a negative number, or an overflow"
+            }
+        };
         self.report(
             Diagnostic::error(
                 code::NUMBER,
@@ -197,10 +203,7 @@ impl<'a> Reader<'a> {
                 ),
             )
             .at(span, label)
-            .help(
-                "look for a division by zero, the square root of a negative number, or an \
-                    overflow",
-            ),
+            .help(help),
         );
         false
     }

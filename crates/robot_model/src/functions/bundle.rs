@@ -15,6 +15,20 @@ pub enum Functions {
     Chosen(Vec<FunctionKind>),
 }
 
+impl Functions {
+    /// The functions of a list: all of them if the list has the word [`ALL_FUNCTIONS`], else those of its names.
+    ///
+    /// Returns `None` if the list has both the word and names.
+    #[must_use]
+    pub fn listed(all: bool, named: Vec<FunctionKind>) -> Option<Functions> {
+        match (all, named.is_empty()) {
+            (false, _) => Some(Functions::Chosen(named)),
+            (true, true) => Some(Functions::All),
+            (true, false) => None,
+        }
+    }
+}
+
 /// The word for all functions in a list of functions.
 pub const ALL_FUNCTIONS: &str = "all";
 

@@ -21,6 +21,7 @@
 mod addition;
 mod angles;
 mod divisors;
+mod double;
 mod factoring;
 mod squares;
 mod terms;
@@ -28,6 +29,7 @@ mod terms;
 mod tests;
 mod variables;
 
+use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, View};
@@ -57,6 +59,9 @@ pub struct Collector<'g, 'a> {
     pub angles: &'a [ParallelAngles<'g>],
     /// Whether common factors are taken out of parentheses.
     pub factors: bool,
+    /// Whether 2 sin x cos x is written as sin 2x, and 1 − 2 sin² x and 2 cos² x − 1 as cos 2x. A product sin x cos x
+    /// with another coefficient is then ½ sin 2x times this coefficient.
+    pub double_angles: bool,
 }
 
 impl<'g> Collector<'g, '_> {
@@ -76,6 +81,17 @@ impl<'g> Collector<'g, '_> {
         };
         cancel(&mut terms, polynomial.graph());
         match proved(&terms, polynomial) {
+            Some(Proved::Same) if self.double_angles => {
+                let compare = |a: &ArrangedFactor<'g>, b: &ArrangedFactor<'g>| match [a, b]
+                    .map(ArrangedFactor::as_atom)
+                {
+                    [Some(a), Some(b)] => rank(a).cmp(&rank(b)),
+                    [Some(a), None] => rank(a).cmp(brackets),
+                    [None, Some(b)] => brackets.cmp(&rank(b)),
+                    [None, None] => Ordering::Equal,
+                };
+                double::joined(&terms, polynomial.graph(), compare).unwrap_or(terms)
+            }
             Some(Proved::Same) => terms,
             // A sum in the numerator has canceled the same sum in a denominator.
             Some(Proved::Shorter(cancelled)) => self.collect(&cancelled, rank, brackets),

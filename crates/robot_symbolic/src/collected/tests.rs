@@ -6,6 +6,10 @@ use crate::{Graph, Polynomial, PolynomialOptions};
 
 /// The short form of a text, with parallel joints `q1`, `q2`, … in a chain.
 fn collected(source: &str, joints: usize) -> String {
+    written(source, joints, false)
+}
+
+fn written(source: &str, joints: usize, double_angles: bool) -> String {
     let graph = Graph::new();
     let turns = (0..joints).map(|joint| Turn {
         coordinate: graph.symbol(&format!("q{}", joint + 1)),
@@ -15,8 +19,33 @@ fn collected(source: &str, joints: usize) -> String {
     let angles = [ParallelAngles { turns: turns.collect() }];
     let value = graph.parse(source).unwrap();
     let polynomial = Polynomial::of(value, &PolynomialOptions::default()).unwrap();
-    let terms = Collector { angles: &angles, factors: true }.collect(&polynomial, default_rank, &1);
+    let collector = Collector { angles: &angles, factors: true, double_angles };
+    let terms = collector.collect(&polynomial, default_rank, &1);
     arranged_text(&terms).unwrap()
+}
+
+#[test]
+fn double_angles_are_written_if_they_are_asked_for() {
+    for (source, expected) in [
+        ("2*sin(q1)*cos(q1)", "sin(2*q1)"),
+        ("a*sin(q1)*cos(q1) - b*sin(q1)*cos(q1)", "0.5*(a - b)*sin(2*q1)"),
+        ("-3*x*sin(q1)*cos(q1)", "-1.5*x*sin(2*q1)"),
+        ("a - 2*a*cos(q1)^2", "-a*cos(2*q1)"),
+        ("a*b - 2*a*b*sin(q1)^2 + c", "a*b*cos(2*q1) + c"),
+        ("(1 - 2*sin(q1)^2)*(a + x)", "(a + x)*cos(2*q1)"),
+        ("a - 3*a*sin(q1)^2", "a*(3*cos(q1)^2 - 2)"),
+        ("sin(q1)^2*cos(q1)", "sin(q1)^2*cos(q1)"),
+        ("sin(q1 + q2)*cos(q1 + q2)", "0.5*sin(2*(q1 + q2))"),
+        ("sin(q1)*cos(q2)", "sin(q1)*cos(q2)"),
+        ("4*a*sin(q1)^2*cos(q1)^2", "a*sin(2*q1)^2"),
+        ("a*(b - 2*sin(q1)*cos(q1)) + c", "a*(b - sin(2*q1)) + c"),
+        // The polynomials do not expand the sines of multiples that are not integers.
+        ("2*a*sin(1.3*x)*cos(1.3*x) + 2*b*sin(1.3*x)*cos(1.3*x)", "(a + b)*sin(2.6*x)"),
+        ("a - 2*a*sin(1.3*x)^2 + sin(2.6*x)", "a*cos(2.6*x) + sin(2.6*x)"),
+    ] {
+        assert_eq!(written(source, 2, true), expected, "{source}");
+    }
+    assert_eq!(written("2*sin(q1)*cos(q1)", 2, false), "2*sin(q1)*cos(q1)");
 }
 
 #[test]
@@ -122,7 +151,10 @@ fn a_full_graph_proves_nothing() {
     let polynomial = Polynomial::of(sum, &PolynomialOptions::default()).unwrap();
     (1..20).fold(x, |power, _| power * x);
     assert!(graph.is_full());
-    let terms =
-        Collector { angles: &[], factors: true }.collect(&polynomial, default_rank, &u8::MAX);
+    let terms = Collector { angles: &[], factors: true, double_angles: false }.collect(
+        &polynomial,
+        default_rank,
+        &u8::MAX,
+    );
     assert_eq!(arranged_text(&terms).unwrap(), "a*x + b*x + c");
 }

@@ -296,20 +296,27 @@ impl Parser<'_> {
     }
 
     fn power(&mut self) -> Result<(), ParseError> {
-        let (Some(exponent), Some(base)) = (self.operands.pop(), self.operands.last_mut()) else {
-            return Ok(());
+        let Some(exponent) = self.operands.pop() else { return Ok(()) };
+        let text = self.quote(&exponent.span);
+        let Some(base) = self.operands.last_mut() else { return Ok(()) };
+        let Some(value) =
+            exponent.integer.filter(|value| value.unsigned_abs() <= MAX_EXPONENT.unsigned_abs())
+        else {
+            let digits = text.trim_matches(|c: char| c == '-' || c == '…' || c.is_ascii_digit());
+            let (message, help) = match exponent.integer.is_some() || digits.is_empty() {
+                true => (
+                    format!(
+                        "the exponent {} is beyond ±{MAX_EXPONENT}",
+                        exponent.integer.map_or(text, |value| value.to_string())
+                    ),
+                    "write the power as a product of powers, such as `x^64*x^36`",
+                ),
+                false => {
+                    ("expected an integer as the exponent".to_owned(), "write a root as `sqrt(x)`")
+                }
+            };
+            return Err(ParseError::new(exponent.span, message).help(help));
         };
-        let Some(value) = exponent.integer else {
-            return Err(ParseError::new(exponent.span, "expected an integer as the exponent")
-                .help("write a root as `sqrt(x)`"));
-        };
-        if value.unsigned_abs() > MAX_EXPONENT.unsigned_abs() {
-            return Err(ParseError::new(
-                exponent.span,
-                format!("the exponent {value} is beyond ±{MAX_EXPONENT}"),
-            )
-            .help("write the power as a product of powers, such as `x^64*x^36`"));
-        }
         base.span.end = exponent.span.end;
         base.integer = base
             .integer

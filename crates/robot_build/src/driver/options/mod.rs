@@ -272,12 +272,8 @@ pub fn functions_named(names: &[String], robot: &Robot) -> Result<Functions, Err
     }
     let (all, names): (Vec<_>, Vec<_>) =
         names.iter().cloned().partition(|name| name == ALL_FUNCTIONS);
-    let kinds = kinds_named(&names, robot)?;
-    match (all.is_empty(), kinds.is_empty()) {
-        (true, _) => Ok(Functions::Chosen(kinds)),
-        (false, true) => Ok(Functions::All),
-        (false, false) => Err(Errors::from(Error::AllFunctionsAndOthers)),
-    }
+    let functions = Functions::listed(!all.is_empty(), kinds_named(&names, robot)?);
+    functions.ok_or_else(|| Errors::from(Error::AllFunctionsAndOthers))
 }
 
 /// Finds the functions of a robot with these names.

@@ -402,8 +402,7 @@ fn what_is_not_a_robot_file_is_refused() {
     assert!(message(&builder(&package), &["robots"]).contains("it is a folder; name a file"));
     assert!(message(&builder(&package), &[""]).contains("the path of a robot file is empty"));
     assert!(
-        message(&builder(&package), &["big.toml"])
-            .contains("the file has more than the 1048576 bytes")
+        message(&builder(&package), &["big.toml"]).contains("the file has more than 1048576 bytes")
     );
     assert!(message(&builder(&package), &["binary.toml"]).contains("UTF-8"));
 }

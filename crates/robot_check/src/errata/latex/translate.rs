@@ -1,9 +1,11 @@
 //! Translates tokens to infix text by recursive descent; groups may be nested at most [`MAX_DEPTH`] deep.
 
+use std::num::IntErrorKind;
 use std::ops::Range;
 
+use robot_model::diagnostic::quote;
 use robot_symbolic::ParseError;
-use robot_symbolic::formula::{MAX_DEPTH, MAX_TOKENS};
+use robot_symbolic::formula::{MAX_DEPTH, MAX_EXPONENT, MAX_TOKENS};
 
 use super::lexer::{self, FRACTIONS, Token, is_accent, is_font};
 use super::{Infix, Names};
@@ -276,6 +278,17 @@ impl<'t> Translator<'t, '_> {
         match exponent.parse::<i64>() {
             Ok(value) if value < 0 => self.emit(&format!("^({value})"), span),
             Ok(value) => self.emit(&format!("^{value}"), span),
+            Err(error)
+                if matches!(
+                    error.kind(),
+                    IntErrorKind::PosOverflow | IntErrorKind::NegOverflow
+                ) =>
+            {
+                let message = format!("the exponent is beyond ±{MAX_EXPONENT}");
+                return Err(
+                    ParseError::new(span, message).help("write the power as a product of powers")
+                );
+            }
             Err(_) => {
                 let message = "expected an integer as the exponent";
                 return Err(ParseError::new(span, message).help(r"write a root as `\sqrt{x}`"));
@@ -376,7 +389,8 @@ fn first_digit(text: &str) -> Option<&str> {
 }
 
 pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
-    let shown: String = text.chars().take(24).flat_map(char::escape_debug).collect();
+    let shown: String = text.chars().take(24).collect();
+    let shown = quote(&shown);
     let message = match text {
         "" => "the formula is incomplete".to_owned(),
         _ => format!("`{shown}` is not supported here"),

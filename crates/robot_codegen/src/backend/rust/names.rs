@@ -29,8 +29,10 @@ impl Names {
         constants: &[ConstantItem],
     ) -> (Names, Namer) {
         let parameters = module.parameters.iter().map(|parameter| parameter.name.as_str());
-        // For a robot without parameters, `Model` is also a value.
-        let mut methods = Namer::with(&["new", "new_lanes", "NOMINAL", "Model"]);
+        // For a robot without parameters, `Model` is also a value. A call `model.into(…)` finds the method of the
+        // prelude, which takes its receiver by value, before one that takes a reference; so does `try_into`.
+        let taken = ["new", "new_lanes", "NOMINAL", "Model", "into", "try_into"];
+        let mut methods = Namer::with(&taken);
         for constant in constants {
             methods.name(&constant.printed_name());
         }

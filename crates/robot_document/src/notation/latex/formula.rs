@@ -139,11 +139,15 @@ impl Writer {
 
     fn matrix(&mut self, rows: &[Vec<Math>]) {
         // A column with entries of several lines is aligned at the left, and its entries are further apart than their
-        // lines.
-        let apart = rows.iter().flatten().any(|entry| matches!(entry, Math::Lines(_)));
-        let [begin, gap, end] = match apart {
-            true => [r"\left[\begin{array}{@{}l@{}}", r" \\[6pt] ", r" \end{array}\right]"],
-            false => [r"\begin{bmatrix}", r" \\ ", r" \end{bmatrix}"],
+        // lines. Rows with fractions would touch.
+        let entries = || rows.iter().flatten();
+        let is_fraction = |piece: &Math| matches!(piece, Math::Fraction(_));
+        let [begin, gap, end] = if entries().any(|entry| matches!(entry, Math::Lines(_))) {
+            [r"\left[\begin{array}{@{}l@{}}", r" \\[6pt] ", r" \end{array}\right]"]
+        } else if entries().any(|entry| entry.pieces().iter().any(is_fraction)) {
+            [r"\begin{bmatrix}", r" \\[2pt] ", r" \end{bmatrix}"]
+        } else {
+            [r"\begin{bmatrix}", r" \\ ", r" \end{bmatrix}"]
         };
         self.push(begin);
         for (place, row) in rows.iter().enumerate() {

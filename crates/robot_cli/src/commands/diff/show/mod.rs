@@ -140,6 +140,9 @@ fn bracketed(coefficient: &str) -> String {
 
 fn torques(found: &Torques) -> String {
     let drawn = &found.drawn;
+    if found.joints.iter().all(|joint| joint.torques[0] == joint.torques[1]) {
+        return format!("  none at {} random states, seed {}\n", drawn.states, drawn.seed);
+    }
     let mut shown = format!(
         "  {} states, seed {}; velocities within {}, accelerations within {}, positions\n",
         drawn.states, drawn.seed, drawn.velocity, drawn.acceleration
