@@ -49,7 +49,7 @@ types!("C");
 /// Code in executable memory, which is called as a function of type `F`.
 #[derive(Debug)]
 struct Code<F> {
-    /// The start of the code, in `pages`.
+    /// The start of the code, in `_pages`.
     run: F,
     entry: Entry,
     /// The pages of all functions, which are kept as long as one of the functions exists.

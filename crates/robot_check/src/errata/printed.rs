@@ -49,7 +49,7 @@ pub(super) struct PrintedEquation {
 ///
 /// # Errors
 ///
-/// Everything that cannot be read, with its place.
+/// Everything that cannot be read, with its place, or that the text has no equations.
 pub(super) fn read_printed(
     source: &Source,
     notation: Notation,
@@ -101,9 +101,12 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
         Some(rows) => (rows, &[".x", ".y", ".z"][..]),
     };
     if rows.len() != axes.len() {
-        let message = format!("this vector has {} rows, not 3", rows.len());
+        let message = match rows.len() {
+            1 => "expected 3 rows in this vector, found one".to_owned(),
+            count => format!("expected 3 rows in this vector, found {count}"),
+        };
         let error = Diagnostic::error(code::WRONG_COUNT, message).at(&left.span, "");
-        return Err(error.help("write line breaks only between components").into());
+        return Err(error.help("write three components, with a line break between them").into());
     }
     let mut equations = vec![];
     for (row, axis) in rows.iter().zip(axes) {

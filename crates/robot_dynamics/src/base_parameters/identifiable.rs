@@ -55,7 +55,8 @@ pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) ->
     conditions
 }
 
-/// The span at the base, which is at rest: there are no twists, and the potential energy is −g · h.
+/// The span at the base, which is at rest: there are no twists, and the potential energy is −g · h plus a constant,
+/// with the first moment h.
 fn at_base<'g>(mechanism: &Mechanism<'g>) -> Span<'g> {
     let graph = mechanism.graph;
     let zero = Scalar::new(graph.zero());

@@ -82,19 +82,21 @@ fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
     if number == Some(FORMAT) {
         return true;
     }
-    let (message, help) = if root.has("fingerprint") && root.has("digest") {
-        ("this is a pinned plan, not a robot file", "name the robot file that the plan belongs to")
+    let (message, label, help) = if root.has("fingerprint") && root.has("digest") {
+        (
+            "this is a pinned plan, not a robot file",
+            "the format of a pinned plan".to_owned(),
+            "name the robot file that the plan belongs to",
+        )
     } else {
         (
             "unknown file format",
+            format!("robot files have format {FORMAT}"),
             "write `format = 1`, or use a version of this program that knows the format",
         )
     };
-    reader.report(
-        Diagnostic::error(code::FORMAT, message)
-            .at(&entry.value.span(), format!("only format {FORMAT} is known"))
-            .help(help),
-    );
+    reader
+        .report(Diagnostic::error(code::FORMAT, message).at(&entry.value.span(), label).help(help));
     false
 }
 

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use robot_symbolic::{Formula, Graph, Id, Number, Rational, nearest_word, walk};
 
+use super::defined::LARGE_ANGLE;
 use super::locations::AngleLocation;
 use super::names::{self, Registry, is_coordinate};
 use super::options::Options;

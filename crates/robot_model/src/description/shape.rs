@@ -21,7 +21,7 @@ pub struct Shape {
 pub struct Key {
     /// The name of the key.
     pub name: &'static str,
-    /// The content of its value.
+    /// The kind of value that the key takes.
     pub content: Content,
     /// Whether it is required.
     pub presence: Presence,
@@ -40,7 +40,7 @@ pub enum Presence {
     Optional,
 }
 
-/// The content of a key.
+/// The kind of value that a key takes.
 #[derive(Clone, Copy, Debug)]
 pub enum Content {
     /// The version number of the format.

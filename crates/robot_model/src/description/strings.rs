@@ -1,4 +1,4 @@
-//! The places in the file of characters of a TOML string.
+//! Finds where the characters of a TOML string are in the file.
 
 use crate::diagnostic::Span;
 

@@ -56,6 +56,17 @@ fn repeated_table(header: &str) -> &'static str {
     }
 }
 
+/// The beginnings of the parser's messages about numbers.
+const NUMBER: [&str; 7] = [
+    "invalid float",
+    "invalid integer",
+    "invalid fraction",
+    "invalid exponent",
+    "invalid mantissa",
+    "unexpected leading zero",
+    "`_` may only",
+];
+
 /// The message of the parser, and a remedy for the most frequent cases.
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
@@ -69,15 +80,21 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
     } else if starts("duplicate key") {
         Some("the table already contains this key: keep one of them")
     } else if starts("string values must be quoted") {
-        Some("put names and expressions in quotes: \"l1/2\"")
+        Some(
+            "put names and expressions in quotes, such as \"l1/2\", and separate the entries of a list by commas",
+        )
     } else if starts("missing escaped value") {
         Some(
             "write a backslash as `\\\\`, or put the text in single quotes, which take it \
             literally",
         )
     } else if starts("invalid basic string") || starts("invalid literal string") {
-        Some("close the string with the quote that opens it, on the same line")
-    } else if starts("invalid float") || starts("invalid integer") {
+        Some(
+            "close the string with the quote that opens it, on the same line; control characters must be escaped",
+        )
+    } else if starts("unclosed") {
+        Some("close it with the bracket or the quotes that belong to it")
+    } else if NUMBER.into_iter().any(starts) {
         Some("write a number as `12`, `-0.35` or `1.5e-3`")
     } else if message.contains("recurs") {
         Some("use at most four levels, which is enough for every robot file")

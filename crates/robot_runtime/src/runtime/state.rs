@@ -134,7 +134,7 @@ pub fn set_state<S, const W: usize>(state: S, states: &mut [S; W], index: usize)
     }
 }
 
-/// Converts states to lanes: lane i of each coordinate is that of state i.
+/// Converts states to lanes: lane i of each coordinate is its value in state i.
 #[inline(always)]
 pub fn side_by_side<T: Scalar, const N: usize, const W: usize>(
     states: &[[T; N]; W],

@@ -150,6 +150,7 @@ fn sine_and_cosine<'g>(factors: &[Factor<'g>]) -> Option<(usize, usize, Expr<'g>
 }
 
 /// A term with the square of a sine or cosine: its place, that of the factor in it, the function and its angle.
+#[derive(Clone, Copy)]
 struct Square<'g> {
     term: usize,
     factor: usize,

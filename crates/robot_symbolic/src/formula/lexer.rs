@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::error::ParseError;
-use crate::rational::Rational;
+use crate::rational::{MAX_DIGITS, Rational};
 
 /// The allowed form of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -104,12 +104,15 @@ impl<'t> Lexer<'t> {
                 Err(ParseError::new(span, format!("`{text}` is not a number"))
                     .help("write a decimal number with one point, such as `0.35`"))
             }
-            _ => Err(ParseError::new(
-                span,
-                "the number is outside the range of floating-point \
-                numbers",
-            )
-            .help("magnitudes must be between 5e-324 and 1.7e308, with at most 2600 digits")),
+            None if text.bytes().filter(u8::is_ascii_digit).count() > MAX_DIGITS => {
+                Err(ParseError::new(span, "the number has too many digits")
+                    .help(format!("write at most {MAX_DIGITS} digits")))
+            }
+            _ => {
+                let message = "the number is outside the range of floating-point numbers";
+                Err(ParseError::new(span, message)
+                    .help("write 0 or a magnitude from 5e-324 to 1.79e308"))
+            }
         }
     }
 

@@ -89,7 +89,7 @@ pub struct Options {
     pub max_operations: Option<u64>,
     /// The maximum stack of a call of any of the functions in bytes, as [`budget`](crate::driver::budget) estimates it.
     pub max_stack: Option<u64>,
-    /// Whether to search for the form with the fewest operations if none is given. The search takes about a second for
+    /// Whether to search for the form with the fewest operations if none is given. The search takes one to two seconds for
     /// an arm with seven joints in an optimized build, and tens of seconds in a build script, which is not optimized.
     pub search: bool,
 }

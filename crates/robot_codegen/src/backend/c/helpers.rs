@@ -53,7 +53,8 @@ pub(super) struct Writer<'h> {
     pub(super) scalar: Scalar,
 }
 
-/// Spells multiply-adds as a product and a sum, or as the library's function that rounds once.
+/// Spells multiply-adds: as a product and a sum, or rounded once by the library's function or, in lanes, by an
+/// instruction.
 struct MulAdd<'w> {
     writer: &'w Writer<'w>,
     once: bool,

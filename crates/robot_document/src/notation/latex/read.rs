@@ -228,7 +228,7 @@ impl<'t> Reader<'t> {
                 continue;
             }
             if self.take(r"\\") {
-                self.take("[6pt]");
+                let _ = self.take("[6pt]") || self.take("[2pt]");
                 rows.push(vec![]);
                 continue;
             }

@@ -4,6 +4,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+mod words;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -187,19 +189,22 @@ fn names_of_modules_are_found_in_paths_and_lists() {
 fn files_are_short_and_no_crate_dwarfs_the_others() {
     let mut long = vec![];
     let mut lines: BTreeMap<&str, usize> = BTreeMap::new();
-    for name in CRATES {
-        let folder = root().join("crates").join(name);
-        for path in sources(&folder) {
-            let count = fs::read_to_string(&path).unwrap().lines().count();
-            // Golden files are generated code.
-            let is_golden = path.components().any(|part| part.as_os_str() == "goldens");
-            if count > LONGEST && !is_golden {
+    let length = |path: &Path| fs::read_to_string(path).unwrap().lines().count();
+    for folder in ["crates", "src", "tests", "benches", "examples", "fuzz", "python", "query"] {
+        for path in sources(&root().join(folder)) {
+            // Golden files are generated code, and so is what builds leave.
+            let is_generated = path
+                .components()
+                .any(|part| ["goldens", "target"].iter().any(|name| part.as_os_str() == *name));
+            let count = length(&path);
+            if count > LONGEST && !is_generated {
                 long.push(format!("{}: {count} lines", path.display()));
             }
-            if path.starts_with(folder.join("src")) {
-                *lines.entry(name).or_default() += count;
-            }
         }
+    }
+    for name in CRATES {
+        let own = sources(&root().join("crates").join(name).join("src"));
+        lines.insert(name, own.iter().map(|path| length(path)).sum());
     }
     assert!(long.is_empty(), "files of more than {LONGEST} lines: {long:#?}");
     let all: usize = lines.values().sum();
@@ -365,47 +370,6 @@ fn invariants_name_what_holds_them() {
     }
 }
 
-/// Words that the glossary replaces and that have no other meaning.
-const REPLACED: [&str; 9] = [
-    "driving force",
-    "torsor",
-    "motion law",
-    "direct problem",
-    "mass centre",
-    "centre of mass",
-    "hangs on",
-    "plane arm",
-    "optimis",
-];
-
-/// The text of a page without code blocks, in lower case.
-fn prose(page: &str) -> String {
-    let blocks = page.split("\n```");
-    blocks.step_by(2).collect::<Vec<_>>().join("\n").to_lowercase()
-}
-
-#[test]
-fn pages_use_the_terms_of_the_glossary() {
-    let docs = root().join("docs");
-    let mut paths =
-        ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(|name| root().join(name)).to_vec();
-    for folder in [docs.clone(), docs.join("users")] {
-        let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-        paths.extend(entries.filter(|path| path.extension().is_some_and(|end| end == "md")));
-    }
-    // The glossary contains these words, and the summary contains the titles of diagnostics.
-    paths.retain(|path| !path.ends_with("glossary.md") && !path.ends_with("SUMMARY.md"));
-    assert!(paths.len() >= 25, "{}", paths.len());
-    let mut wrong = vec![];
-    for path in paths {
-        let text = prose(&fs::read_to_string(&path).unwrap()).replace('\n', " ");
-        for word in REPLACED.iter().filter(|word| text.contains(**word)) {
-            wrong.push(format!("{}: {word}", path.display()));
-        }
-    }
-    assert!(wrong.is_empty(), "docs/glossary.md has other words: {wrong:#?}");
-}
-
 /// Checks the metadata in the manifests of packages.
 #[test]
 fn packages_say_what_they_are() {
@@ -426,156 +390,4 @@ fn packages_say_what_they_are() {
         let version = &workspace["workspace"]["dependencies"][name]["version"];
         assert_eq!(version.as_str(), Some(&*pin), "{name}");
     }
-}
-
-/// The names of joint variables are defined in one place: no other source contains `"qdd"`, alone or followed by a
-/// placeholder for a number.
-#[test]
-fn names_of_joint_variables_have_one_place() {
-    const NAMES: [&str; 4] = ["q", "qd", "qdd", "tau"];
-    let mut wrong = vec![];
-    for path in sources(&root().join("crates")) {
-        let shown = path.strip_prefix(root()).unwrap().display().to_string();
-        // Exceptions: names of Greek letters, names in tests, and code that is copied into generated crates.
-        let is_free = shown == "crates/robot_model/src/variable.rs"
-            || shown == "crates/robot_model/src/signs/letter.rs"
-            || shown.starts_with("crates/robot_runtime/")
-            || !shown.contains("/src/")
-            || shown.ends_with("tests.rs");
-        if is_free {
-            continue;
-        }
-        let text = fs::read_to_string(&path).unwrap();
-        let code = text.split("#[cfg(test)]").next().unwrap_or_default();
-        let lines = code.lines().enumerate();
-        for (number, line) in lines.filter(|(_, line)| !line.trim_start().starts_with("//")) {
-            let names = |name: &&str| {
-                line.contains(&format!("\"{name}\"")) || line.contains(&format!("\"{name}{{"))
-            };
-            if NAMES.iter().any(names) {
-                wrong.push(format!("{shown}:{}: {}", number + 1, line.trim()));
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "use robot_model::variable::JointVariable: {wrong:#?}");
-}
-
-/// Names of the command or of options that sources of libraries may contain: the file, and a literal or a part of one.
-const NAMED_ON_PURPOSE: [(&str, &str); 17] = [
-    // Options of CMake in the READMEs of packages.
-    ("robot_build/src/driver/languages/package/c.rs", "cmake --build build"),
-    ("robot_build/src/driver/languages/package/cpp.rs", "cmake --build build"),
-    ("robot_build/src/driver/languages/package/cuda.rs", "cmake --build build"),
-    // Marks in files that this program writes; files that were written earlier must be recognized.
-    ("robot_build/src/entry/files/marker.rs", "@generated by robot-symbolic"),
-    ("robot_build/src/entry/files/staging.rs", ".robot-symbolic-tmp-"),
-    // The header of pinned plans, which only the command writes.
-    ("robot_dynamics/src/economical/plan/pin.rs", "Written by\\n"),
-    // The footer of a page names the program that wrote it.
-    ("robot_report/src/page.rs", "Written by robot-symbolic"),
-    // Options of rustc, which this crate runs.
-    ("robot_evidence/src/compile.rs", "--crate-type=lib"),
-    ("robot_evidence/src/compile.rs", "--edition=2024"),
-    ("robot_evidence/src/compile.rs", "--cap-lints=allow"),
-    ("robot_evidence/src/compile.rs", "--crate-name"),
-    ("robot_evidence/src/compile.rs", "--cfg"),
-    ("robot_evidence/src/compile.rs", "--target"),
-    ("robot_evidence/src/compile.rs", "--emit=obj"),
-    ("robot_evidence/src/compile.rs", "--out-dir"),
-    ("robot_evidence/src/compile.rs", " --target {target}"),
-    ("robot_evidence/src/compile.rs", "`rustc --print"),
-];
-
-/// The string literals of a source outside comments, each with its line.
-fn literals(text: &str) -> Vec<(usize, &str)> {
-    let (bytes, mut found, mut at) = (text.as_bytes(), vec![], 0);
-    let line = |at: usize| 1 + text[..at].matches('\n').count();
-    while at < bytes.len() {
-        let rest = &text[at..];
-        let character = rest.chars().next().unwrap();
-        let length = if rest.starts_with("//") {
-            rest.find('\n').unwrap_or(rest.len())
-        } else if rest.starts_with("'\"'") || rest.starts_with("'\\") {
-            rest[2..].find('\'').map_or(1, |end| end + 3)
-        } else if let Some(raw) = rest.strip_prefix("r#\"") {
-            let end = raw.find("\"#").unwrap();
-            found.push((line(at), &raw[..end]));
-            end + 5
-        } else if let Some(inside) = rest.strip_prefix('"') {
-            let mut end = 0;
-            while !inside[end..].starts_with('"') {
-                end += if inside[end..].starts_with('\\') { 2 } else { 1 };
-                while !inside.is_char_boundary(end) {
-                    end += 1;
-                }
-            }
-            found.push((line(at), &inside[..end]));
-            end + 2
-        } else {
-            character.len_utf8()
-        };
-        at += length;
-    }
-    found
-}
-
-/// Whether a literal contains the name of the command, or an option as it is spelled on the command line.
-fn names_command(literal: &str) -> bool {
-    let is_flag = |at: usize| {
-        let before = literal[..at].chars().next_back();
-        let after = literal[at + 2..].chars().next();
-        before.is_none_or(|c| !c.is_alphanumeric() && c != '-')
-            && after.is_some_and(|c| c.is_ascii_lowercase())
-    };
-    literal.contains("robot-symbolic") || literal.match_indices("--").any(|(at, _)| is_flag(at))
-}
-
-#[test]
-fn literals_that_name_the_command_are_found() {
-    let text =
-        "a(\"x\", '\"', \"try `--snap`\") // \"no\"\n/// \"no\"\nb(r#\"a \"b\" c\"#, \"\\\"\")";
-    let found = literals(text);
-    assert_eq!(found, [(1, "x"), (1, "try `--snap`"), (3, "a \"b\" c"), (3, "\\\"")]);
-    for literal in ["run `robot-symbolic show`", "use --form grouped", "--snap", "(`--snap`)"] {
-        assert!(names_command(literal), "{literal}");
-    }
-    for literal in ["robot_symbolic", "a -- b", "<!-- x -->", "a--b", "-x", "---"] {
-        assert!(!names_command(literal), "{literal}");
-    }
-}
-
-/// Users of a library have no command line: messages describe remedies in words that apply everywhere, and the command
-/// adds its own hints.
-#[test]
-fn libraries_name_no_command_and_no_option_of_it() {
-    // Options must be whole literals; other exceptions may be a part of one.
-    let is_of = |literal: &str, part: &str| match part.trim_start().starts_with("--") {
-        true => literal == part,
-        false => literal.contains(part),
-    };
-    let mut wrong = vec![];
-    let mut used = vec![false; NAMED_ON_PURPOSE.len()];
-    for name in CRATES.iter().filter(|name| **name != "robot_cli" && !UNPUBLISHED.contains(name)) {
-        for path in sources(&root().join("crates").join(name).join("src")) {
-            let shown =
-                path.strip_prefix(root().join("crates")).unwrap().to_str().unwrap().to_owned();
-            if shown.ends_with("tests.rs") || shown.contains("/tests/") {
-                continue;
-            }
-            let text = fs::read_to_string(&path).unwrap();
-            let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap();
-            for (line, literal) in literals(text).into_iter().filter(|(_, one)| names_command(one))
-            {
-                let known = NAMED_ON_PURPOSE
-                    .iter()
-                    .position(|(file, part)| shown == *file && is_of(literal, part));
-                match known {
-                    Some(index) => used[index] = true,
-                    None => wrong.push(format!("{shown}:{line}: {literal}")),
-                }
-            }
-        }
-    }
-    assert!(wrong.is_empty(), "messages of libraries that name the command: {wrong:#?}");
-    assert!(used.iter().all(|used| *used), "exceptions that nothing needs: {used:?}");
 }
