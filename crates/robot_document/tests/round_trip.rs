@@ -228,6 +228,50 @@ fn double_angles_read_back() {
     }
 }
 
+/// A reflected inertia that acts against gravity is regrouped with a constant offset, which is not printed without
+/// friction.
+#[test]
+fn regrouped_torques_without_friction_are_whole() {
+    let link = |name: &str, axis: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"prismatic\", axis = \"{axis}\" }}\nmass = 2\n\
+             center_of_mass = [0, 0, 0]\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\ndrive = {{ armature = 0.5 }}\n\
+             friction = {{ viscous = 0.2, coulomb_positive = 0.1, offset = 0.3 }}\n"
+        )
+    };
+    let text =
+        format!("format = 1\n[robot]\nname = \"lift\"\n{}{}", link("a", "z"), link("b", "x"));
+    let robot = read_toml("lift.toml", &text).unwrap().robot;
+    for friction in [false, true] {
+        check(&robot, &EquationOptions { friction, ..in_form(Form::Regrouped) }, &[8.2]);
+    }
+}
+
+/// A joint force that equals another one is defined too, because friction depends on its symbol.
+#[test]
+fn equal_joint_forces_are_defined() {
+    for gravity in ["[\"g\", \"g\", 0]", "[\"g\", \"-g\", 0]"] {
+        let text = format!(
+            "format = 1\n[robot]\nname = \"slide\"\ngravity = {gravity}\n[parameters]\ng = 9.81\nm = 2\n\
+             [[link]]\nname = \"1\"\njoint = {{ type = \"prismatic\", axis = \"z\" }}\nmass = \"m\"\n\
+             center_of_mass = [0, 0, 0]\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\nfriction = {{ coulomb = 0.02 }}\n"
+        );
+        let robot = read_toml("slide.toml", &text).unwrap().robot;
+        for christoffel in [false, true] {
+            let options = EquationOptions { friction: true, christoffel, ..in_form(Form::Grouped) };
+            let printed = equations(&robot, &options).unwrap();
+            let names: Vec<&str> = printed
+                .groups
+                .iter()
+                .flat_map(|group| &group.equations)
+                .map(|one| one.name.as_str())
+                .collect();
+            assert!(names.contains(&"F_l1_x") && names.contains(&"F_l1_y"), "{names:?}");
+            check(&robot, &options, &[8.2]);
+        }
+    }
+}
+
 #[test]
 fn friction_reads_back() {
     let robots = robots();

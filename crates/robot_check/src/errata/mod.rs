@@ -242,8 +242,9 @@ fn expand<'p, 'g>(
         .map(|(one, range)| {
             let own = terms.get_mut(range).unwrap_or_default().iter_mut().map(std::mem::take);
             let own = own.zip(&one.equation.terms);
-            let print = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
-            Compared { print, ..one }
+            let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
+            let derived = term::noted_like(&one.derived, &print);
+            Compared { print, derived, ..one }
         })
         .collect())
 }

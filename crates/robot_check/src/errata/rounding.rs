@@ -27,9 +27,15 @@ pub(super) fn of_formula(formula: &Formula) -> Option<Number> {
     is_multiple(text, place)?.then(|| &half * &Number::Rational(value).recip())
 }
 
+/// The largest relative error of a derived coefficient that is computed with floating-point numbers.
+const COMPUTED: f64 = 4.0 * f64::EPSILON;
+
 /// Whether a printed coefficient, of which `error` is the largest error, stands for a derived one, or for the nearest
 /// `f64` to it, from which programs print numbers.
 pub(super) fn stands_for(printed: &Number, derived: &Number, error: &Number) -> bool {
+    if let Number::Real(value) = derived {
+        return is_within(printed, derived, &(error + &Number::Real(COMPUTED * value.abs())));
+    }
     let nearest = Rational::from_f64(derived.to_f64()).map(Number::Rational);
     is_within(printed, derived, error)
         || nearest.is_some_and(|nearest| is_within(printed, &nearest, error))

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::fmt;
 
 use robot_symbolic::{
-    Expr, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, View, print,
+    Expr, Function, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, View,
+    print, walk,
 };
 
 use super::rounding;
@@ -40,18 +41,60 @@ pub(super) fn terms_of<'g>(
         let term = |(monomial, coefficient): (&Monomial, &Number)| Term {
             coefficient: coefficient.clone(),
             rounding: None,
-            factors: monomial
-                .factors()
-                .iter()
-                .map(|factor| Power {
-                    atom: graph.expr(factor.atom()),
-                    exponent: factor.exponent(),
-                })
-                .collect(),
+            factors: powers(monomial.factors().iter().map(|factor| Power {
+                atom: graph.expr(factor.atom()),
+                exponent: factor.exponent(),
+            })),
         };
         polynomial.terms().map(term).collect()
     });
     Ok(terms.collect())
+}
+
+/// The powers of a term, in which even powers of a root in a denominator are powers of its argument.
+fn powers<'g>(factors: impl Iterator<Item = Power<'g>>) -> Vec<Power<'g>> {
+    let mut powers: Vec<Power<'g>> = vec![];
+    let mut add =
+        |atom: Expr<'g>, exponent: i32| match powers.iter_mut().find(|power| power.atom == atom) {
+            Some(power) => power.exponent += exponent,
+            None => powers.push(Power { atom, exponent }),
+        };
+    for Power { atom, exponent } in factors {
+        match atom.view() {
+            View::Call(Function::Sqrt, argument) if exponent < -1 => {
+                add(argument, exponent / 2);
+                if exponent % 2 != 0 {
+                    add(atom, exponent % 2);
+                }
+            }
+            _ => add(atom, exponent),
+        }
+    }
+    powers.retain(|power| power.exponent != 0);
+    powers
+}
+
+/// The derived terms as they are printed: if no printed term contains a constant such as sin(0.7), those of the derived
+/// terms are multiplied into the coefficients.
+pub(super) fn noted_like<'g>(derived: &[Term<'g>], printed: &[Term<'g>]) -> Vec<Term<'g>> {
+    let is_constant = |power: &Power<'g>| walk::symbols(&[power.atom]).is_empty();
+    if printed.iter().flat_map(|term| &term.factors).any(is_constant) {
+        return derived.to_vec();
+    }
+    let mut noted: Vec<Term<'g>> = vec![];
+    for term in derived {
+        let mut term = term.clone();
+        for constant in term.factors.iter().filter(|power| is_constant(power)) {
+            let value = constant.atom.evaluate(|_| f64::NAN).powi(constant.exponent);
+            term.coefficient = &term.coefficient * &Number::Real(value);
+        }
+        term.factors.retain(|power| !is_constant(power));
+        match noted.iter_mut().find(|known| known.factors == term.factors) {
+            Some(known) => known.coefficient = &known.coefficient + &term.coefficient,
+            None => noted.push(term),
+        }
+    }
+    noted
 }
 
 /// The sum of like printed terms.

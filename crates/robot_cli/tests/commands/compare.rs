@@ -104,6 +104,36 @@ fn a_long_equation_goes_on_in_the_next_environment() {
     }
 }
 
+/// Constants such as sin(0.7) are printed as decimals, and so are roots in denominators that the derivation squares.
+#[test]
+fn constants_of_oblique_frames_are_read() {
+    let text = |parameter: &str, joint: &str| {
+        format!(
+            "format = 1\n[robot]\nname = \"arm\"\n[parameters]\n{parameter} = 0.5\n[[link]]\nname = \"a\"\n{joint}\n\
+             mass = 1\ncenter_of_mass = [1, 0, 0]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
+        )
+    };
+    let turned = text(
+        "m",
+        "joint = { type = \"revolute\", axis = \"z\" }\norigin = { rpy = [0.3, 0.7, 0] }",
+    )
+    .replace("mass = 1", "mass = \"m\"");
+    let oblique = text("p", "joint = { type = \"revolute\", axis = [1, 0, \"p\"] }");
+    let path = crate::folder("compare-oblique").join("arm.toml");
+    let file = path.to_str().unwrap();
+    for (robot, options) in [
+        (&turned, &[][..]),
+        (&turned, &["--digits", "17"]),
+        (&turned, &["--form", "collected"]),
+        (&oblique, &[]),
+        (&oblique, &["--form", "collected"]),
+    ] {
+        std::fs::write(&path, robot).unwrap();
+        let shown = of_own(file, options);
+        assert!(shown.contains(": no differences"), "{options:?} {shown}");
+    }
+}
+
 #[test]
 fn letters_of_the_field_are_read() {
     for format in ["text", "latex"] {

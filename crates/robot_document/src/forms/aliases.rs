@@ -10,7 +10,8 @@ use crate::error::Error;
 /// Replaces each coefficient that equals an earlier one of its section, possibly with the opposite sign, by the earlier
 /// one: the joint torques contain b₂₃₃ (q̇₃ + q̇₄) q̇₃, and there is no equation b₂₃₄ = b₂₃₃.
 ///
-/// Coefficients of one or two printed symbols, such as a mass, keep their equations, unless they contain a long number.
+/// Coefficients of one or two printed symbols, such as a mass, keep their equations, unless they contain a long number;
+/// so do those that are not in the sums, such as joint forces, which occur in functions.
 pub(super) fn replace<'g>(
     sections: &[Section<'g>],
     shown: &mut [Vec<Shown<'g>>],
@@ -26,12 +27,13 @@ pub(super) fn replace<'g>(
                 () if is_equal(known, &opposite) => Some((*name, true)),
                 () => None,
             });
+            let is_term = || sums.iter().flatten().any(|(name, _)| *name == coefficient.name);
             match same {
-                Some((name, is_opposite)) => {
+                Some((name, is_opposite)) if is_term() => {
                     rename(sums, &coefficient.name, name, is_opposite);
                     *shown = Shown::Earlier;
                 }
-                None => earlier.push((&coefficient.name, value.clone())),
+                _ => earlier.push((&coefficient.name, value.clone())),
             }
         }
     }

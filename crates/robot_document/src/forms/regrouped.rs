@@ -1,11 +1,12 @@
 //! The regrouped form Q = Y(q, q̇, q̈) β, which is linear in the base parameters.
 
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, StandardParameter};
+use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismFriction;
-use robot_model::robot::BaseFrames;
+use robot_model::robot::{BaseFrames, Robot};
 use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
-use robot_symbolic::{Expr, Number, Polynomial};
+use robot_symbolic::{Expr, Formula, Number, Polynomial, Rational};
 
 use super::coefficients::{
     Coefficient, Section, Shown, Sum, by_name, define_all, definitions_of, limit, shown,
@@ -21,7 +22,8 @@ use crate::math::Math;
 const MAX_LENGTH: usize = 4000;
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
-    let derivation = writer.derivation();
+    let robot = considered(writer);
+    let derivation = Derivation::new(&robot, writer.graph, &writer.mechanism_options(), None);
     let found = base::found(&derivation)?;
     let outputs = derivation.regressor_over(&found).outputs;
     let mut columns: Vec<Expr<'_>> = outputs.into_iter().flat_map(|output| output.values).collect();
@@ -58,6 +60,18 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         }
     });
     Ok(groups)
+}
+
+/// The robot, without the constant friction offsets if friction is not printed: a reflected inertia that acts against
+/// gravity is regrouped with an offset, and would be lost with it.
+fn considered(writer: &Writer<'_, '_>) -> Robot {
+    let mut robot = writer.robot.clone();
+    if !writer.options.friction {
+        for link in &mut robot.links {
+            link.friction.offset = Formula::number(&Rational::ZERO);
+        }
+    }
+    robot
 }
 
 /// The number of printed symbols of a coefficient; `None` if it needs names.

@@ -8,8 +8,11 @@ pub(super) type Row<'g> = Vec<Scalar<'g>>;
 /// A constant is preferred as a pivot only if it exceeds this fraction of the largest entry of its column.
 const SMALL: f64 = 0.05;
 
-/// Rows in the order of their pivots. The pivot of a row is 1; the entries to its left, and the entries of the other
-/// rows in its column, are 0. The form only depends on the space that the rows span.
+/// Rows in the order in which their pivots were chosen. The pivot of a row is 1; the entries of the other rows in its
+/// column are 0. The form only depends on the space that the rows span.
+///
+/// Pivots are in the first possible columns, so that the entries to their left are 0, except that a column is chosen after
+/// all others if its pivot would be 0 at the nominal parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Echelon<'g> {
     pub(super) rows: Vec<(usize, Row<'g>)>,
@@ -18,20 +21,36 @@ pub(super) struct Echelon<'g> {
 impl<'g> Echelon<'g> {
     pub(super) fn of(rows: impl IntoIterator<Item = Row<'g>>) -> Echelon<'g> {
         let mut pending: Vec<Row<'g>> = rows.into_iter().collect();
-        let mut done: Vec<(usize, Row<'g>)> = vec![];
+        let mut form = Echelon { rows: vec![] };
+        let mut postponed = vec![];
         for column in 0..pending.first().map_or(0, Vec::len) {
-            let Some(chosen) = pivot(&pending, column) else { continue };
-            let mut row = pending.swap_remove(chosen);
-            let lead = row[column];
-            for entry in row.iter_mut().skip(column + 1).filter(|entry| !entry.is_zero()) {
-                *entry = *entry / lead;
+            match pivot(&pending, column) {
+                Some(row) if pending[row][column].divides() => {
+                    form.eliminate(&mut pending, row, column);
+                }
+                Some(_) => postponed.push(column),
+                None => {}
             }
-            row[column] = Scalar::integer(lead, 1);
-            let others = pending.iter_mut().chain(done.iter_mut().map(|(_, row)| row));
-            others.for_each(|other| subtract(other, &row, column));
-            done.push((column, row));
         }
-        Echelon { rows: done }
+        for column in postponed {
+            if let Some(row) = pivot(&pending, column) {
+                form.eliminate(&mut pending, row, column);
+            }
+        }
+        form
+    }
+
+    /// Takes a row out of `pending`, with its pivot in a column, and eliminates this column from all other rows.
+    fn eliminate(&mut self, pending: &mut Vec<Row<'g>>, row: usize, column: usize) {
+        let mut row = pending.swap_remove(row);
+        let lead = row[column];
+        for entry in row.iter_mut().filter(|entry| !entry.is_zero()) {
+            *entry = *entry / lead;
+        }
+        row[column] = Scalar::integer(lead, 1);
+        let others = pending.iter_mut().chain(self.rows.iter_mut().map(|(_, row)| row));
+        others.for_each(|other| subtract(other, &row, column));
+        self.rows.push((column, row));
     }
 
     /// The rows without the columns of their pivots.
@@ -40,8 +59,8 @@ impl<'g> Echelon<'g> {
     }
 }
 
-/// The row whose entry becomes the pivot of a column: constants are preferred to other entries, then large to small
-/// ones.
+/// The row whose entry becomes the pivot of a column: entries that are not 0 at the nominal parameters are preferred to
+/// those that are, then constants to others, then large to small ones.
 fn pivot(rows: &[Row<'_>], column: usize) -> Option<usize> {
     let size = |row: usize| rows[row][column].size();
     let candidates: Vec<usize> =
@@ -49,7 +68,7 @@ fn pivot(rows: &[Row<'_>], column: usize) -> Option<usize> {
     let largest = candidates.iter().map(|row| size(*row)).fold(0.0, f64::max);
     let rank = |row: usize| {
         let constant = rows[row][column].is_constant() && size(row) > SMALL * largest;
-        (constant, size(row))
+        (rows[row][column].divides(), constant, size(row))
     };
     candidates.into_iter().reduce(|best, row| if rank(row) > rank(best) { row } else { best })
 }

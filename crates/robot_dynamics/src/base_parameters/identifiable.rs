@@ -19,7 +19,7 @@
 //! These are the spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization of
 //! observability in inertial parameter identification" (2018), extended here by drives.
 
-use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::{LINK_PARAMETERS, Robot};
 
 use super::echelon::{Echelon, Row, closure};
 use super::joint::{Joint, energy};
@@ -42,8 +42,12 @@ struct Span<'g> {
 }
 
 /// The identifiable linear functions of each link's parameters, which are ordered as in [`Quantity::place`].
-pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) -> Vec<Vec<Row<'g>>> {
-    let base = at_base(mechanism);
+pub(super) fn conditions<'g>(
+    mechanism: &Mechanism<'g>,
+    joints: &[Joint<'g>],
+    robot: &Robot,
+) -> Vec<Vec<Row<'g>>> {
+    let base = at_base(mechanism, robot);
     let mut spans: Vec<Span<'g>> = vec![];
     let mut conditions = vec![];
     for (link, joint) in mechanism.links.iter().zip(joints) {
@@ -57,12 +61,12 @@ pub(super) fn conditions<'g>(mechanism: &Mechanism<'g>, joints: &[Joint<'g>]) ->
 
 /// The span at the base, which is at rest: there are no twists, and the potential energy is −g · h plus a constant,
 /// with the first moment h.
-fn at_base<'g>(mechanism: &Mechanism<'g>) -> Span<'g> {
+fn at_base<'g>(mechanism: &Mechanism<'g>, robot: &Robot) -> Span<'g> {
     let graph = mechanism.graph;
     let zero = Scalar::new(graph.zero());
     let mut potential = vec![zero; LINK_PARAMETERS + 1];
     for (place, component) in mechanism.gravity.0.into_iter().enumerate() {
-        potential[1 + place] = Scalar::new(-component);
+        potential[1 + place] = Scalar::of(-component, robot);
     }
     potential[LINK_PARAMETERS] = Scalar::integer(zero, 1);
     Span { twists: vec![], kinetic: vec![], potential: vec![potential] }

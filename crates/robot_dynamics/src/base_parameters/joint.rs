@@ -1,7 +1,6 @@
 //! The transformation of twists and bodies across a joint and the placement before it.
 
-use robot_model::robot::JointKind;
-use robot_model::robot::LINK_PARAMETERS;
+use robot_model::robot::{JointKind, LINK_PARAMETERS, Robot};
 use robot_symbolic::{Expr, Graph};
 
 use super::echelon::Row;
@@ -19,8 +18,13 @@ struct Map<'g> {
 }
 
 impl<'g> Map<'g> {
-    fn new<const N: usize>(units: usize, image: impl Fn(usize) -> [Expr<'g>; N]) -> Map<'g> {
-        Map { columns: (0..units).map(|unit| image(unit).map(Scalar::new).to_vec()).collect() }
+    fn new<const N: usize>(
+        robot: &Robot,
+        units: usize,
+        image: impl Fn(usize) -> [Expr<'g>; N],
+    ) -> Map<'g> {
+        let column = |unit| image(unit).map(|entry| Scalar::of(entry, robot)).to_vec();
+        Map { columns: (0..units).map(column).collect() }
     }
 
     /// The image of a vector.
@@ -73,7 +77,7 @@ pub(super) struct Joint<'g> {
 }
 
 impl<'g> Joint<'g> {
-    pub(super) fn new(link: &MechanismLink<'g>) -> Joint<'g> {
+    pub(super) fn new(link: &MechanismLink<'g>, robot: &Robot) -> Joint<'g> {
         let graph = link.mass.graph();
         let (axis, zero) = (link.axis, Vector::zero(graph));
         let kind = link.kind;
@@ -97,17 +101,18 @@ impl<'g> Joint<'g> {
         let carried = |place: usize| {
             Body::unit(graph, place).turned(link.rotation).about(link.translation).parameters()
         };
+        let scalar = |expr| Scalar::of(expr, robot);
         let own = match kind {
             JointKind::Revolute => twist(axis, zero),
             JointKind::Prismatic => twist(zero, axis),
         };
         Joint {
-            twist: own.map(Scalar::new).to_vec(),
-            axis: axis.0.map(Scalar::new).to_vec(),
-            placement: Map::new(TWIST, placement),
-            turning: Map::new(TWIST, turning),
-            carried: Map::new(LINK_PARAMETERS, carried),
-            moving: Map::new(LINK_PARAMETERS, |place| moving(graph, kind, axis, place)),
+            twist: own.map(scalar).to_vec(),
+            axis: axis.0.map(scalar).to_vec(),
+            placement: Map::new(robot, TWIST, placement),
+            turning: Map::new(robot, TWIST, turning),
+            carried: Map::new(robot, LINK_PARAMETERS, carried),
+            moving: Map::new(robot, LINK_PARAMETERS, |place| moving(graph, kind, axis, place)),
         }
     }
 

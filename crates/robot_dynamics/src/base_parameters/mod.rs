@@ -149,8 +149,9 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     let mechanism = reframed.as_ref().map_or(&derivation.mechanism, |moved| &moved.mechanism);
     let parameters: Vec<StandardParameter> =
         standard.iter().map(|(parameter, _)| *parameter).collect();
-    let joints: Vec<Joint<'g>> = mechanism.links.iter().map(Joint::new).collect();
-    let conditions = identifiable::conditions(mechanism, &joints);
+    let joints: Vec<Joint<'g>> =
+        mechanism.links.iter().map(|link| Joint::new(link, derivation.robot)).collect();
+    let conditions = identifiable::conditions(mechanism, &joints, derivation.robot);
     let mut kept = regroup::regroup(mechanism, &joints, &conditions, &parameters, frames);
     let one = scalar::Scalar::new(mechanism.graph.one());
     let friction = parameters.iter().enumerate();

@@ -77,7 +77,8 @@ pub(super) fn regroup<'g>(
         let mut rest = gathered[index].clone();
         for (pivot, row) in identifiable.rows {
             let mut regrouped = Form::new();
-            for (coefficient, place) in row.iter().zip(&order).skip(pivot + 1) {
+            let others = row.iter().zip(&order).enumerate().filter(|(column, _)| *column != pivot);
+            for (_, (coefficient, place)) in others {
                 add(&mut regrouped, &gathered[index][*place], *coefficient);
             }
             let place = order[pivot];

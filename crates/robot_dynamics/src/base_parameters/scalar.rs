@@ -2,6 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use robot_model::robot::Robot;
 use robot_symbolic::{Expr, Polynomial, PolynomialOptions, Random, View, walk};
 
 /// The number of points at which symbols have seeded values.
@@ -35,24 +36,46 @@ const SHORT: usize = 100;
 pub(super) struct Scalar<'g> {
     pub(super) expr: Expr<'g>,
     at: [f64; POINTS],
+    /// The value at the nominal parameters, of which those without a value have that of the first point.
+    nominal: f64,
+}
+
+/// The value of a symbol at a point.
+fn seeded(name: &str, point: u64) -> f64 {
+    let mix = |seed: u64, byte: u8| seed.wrapping_mul(257).wrapping_add(u64::from(byte));
+    Random::new(name.bytes().fold(SEED, mix).wrapping_add(point)).uniform(0.4, 1.6)
 }
 
 impl<'g> Scalar<'g> {
+    /// A scalar whose nominal value does not matter.
     pub(super) fn new(expr: Expr<'g>) -> Scalar<'g> {
-        let points = [0, 1, 2].map(|point: u64| {
-            expr.evaluate(|symbol| {
-                let name = expr.graph().symbol_name(symbol);
-                let folded = name
-                    .bytes()
-                    .fold(SEED, |seed, byte| seed.wrapping_mul(257).wrapping_add(u64::from(byte)));
-                Random::new(folded.wrapping_add(point)).uniform(0.4, 1.6)
-            })
+        let name = |symbol| expr.graph().symbol_name(symbol);
+        let points = [0, 1, 2].map(|point| expr.evaluate(|symbol| seeded(&name(symbol), point)));
+        Scalar { expr, at: points, nominal: points[0] }.settled([1e-3; POINTS])
+    }
+
+    /// A scalar with its value at the nominal parameters of a robot.
+    pub(super) fn of(expr: Expr<'g>, robot: &Robot) -> Scalar<'g> {
+        let scalar = Scalar::new(expr);
+        if scalar.is_constant() {
+            return scalar;
+        }
+        let nominal = expr.evaluate(|symbol| {
+            let name = expr.graph().symbol_name(symbol);
+            let value = robot.nominal_value(&name);
+            if value.is_nan() { seeded(&name, 0) } else { value }
         });
-        Scalar { expr, at: points }.settled([1e-3; POINTS])
+        Scalar { nominal, ..scalar }
     }
 
     pub(super) fn integer(like: Scalar<'g>, value: i64) -> Scalar<'g> {
-        Scalar { expr: like.expr.graph().integer(value), at: [value as f64; POINTS] }
+        let expr = like.expr.graph().integer(value);
+        Scalar { expr, at: [value as f64; POINTS], nominal: value as f64 }
+    }
+
+    /// Whether one can divide by the scalar at the nominal parameters.
+    pub(super) fn divides(self) -> bool {
+        self.nominal.abs() > NOTICED * self.size()
     }
 
     pub(super) fn is_zero(self) -> bool {
@@ -67,6 +90,12 @@ impl<'g> Scalar<'g> {
     /// A rough magnitude, used to choose among scalars.
     pub(super) fn size(self) -> f64 {
         self.at[0].abs()
+    }
+
+    /// The result of an operation, with its values.
+    fn with(self, other: Scalar<'g>, expr: Expr<'g>, of: impl Fn(f64, f64) -> f64) -> Scalar<'g> {
+        let nominal = of(self.nominal, other.nominal);
+        Scalar { expr, at: pairwise(self.at, other.at, of), nominal }
     }
 
     /// This scalar, or 0 if it vanishes relative to `scale`.
@@ -114,8 +143,7 @@ fn pairwise(a: [f64; POINTS], b: [f64; POINTS], of: impl Fn(f64, f64) -> f64) ->
 impl<'g> Add for Scalar<'g> {
     type Output = Scalar<'g>;
     fn add(self, other: Scalar<'g>) -> Scalar<'g> {
-        let sum =
-            Scalar { expr: self.expr + other.expr, at: pairwise(self.at, other.at, f64::add) };
+        let sum = self.with(other, self.expr + other.expr, f64::add);
         sum.settled(pairwise(self.at, other.at, |a, b| a.abs().max(b.abs())))
     }
 }
@@ -130,21 +158,21 @@ impl<'g> Sub for Scalar<'g> {
 impl<'g> Neg for Scalar<'g> {
     type Output = Scalar<'g>;
     fn neg(self) -> Scalar<'g> {
-        Scalar { expr: -self.expr, at: self.at.map(f64::neg) }
+        Scalar { expr: -self.expr, at: self.at.map(f64::neg), nominal: -self.nominal }
     }
 }
 
 impl<'g> Mul for Scalar<'g> {
     type Output = Scalar<'g>;
     fn mul(self, other: Scalar<'g>) -> Scalar<'g> {
-        Scalar { expr: self.expr * other.expr, at: pairwise(self.at, other.at, f64::mul) }
+        self.with(other, self.expr * other.expr, f64::mul)
     }
 }
 
 impl<'g> Div for Scalar<'g> {
     type Output = Scalar<'g>;
     fn div(self, other: Scalar<'g>) -> Scalar<'g> {
-        Scalar { expr: self.expr / other.expr, at: pairwise(self.at, other.at, f64::div) }
+        self.with(other, self.expr / other.expr, f64::div)
     }
 }
 

@@ -59,6 +59,54 @@ fn base_parameters_give_the_joint_torques() {
     }
 }
 
+/// A chain of three joints with an angle d and a length e before each.
+fn chain(kinds: usize, axes: usize, turned: usize, parameters: &str) -> Robot {
+    let link = |number: usize| {
+        let is_prismatic = number > 0 && (kinds >> (number - 1)) & 1 == 1;
+        let kind = if is_prismatic { "prismatic" } else { "revolute" };
+        let axis = ["x", "y", "z"][axes / 3_usize.pow(number as u32) % 3];
+        let mut rpy = ["0", "0", "0"];
+        rpy[turned] = "d";
+        let [roll, pitch, yaw] = rpy;
+        format!(
+            "[[link]]\nname = \"{number}\"\njoint = {{ type = \"{kind}\", axis = \"{axis}\" }}\n\
+             origin = {{ xyz = [0.1, \"e\", 0], rpy = [\"{roll}\", \"{pitch}\", \"{yaw}\"] }}\nmass = 1\n\
+             center_of_mass = [0.1, 0.2, 0.3]\ninertia = {{ xx = 0.1, yy = 0.11, zz = 0.12 }}\n"
+        )
+    };
+    let links: String = (0..3).map(link).collect();
+    let text = format!("format = 1\n[robot]\nname = \"arm\"\n{parameters}{links}");
+    let text = match parameters {
+        "" => text.replace("\"d\"", "0").replace("\"e\"", "0"),
+        _ => text,
+    };
+    robot_model::description::read_toml("arm.toml", &text).unwrap().robot
+}
+
+/// Angles and lengths that are parameters with the nominal value 0 are not divisors of base parameters, unless the robot
+/// has fewer base parameters at these values than in general.
+#[test]
+fn base_parameters_are_finite_if_angles_and_lengths_are_nominally_zero() {
+    let (mut finite, mut fewer) = (0, 0);
+    for (kinds, axes, turned) in [1, 3].into_iter().flat_map(|kinds| {
+        (0..27).flat_map(move |axes| (0..3).map(move |turned| (kinds, axes, turned)))
+    }) {
+        let zero = chain(kinds, axes, turned, "[parameters]\nd = 0\ne = 0\n");
+        let count = |robot: &Robot| {
+            let graph = Graph::new();
+            let derivation = Derivation::new(robot, &graph, &MechanismOptions::ROUNDED, None);
+            base_parameters(&derivation).unwrap().base.len()
+        };
+        if count(&chain(kinds, axes, turned, "")) < count(&zero) {
+            fewer += 1;
+        } else {
+            check(&zero, &format!("{kinds} {axes} {turned}"), 7);
+            finite += 1;
+        }
+    }
+    assert!(finite > 80 && finite + fewer == 162, "{finite} {fewer}");
+}
+
 /// Checks the numbers of base parameters of arms that are known from the literature.
 #[test]
 fn base_parameters_are_as_many_as_known() {

@@ -36,7 +36,8 @@ pub(super) fn messages(
     let angle = angle.map(|why| format!("{why}{standard}"));
     let why = angle.or_else(of_matrix).or_else(|| digits.singular(state));
     let why =
-        why.unwrap_or_else(|| "check the magnitudes of the parameters and of the state".to_owned());
+        why.unwrap_or_else(|| "check the magnitudes of the parameters and of the state, and whether parameters that are 0 \
+            make a divisor 0".to_owned());
     let message = |output: &&OutputValues| {
         let entries = entries(robot, output);
         format!("{}: `{}` does not have a finite value{entries}; {why}", state.place, output.name)
