@@ -236,7 +236,7 @@ fn regrouped_torques_without_friction_are_whole() {
         format!(
             "[[link]]\nname = \"{name}\"\njoint = {{ type = \"prismatic\", axis = \"{axis}\" }}\nmass = 2\n\
              center_of_mass = [0, 0, 0]\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\ndrive = {{ armature = 0.5 }}\n\
-             friction = {{ viscous = 0.2, coulomb_positive = 0.1, offset = 0.3 }}\n"
+             friction = {{ viscous = 0.2, coulomb_positive = 0.1, coulomb_negative = 0.2, offset = 0.3 }}\n"
         )
     };
     let text =

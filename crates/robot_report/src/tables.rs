@@ -268,8 +268,7 @@ mod tests {
             drives(&robot, &Symbols::of(&robot)).map(|table| table.to_string())
         };
         assert_eq!(shown(""), None);
-        let table =
-            shown("drive = { rotor_inertia = 0.003, gear_ratio = \"-80*a1/a1\" }").unwrap();
+        let table = shown("drive = { rotor_inertia = 0.003, gear_ratio = \"-80*a1/a1\" }").unwrap();
         for part in ["Drives: the rotor inertia", "boom", "0.003", "<small>−80</small>"] {
             assert!(table.contains(part), "{part}: {table}");
         }

@@ -123,7 +123,7 @@ const BROKEN: &[(&str, Range<usize>, &str, &str)] = &[
     ("atan2(y, x)", 0..5, "not a function", "sin, cos, tan"),
     ("(y, x)", 2..3, "`,` has no meaning", "one argument"),
     ("1e999", 0..5, "outside the range", "1.79e308"),
-    ("2*1e309", 2..7, "outside the range", "1.7e308"),
+    ("2*1e309", 2..7, "outside the range", "1.79e308"),
     ("1e-399", 0..6, "outside the range", "5e-324"),
     ("1.2.3", 0..5, "`1.2.3` is not a number", "one point"),
     ("1_000", 0..5, "cannot contain `_`", "`1000`"),
