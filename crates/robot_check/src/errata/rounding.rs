@@ -30,11 +30,19 @@ pub(super) fn of_formula(formula: &Formula) -> Option<Number> {
 /// The largest relative error of a derived coefficient that is computed with floating-point numbers.
 const COMPUTED: f64 = 4.0 * f64::EPSILON;
 
+/// Whether a printed coefficient is a derived one that was computed with floating-point numbers, within its error.
+pub(super) fn is_computed(printed: &Number, derived: &Number) -> bool {
+    match derived {
+        Number::Real(value) => is_within(printed, derived, &Number::Real(COMPUTED * value.abs())),
+        Number::Rational(_) => false,
+    }
+}
+
 /// Whether a printed coefficient, of which `error` is the largest error, stands for a derived one, or for the nearest
 /// `f64` to it, from which programs print numbers.
 pub(super) fn stands_for(printed: &Number, derived: &Number, error: &Number) -> bool {
-    if let Number::Real(value) = derived {
-        return is_within(printed, derived, &(error + &Number::Real(COMPUTED * value.abs())));
+    if is_computed(printed, derived) {
+        return true;
     }
     let nearest = Rational::from_f64(derived.to_f64()).map(Number::Rational);
     is_within(printed, derived, error)

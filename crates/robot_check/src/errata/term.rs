@@ -116,7 +116,7 @@ impl Sum {
     fn stands_for(&self, derived: &Number) -> bool {
         let rounded = match &self.roundings[..] {
             [error] => rounding::stands_for(&self.coefficient, derived, error),
-            _ => false,
+            _ => rounding::is_computed(&self.coefficient, derived),
         };
         rounded || self.coefficient == *derived
     }

@@ -124,7 +124,7 @@ fn constants_of_oblique_frames_are_read() {
     for (robot, options) in [
         (&turned, &[][..]),
         (&turned, &["--digits", "17"]),
-        (&turned, &["--form", "collected"]),
+        (&turned, &["--form", "collected", "--digits", "17"]),
         (&oblique, &[]),
         (&oblique, &["--form", "collected"]),
     ] {

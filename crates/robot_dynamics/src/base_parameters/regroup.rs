@@ -35,30 +35,7 @@ pub(super) fn regroup<'g>(
     frames: Option<&[WorkingFrame<'g>]>,
 ) -> Vec<Kept<'g>> {
     let one = Scalar::new(mechanism.graph.one());
-    // For each link, the forms collected at each place.
-    let mut gathered: Vec<Vec<Form<'g>>> =
-        vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; joints.len()];
-    // For each link, the column of each place, if it has one.
-    let mut columns = vec![vec![None; LINK_PARAMETERS + DRIVE.len()]; joints.len()];
-    for (column, parameter) in standard.iter().enumerate() {
-        if is_inertial(parameter.quantity) {
-            let place = parameter.quantity.place();
-            let frame = frames.and_then(|frames| frames.get(parameter.link));
-            match frame.filter(|_| place < LINK_PARAMETERS) {
-                Some(frame) => {
-                    let coefficients = unit_in_frame(frame, place);
-                    for (form, coefficient) in gathered[parameter.link].iter_mut().zip(coefficients)
-                    {
-                        add(form, &Form::from([(column, one)]), Scalar::new(coefficient));
-                    }
-                }
-                None => {
-                    gathered[parameter.link][place].insert(column, one);
-                }
-            }
-            columns[parameter.link][place] = Some(column);
-        }
-    }
+    let Own { mut gathered, columns } = own(joints.len(), standard, frames, one);
     let mut kept = vec![];
     for (index, link) in mechanism.links.iter().enumerate().rev() {
         let order: Vec<usize> = preference(link, frames.is_some())
@@ -98,6 +75,45 @@ pub(super) fn regroup<'g>(
         }
     }
     kept
+}
+
+/// What each link has of its own, by places.
+struct Own<'g> {
+    /// The forms at each place, to which those of the links farther out are added.
+    gathered: Vec<Vec<Form<'g>>>,
+    /// The column of each place, if it has one.
+    columns: Vec<Vec<Option<usize>>>,
+}
+
+fn own<'g>(
+    links: usize,
+    standard: &[StandardParameter],
+    frames: Option<&[WorkingFrame<'g>]>,
+    one: Scalar<'g>,
+) -> Own<'g> {
+    let mut gathered: Vec<Vec<Form<'g>>> =
+        vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; links];
+    let mut columns = vec![vec![None; LINK_PARAMETERS + DRIVE.len()]; links];
+    for (column, parameter) in standard.iter().enumerate() {
+        if is_inertial(parameter.quantity) {
+            let place = parameter.quantity.place();
+            let frame = frames.and_then(|frames| frames.get(parameter.link));
+            match frame.filter(|_| place < LINK_PARAMETERS) {
+                Some(frame) => {
+                    let coefficients = unit_in_frame(frame, place);
+                    for (form, coefficient) in gathered[parameter.link].iter_mut().zip(coefficients)
+                    {
+                        add(form, &Form::from([(column, one)]), Scalar::new(coefficient));
+                    }
+                }
+                None => {
+                    gathered[parameter.link][place].insert(column, one);
+                }
+            }
+            columns[parameter.link][place] = Some(column);
+        }
+    }
+    Own { gathered, columns }
 }
 
 /// Whether the quantity is identifiable from inertial or position-dependent torques, unlike friction.
