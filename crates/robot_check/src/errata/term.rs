@@ -81,7 +81,8 @@ pub(super) fn noted_like<'g>(derived: &[Term<'g>], printed: &[Term<'g>]) -> Vec<
     if printed.iter().flat_map(|term| &term.factors).any(is_constant) {
         return derived.to_vec();
     }
-    let mut noted: Vec<Term<'g>> = vec![];
+    let mut noted: Vec<Term<'g>> = Vec::with_capacity(derived.len());
+    let mut places: HashMap<Key, usize> = HashMap::default();
     for term in derived {
         let mut term = term.clone();
         for constant in term.factors.iter().filter(|power| is_constant(power)) {
@@ -89,9 +90,12 @@ pub(super) fn noted_like<'g>(derived: &[Term<'g>], printed: &[Term<'g>]) -> Vec<
             term.coefficient = &term.coefficient * &Number::Real(value);
         }
         term.factors.retain(|power| !is_constant(power));
-        match noted.iter_mut().find(|known| known.factors == term.factors) {
-            Some(known) => known.coefficient = &known.coefficient + &term.coefficient,
-            None => noted.push(term),
+        let known = places.get(&term.key()).copied().and_then(|place| noted.get_mut(place));
+        if let Some(known) = known {
+            known.coefficient = &known.coefficient + &term.coefficient;
+        } else {
+            places.insert(term.key(), noted.len());
+            noted.push(term);
         }
     }
     noted
