@@ -132,12 +132,7 @@ fn the_programs_of_two_hundred_random_robots() {
             ..Recipe::serial(1 + seed as usize % 8)
         };
         let robot = robots::robot(&mut Random::new(seed), &recipe);
-        let mut robot = if seed % 5 == 0 { robots::parameterized(&robot) } else { robot };
-        // Friction in numbers: with parameters, the friction of seed 45 is off by 4e-5, which is not explained yet.
-        let numbers = robots::robot(&mut Random::new(seed), &recipe);
-        for (link, of_numbers) in robot.links.iter_mut().zip(numbers.links) {
-            link.friction = of_numbers.friction;
-        }
+        let robot = if seed % 5 == 0 { robots::parameterized(&robot) } else { robot };
         worst = worst.max(Case::new("random robot", robot, seed, 50).interpret());
     }
     println!("200 random robots × 50 states: worst error {worst:.1e}");

@@ -109,12 +109,14 @@ fn same(a: &[f64], b: &[f64]) -> bool {
 /// Evaluates expressions at arbitrary parameters, including those that no body can have: a negative pivot must be
 /// evaluated, too, to find the parameters on which it depends.
 ///
-/// Signs and absolute values are replaced by smooth functions. Otherwise, a parameter that acts in one direction only,
-/// such as the dry friction for negative velocities, would have no effect in states of the other direction.
+/// Signs, hyperbolic tangents and absolute values are replaced by functions that are neither constant nor linear anywhere.
+/// Otherwise, a parameter that acts in one direction only, such as the dry friction for negative velocities, would have no
+/// effect in states of the other direction; tanh(x) is exactly 1 from x = 20 on.
 fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> {
     evaluator.values_by(value, |function, argument| match function {
         Elementary::RecipPositive => argument.recip(),
-        Elementary::Sign => argument.tanh(),
+        Elementary::Sign => (2.0 * argument).asinh(),
+        Elementary::Tanh => argument.asinh(),
         Elementary::Abs => argument.hypot(1.0),
         other => other.apply(argument),
     })
@@ -197,7 +199,8 @@ fn slope_of(function: Elementary, argument: f64, value: f64) -> f64 {
         Elementary::Cos => -argument.sin(),
         Elementary::Sqrt => 0.5 / value,
         Elementary::Abs => argument / value,
-        Elementary::Sign | Elementary::Tanh => 1.0 - value * value,
+        Elementary::Sign => argument.hypot(0.5).recip(),
+        Elementary::Tanh => argument.hypot(1.0).recip(),
         Elementary::RecipPositive => -value * value,
     }
 }
@@ -264,6 +267,8 @@ mod tests {
             "x + k*(abs(x) - x)",
             "x + k*(abs(x) + x)",
             "x + k*(1 - sign(x))",
+            "x + k*(tanh(100*x) - tanh(100*x)^2)",
+            "x + k*(1 - tanh(100*x))",
         ] {
             let root = graph.parse(text).unwrap();
             let slope = slopes(&[root], 0)[&graph.symbol("k").as_symbol().unwrap()];
