@@ -243,7 +243,7 @@ fn expand<'p, 'g>(
             let own = terms.get_mut(range).unwrap_or_default().iter_mut().map(std::mem::take);
             let own = own.zip(&one.equation.terms);
             let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
-            let derived = term::noted_like(&one.derived, &print);
+            let derived = term::noted_like(one.derived, &print);
             Compared { print, derived, ..one }
         })
         .collect())

@@ -76,15 +76,16 @@ fn powers<'g>(factors: impl Iterator<Item = Power<'g>>) -> Vec<Power<'g>> {
 
 /// The derived terms as they are printed: if no printed term contains a constant such as sin(0.7), those of the derived
 /// terms are multiplied into the coefficients.
-pub(super) fn noted_like<'g>(derived: &[Term<'g>], printed: &[Term<'g>]) -> Vec<Term<'g>> {
+pub(super) fn noted_like<'g>(derived: Vec<Term<'g>>, printed: &[Term<'g>]) -> Vec<Term<'g>> {
     let is_constant = |power: &Power<'g>| walk::symbols(&[power.atom]).is_empty();
-    if printed.iter().flat_map(|term| &term.factors).any(is_constant) {
-        return derived.to_vec();
+    let has_constants =
+        |terms: &[Term<'g>]| terms.iter().flat_map(|term| &term.factors).any(is_constant);
+    if has_constants(printed) || !has_constants(&derived) {
+        return derived;
     }
     let mut noted: Vec<Term<'g>> = Vec::with_capacity(derived.len());
     let mut places: HashMap<Key, usize> = HashMap::default();
-    for term in derived {
-        let mut term = term.clone();
+    for mut term in derived {
         for constant in term.factors.iter().filter(|power| is_constant(power)) {
             let value = constant.atom.evaluate(|_| f64::NAN).powi(constant.exponent);
             term.coefficient = &term.coefficient * &Number::Real(value);

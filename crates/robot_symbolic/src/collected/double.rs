@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use rustc_hash::FxHashMap;
 
-use super::is_zero;
+use super::{Proved, proved};
 use crate::expr::{Expr, View};
 use crate::graph::{Function, Graph, Id};
 use crate::number::Number;
@@ -33,16 +33,16 @@ pub(super) fn joined<'g>(
     let single = |part: Expr<'g>| writer.doubles.get(&part.id()).copied();
     let values = walk::rebuild_above(&values, graph, single);
     let [before, after] = values.as_slice() else { return None };
-    let of = |value: &Expr<'g>| Polynomial::of(*value, &PolynomialOptions::default()).ok();
-    let is_same = is_zero(of(after)?.sub(&of(before)?).ok()?)?;
+    let before = Polynomial::of(*before, &PolynomialOptions::default()).ok()?;
+    let is_same = !matches!(proved(*after, &before)?, Proved::Different);
     debug_assert!(is_same, "a formula with double angles differs from the one without");
-    (is_same && !graph.is_full()).then_some(doubled)
+    is_same.then_some(doubled)
 }
 
 struct Writer<'g, F> {
     graph: &'g Graph,
     compare: F,
-    /// The sines and cosines of double angles that were written, by single ones.
+    /// The sines and cosines of double angles that were written, by those of angles in the terms before.
     doubles: FxHashMap<Id, Expr<'g>>,
 }
 
@@ -66,13 +66,26 @@ impl<'g, F: Fn(&ArrangedFactor<'g>, &ArrangedFactor<'g>) -> Ordering> Writer<'g,
         }
     }
 
+    /// The sine or cosine of twice an angle, which may itself be a double angle.
+    fn double(&mut self, function: Function, angle: Expr<'g>) -> Expr<'g> {
+        let (one, two) = (self.graph.one(), self.graph.integer(2));
+        let single = |function: Expr<'g>| self.doubles.get(&function.id()).copied();
+        let [sine, cosine] =
+            [angle.sin(), angle.cos()].map(|function| single(function).unwrap_or(function));
+        let value = match function {
+            Function::Sin => two * sine * cosine,
+            _ => two * cosine * cosine - one,
+        };
+        let double = (two * angle).apply(function);
+        self.doubles.insert(double.id(), value);
+        double
+    }
+
     /// Replaces each product of equal powers of sin x and cos x by that power of ½ sin 2x.
     fn join_sines(&mut self, term: &mut ArrangedTerm<'g>) {
         let half = Number::integer(2).recip();
         while let Some((sine, cosine, angle)) = sine_and_cosine(&term.factors) {
-            let two = self.graph.integer(2);
-            let double = (two * angle).sin();
-            self.doubles.insert(double.id(), two * angle.sin() * angle.cos());
+            let double = self.double(Function::Sin, angle);
             if let Some((factor, exponent)) = term.factors.get_mut(sine) {
                 *factor = ArrangedFactor::Atom(double);
                 for _ in 0..*exponent {
@@ -86,10 +99,7 @@ impl<'g, F: Fn(&ArrangedFactor<'g>, &ArrangedFactor<'g>) -> Ordering> Writer<'g,
     /// Replaces two terms by one with the cosine of a double angle, at the place of the first of them.
     fn join_cosine(&mut self, terms: &mut Vec<ArrangedTerm<'g>>, square: Square<'g>, plain: usize) {
         let Square { term, factor, function, angle } = square;
-        let one = self.graph.one();
-        let two = self.graph.integer(2);
-        let double = (two * angle).cos();
-        self.doubles.insert(double.id(), two * angle.cos() * angle.cos() - one);
+        let double = self.double(Function::Cos, angle);
         let [Some(mut joined), Some(other)] = [term, plain].map(|place| terms.get(place).cloned())
         else {
             return;

@@ -35,7 +35,7 @@ use std::collections::BTreeMap;
 use crate::expr::{Expr, View};
 use crate::graph::{Graph, Id};
 use crate::polynomial::{Polynomial, PolynomialOptions};
-use crate::print::{ArrangedFactor, ArrangedTerm};
+use crate::print::{ArrangedFactor, ArrangedTerm, arranged_value};
 
 pub use angles::{ParallelAngles, Turn};
 
@@ -80,7 +80,7 @@ impl<'g> Collector<'g, '_> {
             return polynomial.arranged(&rank);
         };
         cancel(&mut terms, polynomial.graph());
-        match proved(&terms, polynomial) {
+        match proved(arranged_value(&terms, polynomial.graph()), polynomial) {
             Some(Proved::Same) if self.double_angles => {
                 let compare = |a: &ArrangedFactor<'g>, b: &ArrangedFactor<'g>| match [a, b]
                     .map(ArrangedFactor::as_atom)
@@ -180,7 +180,7 @@ fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
             if divisors.is_empty() || *exponent < 1 {
                 continue;
             }
-            let sum = of(crate::print::arranged_value(inner, graph));
+            let sum = of(arranged_value(inner, graph));
             let same = divisors.iter().find(|(_, divisor)| sum.is_some() && *divisor == sum);
             cancelled.extend(same.map(|(divisor, _)| (place, *divisor)));
         }
@@ -201,19 +201,18 @@ fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
     }
 }
 
-/// The result of a proof that terms are equal to a polynomial.
+/// The result of a proof that an expression is equal to a polynomial.
 enum Proved<'g> {
-    /// The terms can be kept.
+    /// It is equal, and has as many terms multiplied out.
     Same,
-    /// The terms, multiplied out, are this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
+    /// It is equal and, multiplied out, this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
     Shorter(Polynomial<'g>),
-    /// The terms are another polynomial.
+    /// It is another polynomial.
     Different,
 }
 
-/// Compares terms with the polynomial by multiplying them out; `None` if this cannot be decided within the limits.
-fn proved<'g>(terms: &[ArrangedTerm<'g>], polynomial: &Polynomial<'g>) -> Option<Proved<'g>> {
-    let value = crate::print::arranged_value(terms, polynomial.graph());
+/// Compares an expression with the polynomial by multiplying it out; `None` if this cannot be decided within the limits.
+fn proved<'g>(value: Expr<'g>, polynomial: &Polynomial<'g>) -> Option<Proved<'g>> {
     let expanded = Polynomial::of(value, &PolynomialOptions::default()).ok()?;
     if expanded == *polynomial {
         return Some(Proved::Same);

@@ -41,6 +41,7 @@ fn double_angles_are_written_if_they_are_asked_for() {
         ("a*(b - 2*sin(q1)*cos(q1)) + c", "a*(b - sin(2*q1)) + c"),
         // The polynomials do not expand the sines of multiples that are not integers.
         ("2*a*sin(1.3*x)*cos(1.3*x) + 2*b*sin(1.3*x)*cos(1.3*x)", "(a + b)*sin(2.6*x)"),
+        ("4*a*sin(1.3*x)*cos(1.3*x)*(1 - 2*sin(1.3*x)^2)", "a*sin(5.2*x)"),
         ("a - 2*a*sin(1.3*x)^2 + sin(2.6*x)", "a*cos(2.6*x) + sin(2.6*x)"),
     ] {
         assert_eq!(written(source, 2, true), expected, "{source}");

@@ -297,26 +297,11 @@ impl Parser<'_> {
 
     fn power(&mut self) -> Result<(), ParseError> {
         let Some(exponent) = self.operands.pop() else { return Ok(()) };
-        let text = self.quote(&exponent.span);
-        let Some(base) = self.operands.last_mut() else { return Ok(()) };
-        let Some(value) =
-            exponent.integer.filter(|value| value.unsigned_abs() <= MAX_EXPONENT.unsigned_abs())
-        else {
-            let digits = text.trim_matches(|c: char| c == '-' || c == '…' || c.is_ascii_digit());
-            let (message, help) = match exponent.integer.is_some() || digits.is_empty() {
-                true => (
-                    format!(
-                        "the exponent {} is beyond ±{MAX_EXPONENT}",
-                        exponent.integer.map_or(text, |value| value.to_string())
-                    ),
-                    "write the power as a product of powers, such as `x^64*x^36`",
-                ),
-                false => {
-                    ("expected an integer as the exponent".to_owned(), "write a root as `sqrt(x)`")
-                }
-            };
-            return Err(ParseError::new(exponent.span, message).help(help));
+        let in_range = |value: &i64| value.unsigned_abs() <= MAX_EXPONENT.unsigned_abs();
+        let Some(value) = exponent.integer.filter(in_range) else {
+            return Err(self.wrong_exponent(exponent.integer, exponent.span));
         };
+        let Some(base) = self.operands.last_mut() else { return Ok(()) };
         base.span.end = exponent.span.end;
         base.integer = base
             .integer
@@ -326,6 +311,19 @@ impl Parser<'_> {
         self.ops.truncate(exponent.start);
         self.ops.push(Op::Power(value as i32));
         Ok(())
+    }
+
+    /// The error for an exponent that is not an integer, or beyond the limit; integers of many digits have no `value`.
+    fn wrong_exponent(&self, value: Option<i64>, span: Range<usize>) -> ParseError {
+        let text = self.quote(&span);
+        let is_digit = |c: char| c == '-' || c == '…' || c.is_ascii_digit();
+        if value.is_none() && !text.chars().all(is_digit) {
+            return ParseError::new(span, "expected an integer as the exponent")
+                .help("write a root as `sqrt(x)`");
+        }
+        let shown = value.map_or(text, |value| value.to_string());
+        ParseError::new(span, format!("the exponent {shown} is beyond ±{MAX_EXPONENT}"))
+            .help("write the power as a product of powers, such as `x^64*x^36`")
     }
 
     /// The text of a span, without its middle if it is long.
