@@ -60,9 +60,9 @@ pub enum Error {
         /// The name.
         name: String,
     },
-    /// A symbol of the robot has the name of a vector or matrix in text.
+    /// A symbol of the robot has the name of a vector or matrix.
     #[error(
-        "in text, these equations name a vector `{name}`, like a symbol of this robot; rename the symbol in \
+        "these equations name a vector `{name}`, like a symbol of this robot; rename the symbol in \
          the robot file, or, without a style, print the equations with components (the layout `scalars`)"
     )]
     TakenArray {

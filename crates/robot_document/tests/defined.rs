@@ -8,7 +8,7 @@ use std::path::Path;
 
 use robot_document::math::{Math, Symbol};
 use robot_document::{
-    EquationOptions, Equations, Form, Group, Letters, Room, Trigonometry, equations,
+    Array, EquationOptions, Equations, Form, Group, Letters, Room, Trigonometry, equations,
 };
 use robot_dynamics::quantity::Kind;
 use robot_model::description::read_toml;
@@ -54,13 +54,27 @@ fn inputs(robot: &Robot, printed: &Equations) -> BTreeMap<String, Math> {
     names.map(|name| (name.clone(), shape(&printed.symbols.look(&name)).clone())).collect()
 }
 
+/// The names of the entries that a printed matrix or column defines, with their layouts: an entry that is printed by its
+/// name is only defined elsewhere.
+fn written_out(group: &Group, array: &Array) -> Vec<(String, Math)> {
+    let printed = group.equations.iter().find(|equation| equation.name == array.name).unwrap();
+    let rows = if let Math::Matrix(rows) = &printed.right { rows.as_slice() } else { &[] };
+    assert_eq!(rows.len(), array.rows.len(), "{}", array.name);
+    let cells = array.rows.iter().flatten().zip(rows.iter().flatten());
+    let defined = cells.filter(|(cell, math)| {
+        let of_name = |symbol: &&Symbol| symbol.name == cell.name;
+        !symbols(math).iter().any(of_name)
+    });
+    defined.map(|(cell, _)| (cell.name.clone(), shape(&cell.look).clone())).collect()
+}
+
 /// Asserts that the equations define what they use.
 fn check(what: &str, robot: &Robot, printed: &Equations) {
     let mut known = inputs(robot, printed);
     let all = || printed.groups.iter().flat_map(|group| &group.equations);
-    for array in printed.groups.iter().flat_map(|group| group.arrays.iter().flatten()) {
-        let cells = array.rows.iter().flatten();
-        known.extend(cells.map(|cell| (cell.name.clone(), shape(&cell.look).clone())));
+    for group in &printed.groups {
+        let arrays = group.arrays.iter().flatten();
+        known.extend(arrays.flat_map(|array| written_out(group, array)));
     }
     known.extend(all().map(|one| (one.name.clone(), shape(&one.left).clone())));
     for equation in all() {
@@ -203,6 +217,19 @@ fn symbols_of_the_robot_name_nothing_else() {
     assert!(why(latex("Q"), Form::Grouped).starts_with("the letter Q is that of a symbol"));
     // Without a joint 3, `Q_3` is only a parameter.
     assert!(printed("\nr1 = {", &latex("Q_3"), Form::Grouped).is_ok());
+}
+
+/// The columns of friction and wrenches are printed as symbols, which no parameter may have.
+#[test]
+fn names_of_columns_are_those_of_no_parameter() {
+    let text = include_str!("../../../robots/planar_2r.toml").replace("r1", "Q_f");
+    let text = text.replacen("joint = {", "friction = { viscous = 1 }\njoint = {", 1);
+    let robot = read_toml("robot.toml", &text).unwrap().robot;
+    let options = EquationOptions { friction: true, ..EquationOptions::default() };
+    let of = |form: Form| equations(&robot, &EquationOptions { form, ..options.clone() }).unwrap();
+    let refused = of(Form::Grouped).check_array_names().unwrap_err().to_string();
+    assert!(refused.contains("name a vector `Q_f`"), "{refused}");
+    assert!(of(Form::Expanded).check_array_names().is_ok());
 }
 
 /// Whether a name is the letter with a number, such as `x_1` or `tau1`.

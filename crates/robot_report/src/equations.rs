@@ -6,7 +6,9 @@ use robot_document::breaking::terms;
 use robot_document::markup::{Element, Node, element, holding};
 use robot_document::math::Math;
 use robot_document::width::width;
-use robot_document::{DIGITS, Equation, EquationOptions, Equations, Form, Group, Room, equations};
+use robot_document::{
+    DIGITS, Equation, EquationOptions, Equations, Error, Form, Group, Room, equations,
+};
 use robot_document::{latex, mathml, typst};
 use robot_model::robot::Robot;
 use robot_model::variable::{JointVariable, Variable};
@@ -141,8 +143,9 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     let rounds_roots = true;
     let options =
         EquationOptions { form, friction, digits, rounds_roots, ..EquationOptions::default() };
-    let found =
-        equations(robot, &options).map_err(|error| format!("This form is not shown: {error}."))?;
+    let found = equations(robot, &options);
+    let found = found.and_then(|found| found.check_array_names().map(|()| found));
+    let found = found.map_err(|error| format!("This form is not shown: {}.", reason(&error)))?;
     let length = length(&found);
     if length > MAX_LENGTH {
         return Err(format!(
@@ -152,6 +155,17 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
         ));
     }
     Ok(Shown::new(&found))
+}
+
+/// The reason why equations are not shown. The letters of a page cannot be chosen.
+fn reason(error: &Error) -> String {
+    match error {
+        Error::TakenLetter { letter, owner } => format!(
+            "the letter {letter} is that of {owner}; give the robot's symbols with this letter another `latex` in the \
+             robot file"
+        ),
+        other => other.to_string(),
+    }
 }
 
 /// What the symbols of a form refer to.

@@ -82,7 +82,7 @@ impl Arguments {
             self.equations.note_rounding(&equations, terminal)?;
         }
         let has_arrays = self.equations.has_arrays(&forms, typeset);
-        if has_arrays && !typeset {
+        if has_arrays {
             equations.check_array_names().map_err(failed)?;
         }
         let displayed = |notation| {

@@ -67,7 +67,7 @@ const MAX_LINES: usize = 16;
 const MAX_ENTRY: usize = 6;
 
 impl Equations {
-    /// Returns an error if a symbol of the robot has the name that a matrix or column has in text.
+    /// Returns an error if a symbol of the robot has the name of a matrix or column.
     ///
     /// # Errors
     ///
@@ -190,8 +190,9 @@ impl<'a> List<'a> {
         let cells = array.rows.iter().flatten();
         if let Some((equation, by_parts)) = array.fitted(room) {
             self.shown.push(equation);
-            let names = cells.map(|cell| cell.name.as_str());
-            self.known.extend(names.filter(|name| !by_parts.contains(name)));
+            // An entry that is too long to be written out needs its equation, as one by parts does.
+            let whole = cells.filter(|cell| cell.whole.is_some()).map(|cell| cell.name.as_str());
+            self.known.extend(whole.filter(|name| !by_parts.contains(name)));
             return;
         }
         let mut before = vec![];

@@ -115,21 +115,18 @@ fn text_number<'t>(text: &'t str, before: &str, digits: Option<usize>) -> (Strin
     let below = below.filter(|(below, after)| {
         !below.is_empty() && !after.starts_with('^') && !is_power && !before.ends_with('/')
     });
-    match below {
+    let (short, after) = match below {
         Some((below, after)) if is_long(number, below) => {
             (short(&quotient(number, below), digits), after)
         }
         Some((below, after)) if fraction_of(number, below).is_some() => {
-            (format!("{number}/{below}"), after)
+            return (format!("{number}/{below}"), after);
         }
-        _ => {
-            let short = short(number, digits.filter(|_| !is_power));
-            let number = match power_of_ten(&short) {
-                Some((mantissa, exponent)) => format!("{mantissa}e{exponent}"),
-                None => short,
-            };
-            (number, after)
-        }
+        _ => (short(number, digits.filter(|_| !is_power)), after),
+    };
+    match power_of_ten(&short) {
+        Some((mantissa, exponent)) => (format!("{mantissa}e{exponent}"), after),
+        None => (short, after),
     }
 }
 
@@ -403,6 +400,8 @@ mod tests {
             ("q1 + 0.75*pi", "q1 + 3*pi/4"),
             ("0.25*sqrt(1 + 0.5*sqrt(3))", "sqrt(1 + sqrt(3)/2)/4"),
             ("a*0.5*sqrt(2)/b", "a*sqrt(2)/2/b"),
+            ("0.00000000002991*b", "2.991e-11*b"),
+            ("2991304605/100000000000000000001*b", "2.991304605e-11*b"),
         ] {
             let shown = tidied_text(given, None);
             assert_eq!(shown, expected);

@@ -219,13 +219,14 @@ impl Expressions<'_> {
         let is_sine = function == Function::Sin;
         let letter = if is_sine { 's' } else { 'c' };
         let name = match self.0.trigonometry() {
-            Trigonometry::Short => {
+            // The index 2 would be that of the joint position q2.
+            Trigonometry::Short if angle.as_number().is_none() => {
                 let level = if exponent == 1 { Level::Atom } else { Level::Power };
                 return (level, index_of(letter, angle, exponent));
             }
             Trigonometry::Paper => Math::Letter(letter),
-            Trigonometry::Named if is_sine => Math::Function(FunctionName::Sine),
-            Trigonometry::Named => Math::Function(FunctionName::Cosine),
+            _ if is_sine => Math::Function(FunctionName::Sine),
+            _ => Math::Function(FunctionName::Cosine),
         };
         if angle.as_symbol().is_none() {
             return match joints(angle) {

@@ -76,6 +76,7 @@ fn trigonometry_has_three_styles() {
         ),
         ("sin(q12)", [r"\sin q_{12}", "s_{q_{12}}", "sq_{12}"]),
         ("sin(theta)", [r"\sin \theta", r"s_{\theta}", r"s\theta"]),
+        ("cos(2)", [r"\cos\left(2\right)", r"\cos\left(2\right)", r"c\left(2\right)"]),
     ] {
         for (style, latex) in STYLES.into_iter().zip(styles) {
             assert_eq!(expression(source, style), latex, "{source} {style:?}");
