@@ -7,6 +7,7 @@ mod commands;
 mod complaints;
 mod counts;
 mod delivery;
+mod derived;
 mod displayed;
 mod failure;
 mod files;

@@ -79,7 +79,11 @@ pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Opti
 }
 
 /// Checks the functions against the budgets of the file and of the options.
-pub(crate) fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
+///
+/// # Errors
+///
+/// Each function that exceeds a budget.
+pub fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
     let (mut found, mut errors) = (vec![], vec![]);
     for function in &programs.module.functions {
         let limits: Vec<_> = limits(programs, &function.name).collect();

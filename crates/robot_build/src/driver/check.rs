@@ -60,10 +60,12 @@ pub(crate) fn finite_check_values(
     let checks =
         functions.map(|function| check_value(&source.name, programs, &function.name, trigonometry));
     let checks: Vec<CheckValue> = checks.collect::<Result<_, _>>()?;
-    let is_finite = |check: &CheckValue| {
-        check.outputs.iter().flat_map(|output| &output.values).all(|value| value.is_finite())
-    };
     Ok(checks.into_iter().filter(is_finite).collect())
+}
+
+/// Whether all results are finite.
+pub(crate) fn is_finite(check: &CheckValue) -> bool {
+    check.outputs.iter().flat_map(|output| &output.values).all(|value| value.is_finite())
 }
 
 fn stated_parameters(programs: &Programs) -> Vec<(String, f64)> {

@@ -10,6 +10,7 @@ pub(crate) mod generate;
 #[cfg(feature = "languages")]
 pub mod languages;
 pub(crate) mod limbs;
+pub(crate) mod nominal;
 pub(crate) mod options;
 pub mod package;
 pub(crate) mod pivots;

@@ -72,8 +72,9 @@ impl Pivots {
         Pivots { interpreter, ..self }
     }
 
-    /// Returns the smallest pivot at these positions, if it is below 10⁻⁸ of the joint's entry on the diagonal of M or
-    /// has fewer than eight correct digits.
+    /// Returns the first pivot at these positions that is not positive and finite, or is only rounding error. If there is
+    /// none, returns the pivot that is the smallest part of its joint's entry on the diagonal of M, if this part is below
+    /// 10⁻⁸ or the pivot has fewer than eight correct digits.
     ///
     /// # Errors
     ///

@@ -12,7 +12,7 @@ use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
 use crate::driver::options::Options;
-use crate::driver::{limbs, singular, specification};
+use crate::driver::{limbs, nominal, singular, specification};
 use crate::error::{Error, Errors};
 
 /// The largest number of expressions of functions that become code. The usual functions of a robot with 64 joints about
@@ -64,7 +64,13 @@ pub fn read_with(source: &Source, options: &Options) -> Result<Described, Errors
 pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
     let Described { robot, warnings, code, budgets, .. } = read_with(source, options)?;
     let mut programs = programs_of(robot, &source.name, &options.or_of_file(&code))?;
-    programs.warnings = warnings;
+    programs.warnings = match nominal::infinite(&programs) {
+        Some(warning) => {
+            let all = warnings.iter().cloned().chain([warning]).collect();
+            Diagnostics::new(warnings.source().clone(), all)
+        }
+        None => warnings,
+    };
     programs.budgets = budgets;
     Ok(programs)
 }

@@ -100,7 +100,7 @@ fn check_is_file_name(path: &Path) -> Result<(), Error> {
     }
     // A plan and data that a robot file refers to stand beside it.
     if path.as_os_str() == "-" && !path.exists() {
-        let why = "a robot file is not read from standard input; save it and name the file";
+        let why = "this file is not read from standard input; save it and name the file";
         return Err(cannot_read(path, why));
     }
     Ok(())

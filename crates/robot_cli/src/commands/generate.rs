@@ -1,11 +1,12 @@
 //! `generate`: the module of a robot as a file.
 
 use clap::Args;
-use robot_build::languages::{self, Contents, Language, SourceFile};
-use robot_build::{Options, Source, check_runtime_path, generate};
+use robot_build::check_runtime_path;
+use robot_build::languages::{Contents, Language, SourceFile, sources_of};
 
 use crate::Terminal;
 use crate::delivery::OutputArguments;
+use crate::derived::programs;
 use crate::failure::Failure;
 use crate::options::{help, value_name};
 use crate::progress::watched;
@@ -47,17 +48,16 @@ impl Arguments {
             self.code.options(&self.robot, &robot, self.language.language, terminal)?;
         options.runtime.clone_from(&self.runtime);
         let language = self.language.language;
-        let text = watched("generating", terminal, || text(&source, &options, language))?;
+        let programs = programs(&source, &options, terminal)?;
+        let files =
+            watched("generating", terminal, || sources_of(&programs, &source, &options, language))?;
+        let text = text(files, language)?;
         output.deliver(&text, terminal)
     }
 }
 
-/// Prints the module, if it is a single file in the language.
-fn text(source: &Source, options: &Options, language: Language) -> Result<String, Failure> {
-    if language == Language::Rust {
-        return Ok(generate(source, options)?.code);
-    }
-    let mut files = languages::sources(source, options, language)?;
+/// The text of the module, if it is a single file in the language.
+fn text(mut files: Vec<SourceFile>, language: Language) -> Result<String, Failure> {
     match files.pop() {
         Some(SourceFile { contents: Contents::Text(text), .. }) if files.is_empty() => Ok(text),
         _ => Err(Failure::input(format!(

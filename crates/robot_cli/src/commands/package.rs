@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::languages;
+use robot_build::languages::package_of;
 
 use crate::Terminal;
 use crate::delivery::{ForceArgument, deliver_folder};
+use crate::derived::programs;
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, LanguageArgument, RobotArgument};
@@ -43,8 +44,9 @@ impl Arguments {
         let robot = self.robot.read(terminal)?;
         let language = self.language.language;
         let options = self.code.options(&self.robot, &robot, language, terminal)?;
+        let programs = programs(&source, &options, terminal)?;
         let files =
-            watched("generating", terminal, || languages::package(&source, &options, language))?;
+            watched("generating", terminal, || package_of(&programs, &source, &options, language))?;
         let writer = self.force.writer(self.robot.inputs(), !self.check)?;
         deliver_folder(&self.output, &files, self.check, &writer, terminal)
     }

@@ -183,3 +183,31 @@ fn a_module_of_several_files_is_for_a_folder() {
         "{header}"
     );
 }
+
+/// Base parameters that are infinite at the nominal values are a warning of both commands, which print the code
+/// nevertheless.
+#[test]
+fn infinite_base_parameters_are_a_warning() {
+    let link = |name: &str, kind: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"{kind}\", axis = \"x\" }}\n\
+             origin = {{ xyz = [0.1, 0, 0], rpy = [0, \"d\", 0] }}\nmass = 1\n\
+             center_of_mass = [0.1, 0.2, 0.3]\ninertia = {{ xx = 0.1, yy = 0.11, zz = 0.12 }}\n"
+        )
+    };
+    let links = [link("a", "revolute"), link("b", "prismatic"), link("c", "revolute")].concat();
+    let folder = folder("infinite");
+    let file = folder.join("arm.toml");
+    let text = format!("format = 1\n[robot]\nname = \"arm\"\n[parameters]\nd = 0\n{links}");
+    fs::write(&file, text).unwrap();
+    let (file, out) = (file.to_str().unwrap(), folder.join("arm"));
+    let base = ["--language", "c", "--function", "base_parameters"];
+    for command in [&["generate", file][..], &["crate", file, "-o", out.to_str().unwrap()]] {
+        let outcome = run(&[command, &base].concat());
+        assert_eq!(outcome.code, 0, "{}", outcome.errors);
+        assert_eq!(outcome.errors.matches("warning[R0804]").count(), 1, "{}", outcome.errors);
+        let outcome = run(&[command, &["--language", "c"]].concat());
+        assert!(!outcome.errors.contains("R0804"), "{}", outcome.errors);
+    }
+    assert!(out.join("arm.h").is_file());
+}

@@ -13,7 +13,7 @@
 //! - R08: requests for generated code: functions, budgets, pinned plans.
 //!
 //! R00 to R05 are errors, except R0307 and errors that an option turns into warnings; R06 are warnings; R07 are notes;
-//! R08 are errors, except that a stale plan is a warning.
+//! R08 are errors, except that a stale plan and values that are not finite are warnings.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {
@@ -100,6 +100,7 @@ codes! {
     BUDGET = "R0801", "A function exceeds its budget.";
     LACKING = "R0802", "A requested function is not available for the robot.";
     PIN = "R0803", "The pinned plan does not match the robot file.";
+    INFINITE = "R0804", "A function has no finite value at the nominal values of the parameters.";
 }
 
 /// Codes that must not be used again: removed codes, whose meaning users and their scripts may remember, and skipped

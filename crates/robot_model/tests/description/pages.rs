@@ -13,9 +13,10 @@ const LIST: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/diagnostics/
 /// The path of the pages in that list.
 const LINKED: &str = "../../crates/robot_model/diagnostics";
 
-/// Codes whose pages have no example: two concern the bytes of a file, which no page can show; budgets and pinned plans
-/// are only checked when code is generated.
-const WITHOUT_EXAMPLE: [&str; 4] = [code::TOO_LARGE, code::NOT_TEXT, code::BUDGET, code::PIN];
+/// Codes whose pages have no example: two concern the bytes of a file, which no page can show; budgets, pinned plans
+/// and constants are only checked when code is generated.
+const WITHOUT_EXAMPLE: [&str; 5] =
+    [code::TOO_LARGE, code::NOT_TEXT, code::BUDGET, code::PIN, code::INFINITE];
 
 /// The examples of a page, as names and texts of files.
 fn examples(page: &str) -> Vec<(&'static str, &str)> {
