@@ -324,7 +324,7 @@ impl Graph {
         }
     }
 
-    /// Returns the value of a constant node with its sign, or `None` for other nodes.
+    /// Returns the value of a number with its sign, or `None` for other nodes, π among them.
     pub(crate) fn as_number(&self, id: Id) -> Option<Number> {
         let inner = self.inner.borrow();
         let positive = |id: Id| match inner.nodes[id.index()] {

@@ -3,7 +3,7 @@
 use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
 use robot_model::robot::{Body, Inertia, Joint, Link, Payload, Placement, Robot};
-use robot_symbolic::{Formula, print};
+use robot_symbolic::{Formula, Graph, print};
 
 /// The kind of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -192,9 +192,11 @@ fn frame(FrameRow { frame, link, wrench }: FrameRow<'_>) -> Item {
     Item { kind: ItemKind::Frame, name: frame.name.clone(), properties }
 }
 
-/// A number as exact text, or a formula as its text in the file.
+/// A number as exact text, or a formula as its text in the file. Products with 0, as in inertias about another point,
+/// are numbers, too.
 fn formula(formula: &Formula) -> String {
-    let number = formula.as_number();
+    let graph = Graph::new();
+    let number = formula.lower(&graph, &mut |name| graph.symbol(name)).as_number();
     let rational = number.as_ref().and_then(|number| number.as_rational());
     rational.map_or_else(|| formula.text().to_owned(), print::exact_text)
 }

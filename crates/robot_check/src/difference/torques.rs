@@ -46,6 +46,21 @@ pub struct Torque {
     pub torques: [f64; 2],
     /// The state in which the change is largest.
     pub state: State,
+    /// The largest magnitude of a joint torque in this state, of both robots, N m or N.
+    pub largest: f64,
+}
+
+/// The errors of rounding in joint torques, relative to the largest of them.
+const ROUNDING: f64 = 1e-13;
+
+impl Torque {
+    /// Whether the joint torques differ by more than rounding.
+    #[must_use]
+    pub fn differs(&self) -> bool {
+        let [before, after] = self.torques;
+        let change = (after - before).abs();
+        change.is_nan() || change > ROUNDING * self.largest
+    }
 }
 
 /// The largest changes, and the range of states from which they were found.
@@ -81,6 +96,8 @@ pub(crate) fn largest(a: &Robot, b: &Robot, options: &Options) -> Result<Torques
             torques.map_err(|error| error.to_string())
         };
         let (first, second) = (torques(&before)?, torques(&after)?);
+        let magnitudes = first.iter().chain(second.iter()).map(|torque| torque.abs());
+        let magnitude = magnitudes.fold(0.0, f64::max);
         let pairs = first.iter().zip(second.iter());
         for ((best, coordinate), (x, y)) in found.iter_mut().zip(&a.coordinates).zip(pairs) {
             let change = |torque: &Torque| (torque.torques[1] - torque.torques[0]).abs();
@@ -90,6 +107,7 @@ pub(crate) fn largest(a: &Robot, b: &Robot, options: &Options) -> Result<Torques
                     kind: coordinate.kind,
                     torques: [*x, *y],
                     state: state.clone(),
+                    largest: magnitude,
                 });
             }
         }

@@ -27,7 +27,7 @@ use crate::settings::Settings;
 A trajectory has the columns t, q1 …, qd1 …, qdd1 …, and fx, fy, fz, mx, my, mz for the wrench that the tip
 exerts on its surroundings, if any (fx_NAME … for each of several tips); the output of `simulate` is a
 trajectory. Expressions may use t and the robot's parameters; velocities and accelerations are their exact
-derivatives. A position or velocity that jumps where abs, sign, min or max change, and a position without
+derivatives. A position or velocity that jumps where abs or sign change, and a position without
 bound, are refused; where the argument of a root is 0 for a moment, a jump is not seen. The output is CSV:
 t, the torques tau, and their contributions: inertia (M qdd), coriolis (C qd, Coriolis and centrifugal
 terms), gravity, friction and wrench, in N m or N.")]

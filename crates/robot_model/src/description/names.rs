@@ -176,7 +176,7 @@ impl Registry {
                 format!("the names of the {what}s `{other}` and `{name}` are too similar");
             Diagnostic::error(code::ALIKE, message)
                 .at(&named.span, "differs only in case or underscores")
-                .because("readers, printed equations and some file systems cannot tell them apart")
+                .because("readers confuse them, some file systems ignore case, and equations print names without underscores")
         };
         Some(diagnostic.and_at(&first.span, "first defined here").help("rename one of them"))
     }

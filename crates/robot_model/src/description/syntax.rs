@@ -7,6 +7,13 @@ use crate::diagnostic::{Diagnostic, Span, code};
 
 /// Parses the text. The tables are usable only if there are no diagnostics.
 pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
+    let start = text.len() - text.trim_start().len();
+    if text[start..].starts_with('<') {
+        let message = "the file is XML, not TOML".to_owned();
+        let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&(start..start + 1), "");
+        let help = "the name of a URDF file ends in `.urdf`: rename the file";
+        return (DeTable::parse_recoverable("").0, vec![diagnostic.help(help)]);
+    }
     let (table, errors) = DeTable::parse_recoverable(text);
     let mut found = Vec::new();
     // The keys below a duplicate header would be reported as duplicates, too; they are skipped.

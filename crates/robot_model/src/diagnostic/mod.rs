@@ -205,8 +205,8 @@ impl Diagnostics {
         self.list.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
     }
 
-    /// The diagnostics in groups: those that differ only in names, numbers and places form one group, errors only if
-    /// their remedy is the same.
+    /// The diagnostics in groups: three or more that differ only in names, numbers and places form one group, errors
+    /// only if their remedy is the same.
     #[must_use]
     pub fn groups(&self) -> Vec<Group<'_>> {
         group::groups(&self.list)

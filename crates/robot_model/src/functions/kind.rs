@@ -326,8 +326,8 @@ impl FunctionKind {
         self.declaration().base
     }
 
-    /// Whether the function solves a system of equations with the mass matrix, which must not be singular. Its bias
-    /// torques can then be computed at any accelerations.
+    /// Whether the function solves a system of equations with the mass matrix, which must not be singular. The
+    /// recursion of such a function may be evaluated at any accelerations, not only at 0.
     #[must_use]
     pub const fn divides_by_mass_matrix(self) -> bool {
         self.declaration().solves

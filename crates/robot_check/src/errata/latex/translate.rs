@@ -319,8 +319,8 @@ impl<'t> Translator<'t, '_> {
                 }
             }
             "" | "}" | "_" | "^" | r"\\" => self.fault(
-                "expected a group or a sign",
-                "a subscript, a power, an accent or a font needs an argument",
+                "expected a group in braces, a letter, a digit or a command",
+                "a subscript, a power, an accent, a font or `\\operatorname` needs an argument",
             ),
             text if is_font(text) || is_accent(text) => {
                 self.place += 1;

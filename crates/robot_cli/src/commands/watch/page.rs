@@ -69,6 +69,8 @@ impl Page {
     /// Writes the page, then the picture.
     pub(super) fn write(&mut self, made: Reloading) -> Result<(), Failure> {
         let Reloading { page, stamp, still } = made;
+        // A page that was edited meanwhile is not replaced, unless forced to.
+        let page = sealed(&page);
         self.writer.write(&[marked(&self.path, &page), marked(&self.picture(), &stamp)])?;
         self.last = Some(Last { still, stamp });
         Ok(())

@@ -318,6 +318,21 @@ fn an_edited_page_stays() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), edited);
 }
 
+/// A page that is edited during the watch is not replaced at its end, either.
+#[test]
+fn a_page_that_is_edited_meanwhile_stays() {
+    let (_folder, path, picture) = page_in_folder();
+    let edited = || std::fs::read_to_string(&path).unwrap().replacen("<body", "<body ", 1);
+    let looks = std::iter::once(look(ARM)).chain(std::iter::from_fn(|| {
+        std::fs::write(&path, edited()).unwrap();
+        None
+    }));
+    let (is_good, _, errors) =
+        followed_with(looks, Some(Page::open(path.clone(), Writer::new()).unwrap()));
+    assert!(!is_good, "{errors}");
+    assert!(std::fs::read_to_string(&path).unwrap().contains("<body ") && !picture.exists());
+}
+
 #[test]
 fn a_long_robot_has_a_page_too() {
     let (_folder, path, picture) = page_in_folder();

@@ -189,7 +189,8 @@ impl Plan {
             && projected_at.into_iter().all(|place| place.link < links)
     }
 
-    /// Options that suit most arms without a search: most links of the plans with the fewest operations have them.
+    /// Options that suit most arms without a search: except for the origin and the doubled products, most links of the
+    /// plans that a search found for the project's robots have them.
     #[must_use]
     pub fn default_for(robot: &Robot) -> Plan {
         Plan::uniform(robot.links.len(), &LinkPlan::DEFAULT)

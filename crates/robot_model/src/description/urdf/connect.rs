@@ -121,10 +121,13 @@ fn ends(
                     .at(&joint.child.span, "again a child here")
                     .and_at(&first.child.span, "already a child here")
                     .because(
-                        "a closed loop is not a tree, and its torques are not uniquely \
-                        determined",
+                        "in a tree, each link has one parent; the torques of a closed loop are not \
+                        uniquely determined",
                     )
-                    .help("cut the loop at one of the joints"),
+                    .help(
+                        "cut the loop at one of the joints; if there is no loop, exchange parent \
+                        and child of a joint",
+                    ),
             );
         }
         above.entry(child).or_insert(joint);

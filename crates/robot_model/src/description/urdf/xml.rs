@@ -67,6 +67,10 @@ fn words(text: &str, error: &Error) -> Diagnostic {
             syntax(format!("the prefix `{}` is declared twice", quote(name)))
                 .help("keep one of the declarations")
         }
+        Error::UnknownToken(_) if !text.trim_start().starts_with('<') => {
+            syntax("the file is not XML".to_owned())
+                .help("the name of a robot file in TOML ends in `.toml`: rename the file")
+        }
         Error::UnexpectedDeclaration(_) => syntax(
             "`<?xml …?>` is not at the start of the file".to_owned(),
         )

@@ -140,16 +140,20 @@ fn bracketed(coefficient: &str) -> String {
 
 fn torques(found: &Torques) -> String {
     let drawn = &found.drawn;
-    if found.joints.iter().all(|joint| joint.torques[0] == joint.torques[1]) {
+    if !found.joints.iter().any(Torque::differs) {
         return format!("  none at {} random states, seed {}\n", drawn.states, drawn.seed);
     }
     let mut shown = format!(
         "  {} states, seed {}; velocities within {}, accelerations within {}, positions\n",
         drawn.states, drawn.seed, drawn.velocity, drawn.acceleration
     );
-    for (Torque { joint, kind, torques: [a, b], state }, [low, high]) in
-        found.joints.iter().zip(&drawn.positions)
-    {
+    for (found, [low, high]) in found.joints.iter().zip(&drawn.positions) {
+        let Torque { joint, kind, torques: [a, b], state, .. } = found;
+        if !found.differs() {
+            // Writing to a string does not fail.
+            let _ = writeln!(shown, "  joint {joint}: none");
+            continue;
+        }
         let (unit, length) = match kind {
             JointKind::Revolute => ("N m", "rad"),
             JointKind::Prismatic => ("N", "m"),
@@ -158,7 +162,6 @@ fn torques(found: &Torques) -> String {
         let list = |values: &[f64]| {
             values.iter().map(|value| format!("{value:.3}")).collect::<Vec<_>>().join(", ")
         };
-        // Writing to a string does not fail.
         let _ = writeln!(
             shown,
             "  joint {joint}, {low:.3} to {high:.3} {length}: {:.4} {unit}, {a:.4} -> {b:.4}\n    \
