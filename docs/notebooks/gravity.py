@@ -61,8 +61,8 @@ arm
 # %% [markdown]
 # ## The law
 #
-# The controller needs only the gravity terms. For a microcontroller they are a few products; `arm.source("c")` prints
-# them as C.
+# The controller needs only the gravity terms. For a microcontroller they are a few products;
+# `arm.source("c", function="gravity")` prints them as C.
 
 # %%
 equations = arm.equations(form="grouped", quantities="Q")
@@ -71,8 +71,8 @@ for name, formula in equations.definitions.items():
         print(name, "=", formula)
 
 # %% [markdown]
-# The vertical axis carries no weight, so there is no g₁. The terms contain the parameters of the payload, which are 0
-# unless a call sets them.
+# Gravity has no moment about the vertical axis, so there is no g₁. The terms contain the parameters of the payload,
+# which are 0 unless a call sets them.
 #
 # In Python the law is one call. This is the configuration in which the arm is stretched out horizontally:
 
@@ -87,15 +87,15 @@ print("with 0.2 kg:    ", arm.gravity(out, payload=carried).round(3), "N m")
 # largest of them is an estimate:
 
 # %%
-poses = np.random.default_rng(1).uniform(-np.pi, np.pi, (10_000, 3))
-print("largest torques:", np.abs(arm.gravity(poses, payload=carried)).max(axis=0).round(2), "N m")
+configurations = np.random.default_rng(1).uniform(-np.pi, np.pi, (10_000, 3))
+print("largest torques:", np.abs(arm.gravity(configurations, payload=carried)).max(axis=0).round(2), "N m")
 
 # %% [markdown]
 # ## Does it hold?
 #
 # `simulate` takes torques as formulas over `q1`, `q2`, `q3` and the parameters, so it can apply the law. The arm
 # starts raised and at rest. The arm has friction, and the law does not include it. We compare four cases: no
-# compensation; the right law; a law in which the forearm is 20 % heavier than it is; and the right law with a payload
+# compensation; the right law; a law with a forearm that is 20 % too heavy; and the right law with a payload
 # that is not in the law.
 
 # %%
@@ -112,12 +112,12 @@ def with_values(formula, values):
 
 torques = {"2": with_values(law["g_2"], empty), "3": with_values(law["g_3"], empty)}
 heavier = {joint: with_values(formula, {"m3": 1.2 * arm.parameters["m3"]}) for joint, formula in torques.items()}
-load = {"payload_mass": 0.2, "payload_x": 0.2}
+payload = {"payload_mass": 0.2, "payload_x": 0.2}
 cases = {
     "no compensation": {},
     "right": {"torques": torques},
     "forearm thought 20 % heavier": {"torques": heavier},
-    "unknown payload": {"torques": torques, "parameters": load},
+    "unknown payload": {"torques": torques, "parameters": payload},
 }
 start = [0.0, 0.9, -0.6]
 motions = {name: arm.simulate(3.0, q0=start, friction=True, **case) for name, case in cases.items()}
@@ -132,5 +132,5 @@ figure.legend(loc="outside upper center", ncols=2)
 # %% [markdown]
 # With the right law the arm stays at rest to the last digit that is shown, because nothing accelerates it. If the
 # mass of the forearm is wrong by 20 %, the law pushes the arm up, and only friction slows it. A payload that is not
-# in the law pulls the arm down. Gravity compensation is only as good as its masses, so the next notebook measures
-# them.
+# in the law pulls the arm down. Gravity compensation is only as accurate as its parameters. The next notebook
+# identifies those of another robot from motions and torques.
