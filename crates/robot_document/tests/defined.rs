@@ -232,6 +232,25 @@ fn names_of_columns_are_those_of_no_parameter() {
     assert!(of(Form::Expanded).check_array_names().is_ok());
 }
 
+/// A joint force that is 0, as a sum of terms that cancel, does not occur in friction.
+#[test]
+fn forces_that_are_zero_are_not_in_friction() {
+    let link = |name: &str, joint: &str, friction: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ {joint} }}\nmass = 1\ncenter_of_mass = [0, 0, 0]\n\
+             inertia = {{ xx = 1, yy = 1, zz = 1 }}\n{friction}"
+        )
+    };
+    let slide =
+        link("slide", "type = \"prismatic\", axis = \"y\"", "friction = { coulomb = 0.1 }\n");
+    let turn = link("turn", "type = \"revolute\", axis = \"z\"", "");
+    let text = format!("format = 1\n[robot]\nname = \"rob\"\n{slide}{turn}");
+    let robot = read_toml("robot.toml", &text).unwrap().robot;
+    for form in Form::ALL {
+        check_all(&robot, &EquationOptions { form, friction: true, ..EquationOptions::default() });
+    }
+}
+
 /// Whether a name is the letter with a number, such as `x_1` or `tau1`.
 fn of_letter(name: &str, letter: &str) -> bool {
     let tail = name.strip_prefix(letter).map(|tail| tail.trim_start_matches('_'));

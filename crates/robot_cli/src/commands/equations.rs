@@ -87,15 +87,14 @@ impl Arguments {
         }
         let displayed = |notation| {
             let room = Room::Points(self.layout.line());
-            let arranged = has_arrays.then(|| equations.arranged(room));
-            let groups = &arranged.as_ref().unwrap_or(&equations).groups;
-            self.layout.displayed(&robot.name, groups, notation).map_err(failed)
+            let shown = if has_arrays { equations.arranged(room) } else { equations.listed() };
+            self.layout.displayed(&robot.name, &shown.groups, notation).map_err(failed)
         };
         let shown = match self.format {
             Format::Text => {
                 let equations = equations.readable(options.digits);
                 let room = Room::Characters(text::COLUMNS);
-                plain(&if has_arrays { equations.arranged(room) } else { equations })
+                plain(&if has_arrays { equations.arranged(room) } else { equations.listed() })
             }
             Format::Json if has_arrays => json(&robot.name, &equations, Some(arrays(&equations))),
             Format::Latex => displayed(Notation::Latex)?,

@@ -80,6 +80,14 @@ impl Equations {
         }
     }
 
+    /// The equations without matrices and columns. Groups that have nothing else are dropped.
+    #[must_use]
+    pub fn listed(&self) -> Equations {
+        let groups = self.groups.iter().filter(|group| !group.equations.is_empty());
+        let groups = groups.map(|group| Group { arrays: None, ..group.clone() }).collect();
+        Equations { groups, symbols: self.symbols.clone(), ..*self }
+    }
+
     /// Replaces the equations that are entries of matrices and columns by these arrays, if they fit. Groups without
     /// remaining equations are dropped.
     ///

@@ -6,10 +6,10 @@ use robot_dynamics::newton_euler::{LinkWrench, friction};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, walk};
+use robot_symbolic::{Expr, Polynomial, walk};
 
 use super::Writer;
-use super::coefficients::{Coefficient, Section, Sum};
+use super::coefficients::{Coefficient, LIMITS, Section, Sum};
 use super::letters::candidates;
 use crate::layout::is_rate;
 use crate::math::Math;
@@ -136,8 +136,9 @@ fn joint_force<'g>(
         let symbol =
             Symbol { kind: Kind::LinkForce, number: index + 1, component: Some(component) };
         component += 1;
-        if value.is_zero() {
-            return value;
+        // A component that is 0 would not be printed as a joint force.
+        if Polynomial::of(value, &LIMITS).is_ok_and(|value| value.is_zero()) {
+            return writer.graph.zero();
         }
         // The dot in the name of a quantity is replaced, so that the text can be parsed.
         let name = symbol.to_string().replace('.', "_");

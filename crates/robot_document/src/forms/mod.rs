@@ -45,7 +45,7 @@ use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_tex
 use crate::math::Math;
 pub(crate) use grouped::titles;
 pub use letters::{InvalidLetters, Letters};
-pub(crate) use numbers::with_values;
+pub(crate) use numbers::{decimal, with_values};
 pub use options::{EquationOptions, Form};
 pub use published::{Differences, TermOrder};
 
@@ -243,8 +243,9 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         return Err(Error::TooManyExpressions { limit: MAX_NODES });
     }
     let groups = groups.map_err(|error| writer.blamed(error))?;
-    let mut groups: Vec<Group> =
-        groups.into_iter().filter(|group| !group.equations.is_empty()).collect();
+    // A column can have entries that are all defined in other groups.
+    let is_shown = |group: &Group| !group.equations.is_empty() || group.arrays.is_some();
+    let mut groups: Vec<Group> = groups.into_iter().filter(is_shown).collect();
     writer.check_letters(&groups)?;
     let mut rounded = false;
     for group in &mut groups {

@@ -140,7 +140,7 @@ fn digits(number: &Number) -> usize {
 }
 
 /// The shortest decimal that is read as the double.
-fn decimal(value: f64) -> Option<Number> {
+pub(crate) fn decimal(value: f64) -> Option<Number> {
     Rational::from_decimal(&format!("{value:e}")).map(Number::Rational)
 }
 

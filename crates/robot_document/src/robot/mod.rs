@@ -61,6 +61,8 @@ pub fn document(
         let numbers: usize = groups.map(Group::most).sum();
         let room = Room::Points(width - number_width(numbers));
         parts.iter_mut().for_each(|(_, part)| *part = part.arranged(room));
+    } else {
+        parts.iter_mut().for_each(|(_, part)| *part = part.listed());
     }
     let title = match extras.title {
         Some(title) => title.to_owned(),

@@ -1,41 +1,27 @@
 //! The base parameters of a robot: the combinations of its inertial parameters that the joint torques determine.
 
-use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, base_parameters};
+mod coefficients;
+
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::out_of_reach;
 use robot_model::robot::Robot;
 use robot_model::signs::Font;
 use robot_model::snap;
-use robot_symbolic::{
-    AngleSums, Expr, Graph, Id, Number, Polynomial, PolynomialOptions, Rational, walk,
-};
-use rustc_hash::FxHashMap;
+use robot_symbolic::{Expr, Graph, Polynomial};
 
+use self::coefficients::coefficients;
+pub(crate) use self::coefficients::{found, polynomials};
 use crate::error::Error;
-use crate::forms::{Equation, Group, MAX_NODES, with_values};
+use crate::forms::{Equation, Group, MAX_NODES};
 use crate::latex;
 use crate::layout::{Order, SymbolTable, Trigonometry, has_longer, tidied, tidied_text};
 use crate::math::{Fence, Math};
-
-/// The limits of expansions: beyond them, nobody could read the formulas.
-const LIMITS: PolynomialOptions =
-    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
 
 /// The remedy for formulas of base parameters that are too long.
 const SHORTER: &str = "their formulas are too long to read, but the function `base_parameters` computes their values; if \
     angles between frames are nearly multiples of π/2, snapping them (the option `snap`) makes the formulas shorter, and \
     formulas in other frames (`base_frames = \"denavit_hartenberg\"`) can be shorter";
-
-/// The length of a coefficient, in operations and operands as printed, above which its long constants are printed as
-/// numbers.
-const LONG: u64 = 200;
-/// The length above which a coefficient is refused.
-const TOO_LONG: u64 = 100_000;
-/// The largest denominator of a number that is printed as a fraction, and its largest relative distance from the
-/// computed value. A number that is not such a fraction comes this close to one with a probability of about 10⁻⁸.
-const DENOMINATOR: f64 = 1000.0;
-const DISTANCE: f64 = 1e-14;
 
 /// The explanation of the names of standard and base parameters.
 pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \
@@ -215,77 +201,6 @@ pub(crate) fn chained(formula: &Written, value: &Written) -> Math {
     Math::row(right)
 }
 
-/// Finds the base parameters, with coefficients that can be printed, or returns the reason why this is impossible.
-pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
-    let mut found = base_parameters(derivation).ok_or_else(|| Error::Base {
-        reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
-    })?;
-    for (_, coefficient) in found.base.iter_mut().flat_map(|parameter| &mut parameter.terms) {
-        if length(*coefficient) <= LONG {
-            continue;
-        }
-        *coefficient = with_numbers(*coefficient);
-        found.rounded = true;
-        if length(*coefficient) > TOO_LONG {
-            let reason = format!(
-                "a coefficient is longer than {TOO_LONG} operations and operands; {SHORTER}"
-            );
-            return Err(Error::Base { reason });
-        }
-    }
-    Ok(found)
-}
-
-/// The number of operations and operands of an expression as it is printed, with common parts counted each time.
-fn length(root: Expr<'_>) -> u64 {
-    let mut known: FxHashMap<Id, u64> = FxHashMap::default();
-    for expr in walk::reachable(&[root]) {
-        let operands = expr.operands().into_iter();
-        let of_operands = operands.map(|operand| known.get(&operand.id()).copied().unwrap_or(0));
-        known.insert(expr.id(), of_operands.fold(1, u64::saturating_add));
-    }
-    known.get(&root.id()).copied().unwrap_or(0)
-}
-
-/// Replaces long constants with decimals, or the whole coefficient with a fraction if it is near a simple one.
-fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
-    let graph = coefficient.graph();
-    // Expansions of expressions as long as these take minutes.
-    let short = with_values(&[coefficient], graph, |_, value| value);
-    let short = short.first().copied().unwrap_or(coefficient);
-    let fraction = short.as_number().and_then(|number| fraction(number.to_f64()));
-    fraction.map_or(short, |fraction| graph.number(Number::Rational(fraction)))
-}
-
-/// The fraction with a denominator of at most [`DENOMINATOR`] that equals a value up to rounding errors, by continued
-/// fractions.
-fn fraction(value: f64) -> Option<Rational> {
-    let (mut rest, mut before, mut denominator) = (value.abs(), 0.0, 1.0);
-    while denominator <= DENOMINATOR {
-        let numerator = (value * denominator).round();
-        if (numerator / denominator - value).abs() <= DISTANCE * value.abs() {
-            let reciprocal = Rational::from_f64(denominator)?.recip()?;
-            return Some(&Rational::from_f64(numerator)? * &reciprocal);
-        }
-        rest = (rest - rest.floor()).recip();
-        (before, denominator) = (denominator, rest.floor() * denominator + before);
-    }
-    None
-}
-
-/// Expands coefficients or values.
-pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
-    Polynomial::of_all(values, &LIMITS)
-        .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })
-}
-
-/// Expands the coefficients of a base parameter.
-fn coefficients<'g>(parameter: &BaseParameter<'g>) -> Result<Vec<Polynomial<'g>>, Error> {
-    let coefficients: Vec<Expr<'g>> =
-        parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
-    polynomials(&coefficients)
-}
-
 /// The layout of the name of a base parameter.
 pub(crate) fn look(parameter: &BaseParameter<'_>) -> Math {
     shape(parameter.kept.quantity, parameter.mark(), parameter.kept.link)
@@ -430,6 +345,7 @@ mod tests {
     use robot_model::description::read_toml;
 
     use super::*;
+    use robot_dynamics::base_parameters::base_parameters;
 
     /// Two links with skew axes; the first is turned and displaced by `origin`.
     fn skew(origin: &str) -> Robot {
@@ -468,20 +384,34 @@ mod tests {
         }
     }
 
+    /// A length that is a parameter, between axes in the planes of the frame.
+    fn with_length(second: &str) -> Robot {
+        let inertia =
+            "mass = 1\ncenter_of_mass = [0.1, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n";
+        let text = format!(
+            "format = 1\n[robot]\nname = \"rob\"\n[parameters]\nb = 0.13\n[[link]]\nname = \"1\"\n\
+             joint = {{ type = \"revolute\", axis = [0, 3, 4] }}\n{inertia}[[link]]\nname = \"2\"\n\
+             joint = {{ type = \"prismatic\", axis = [1, 1, 0] }}\norigin = {{ xyz = [0.23, \"b\", 0] }}\n{second}"
+        );
+        read_toml("rob.toml", &text).unwrap().robot
+    }
+
+    /// Coefficients are long quotients in the length here, whose value does not depend on it. Multiplied out with
+    /// rounded numbers, they would be noise.
     #[test]
-    fn fractions_have_small_denominators() {
-        let found = |value: f64| fraction(value).map(|fraction| fraction.to_string());
-        for (value, text) in [
-            (-1.0 / 3.0, Some("-1/3")),
-            (1.0 - 2.0 / 3.0, Some("1/3")),
-            (0.0, Some("0")),
-            (355.0 / 113.0, Some("355/113")),
-            (2.0_f64.sqrt(), None),
-            (1.0 / 3.0 + 1e-12, None),
-            (f64::NAN, None),
-            (f64::INFINITY, None),
-        ] {
-            assert_eq!(found(value).as_deref(), text, "{value}");
-        }
+    fn coefficients_that_do_not_depend_on_a_parameter_are_numbers() {
+        let robot = with_length(
+            "mass = 1\ncenter_of_mass = [1, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n",
+        );
+        let robot =
+            Robot { base_frames: robot_model::robot::BaseFrames::DenavitHartenberg, ..robot };
+        let set = base(&robot, None).unwrap();
+        assert!(set.rounded);
+        let value = |name: &str| {
+            let entry = set.list.iter().find(|entry| entry.name == name).unwrap();
+            robot_symbolic::Formula::parse(&entry.value.text).unwrap().evaluate(|_| f64::NAN)
+        };
+        assert!((value("MX_2") + 2.0_f64.sqrt()).abs() < 1e-9, "{}", value("MX_2"));
+        assert!((value("MY_2") + 4.0 / 3.0).abs() < 1e-9, "{}", value("MY_2"));
     }
 }

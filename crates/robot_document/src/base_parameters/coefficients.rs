@@ -1,0 +1,183 @@
+//! The coefficients of base parameters: short ones as they are, long ones with rounded numbers.
+
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, base_parameters};
+use robot_dynamics::functions::Derivation;
+use robot_model::functions::out_of_reach;
+use robot_symbolic::{
+    AngleSums, Expr, Id, Number, Polynomial, PolynomialOptions, Random, Rational, walk,
+};
+use rustc_hash::FxHashMap;
+
+use super::SHORTER;
+use crate::error::Error;
+use crate::forms::{decimal, with_values};
+
+/// The limits of expansions: beyond them, nobody could read the formulas.
+const LIMITS: PolynomialOptions =
+    PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 1_000_000 };
+
+/// The length of a coefficient, in operations and operands as printed, above which its long constants are printed as
+/// numbers.
+const LONG: u64 = 200;
+/// The length above which a coefficient is refused.
+const TOO_LONG: u64 = 100_000;
+/// The largest denominator of a number that is printed as a fraction, and its largest relative distance from the
+/// computed value. A number that is not such a fraction comes this close to one with a probability of about 10⁻⁸.
+const DENOMINATOR: f64 = 1000.0;
+const DISTANCE: f64 = 1e-14;
+
+/// The seeds of the values at which expressions are compared.
+const PLACES: [u64; 4] = [1990, 1991, 1992, 1993];
+/// The largest relative difference of values of a constant.
+const CONSTANT: f64 = 1e-11;
+/// The largest relative difference between a value and its expanded form.
+const KEPT: f64 = 1e-7;
+
+/// Finds the base parameters, with coefficients that can be printed, or returns the reason why this is impossible.
+pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
+    let mut found = base_parameters(derivation).ok_or_else(|| Error::Base {
+        reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
+    })?;
+    for (_, coefficient) in found.base.iter_mut().flat_map(|parameter| &mut parameter.terms) {
+        if length(*coefficient) <= LONG {
+            continue;
+        }
+        *coefficient = constant(*coefficient).unwrap_or_else(|| with_numbers(*coefficient));
+        found.rounded = true;
+        if length(*coefficient) > TOO_LONG {
+            let reason = format!(
+                "a coefficient is longer than {TOO_LONG} operations and operands; {SHORTER}"
+            );
+            return Err(Error::Base { reason });
+        }
+    }
+    Ok(found)
+}
+
+/// The number of operations and operands of an expression as it is printed, with common parts counted each time.
+fn length(root: Expr<'_>) -> u64 {
+    let mut known: FxHashMap<Id, u64> = FxHashMap::default();
+    for expr in walk::reachable(&[root]) {
+        let operands = expr.operands().into_iter();
+        let of_operands = operands.map(|operand| known.get(&operand.id()).copied().unwrap_or(0));
+        known.insert(expr.id(), of_operands.fold(1, u64::saturating_add));
+    }
+    known.get(&root.id()).copied().unwrap_or(0)
+}
+
+/// The value of an expression that is the same for all values of its symbols, rounded; `None` of another one. Long
+/// quotients of polynomials are not reduced, so such an expression can contain symbols.
+fn constant(expr: Expr<'_>) -> Option<Expr<'_>> {
+    let graph = expr.graph();
+    let [value, ref others @ ..] = PLACES.map(|place| at(expr, place));
+    let is_same = |other: &f64| (other - value).abs() <= CONSTANT * value.abs();
+    if !value.is_finite() || !others.iter().all(is_same) {
+        return None;
+    }
+    Some(graph.number(fraction(value).map(Number::Rational).or_else(|| decimal(value))?))
+}
+
+/// The value of an expression at seeded values of its symbols.
+fn at(expr: Expr<'_>, place: u64) -> f64 {
+    expr.evaluate(|symbol| seeded(&expr.graph().symbol_name(symbol), place))
+}
+
+fn seeded(symbol: &str, place: u64) -> f64 {
+    let mix = |seed: u64, byte: u8| seed.wrapping_mul(257).wrapping_add(u64::from(byte));
+    Random::new(symbol.bytes().fold(place, mix)).uniform(0.4, 1.6)
+}
+
+/// Replaces long constants with decimals, or the whole coefficient with a fraction if it is near a simple one.
+fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
+    let graph = coefficient.graph();
+    // Expansions of expressions as long as these take minutes.
+    let short = with_values(&[coefficient], graph, |_, value| value);
+    let short = short.first().copied().unwrap_or(coefficient);
+    let fraction = short.as_number().and_then(|number| fraction(number.to_f64()));
+    fraction.map_or(short, |fraction| graph.number(Number::Rational(fraction)))
+}
+
+/// The fraction with a denominator of at most [`DENOMINATOR`] that equals a value up to rounding errors, by continued
+/// fractions.
+fn fraction(value: f64) -> Option<Rational> {
+    let (mut rest, mut before, mut denominator) = (value.abs(), 0.0, 1.0);
+    while denominator <= DENOMINATOR {
+        let numerator = (value * denominator).round();
+        if (numerator / denominator - value).abs() <= DISTANCE * value.abs() {
+            let reciprocal = Rational::from_f64(denominator)?.recip()?;
+            return Some(&Rational::from_f64(numerator)? * &reciprocal);
+        }
+        rest = (rest - rest.floor()).recip();
+        (before, denominator) = (denominator, rest.floor() * denominator + before);
+    }
+    None
+}
+
+/// Expands coefficients or values.
+pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
+    let refused = |reason: String| Error::Base { reason: format!("{reason}; {SHORTER}") };
+    let expanded =
+        Polynomial::of_all(values, &LIMITS).map_err(|error| refused(error.to_string()))?;
+    match values.iter().zip(&expanded).all(|(value, expanded)| is_kept(*value, expanded)) {
+        true => Ok(expanded),
+        false => Err(refused(
+            "rounded coefficients lose their digits when they are multiplied out".to_owned(),
+        )),
+    }
+}
+
+/// Whether an expanded value still has the digits of the value: with rounded numbers, long terms can cancel.
+fn is_kept(value: Expr<'_>, expanded: &Polynomial<'_>) -> bool {
+    let graph = value.graph();
+    PLACES.iter().all(|place| {
+        let found = expanded.evaluate(|symbol| seeded(&graph.symbol_name(symbol), *place));
+        let expected = at(value, *place);
+        let size = found.abs().max(expected.abs());
+        expanded.is_zero() || !size.is_finite() || (found - expected).abs() <= KEPT * size
+    })
+}
+
+/// Expands the coefficients of a base parameter.
+pub(super) fn coefficients<'g>(
+    parameter: &BaseParameter<'g>,
+) -> Result<Vec<Polynomial<'g>>, Error> {
+    let coefficients: Vec<Expr<'g>> =
+        parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
+    polynomials(&coefficients)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_have_small_denominators() {
+        let found = |value: f64| fraction(value).map(|fraction| fraction.to_string());
+        for (value, text) in [
+            (-1.0 / 3.0, Some("-1/3")),
+            (1.0 - 2.0 / 3.0, Some("1/3")),
+            (0.0, Some("0")),
+            (355.0 / 113.0, Some("355/113")),
+            (2.0_f64.sqrt(), None),
+            (1.0 / 3.0 + 1e-12, None),
+            (f64::NAN, None),
+            (f64::INFINITY, None),
+        ] {
+            assert_eq!(found(value).as_deref(), text, "{value}");
+        }
+    }
+
+    /// An expansion that has lost its digits is refused.
+    #[test]
+    fn digits_are_kept_or_refused() {
+        let graph = robot_symbolic::Graph::new();
+        let root = graph.parse("sqrt(2)*a").unwrap();
+        let exact = Polynomial::of(root, &LIMITS).unwrap();
+        assert!(is_kept(root, &exact));
+        let noise = graph.parse("sqrt(2)*a + 0.000001*b").unwrap();
+        assert!(!is_kept(root, &Polynomial::of(noise, &LIMITS).unwrap()));
+        let same = graph.parse("(a^2 + a*b)/(2*a)/(a + b)").unwrap();
+        assert_eq!(constant(same).unwrap().as_number().unwrap().to_f64(), 0.5);
+        assert!(constant(root).is_none());
+    }
+}
