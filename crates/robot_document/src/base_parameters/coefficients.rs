@@ -3,6 +3,7 @@
 use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, base_parameters};
 use robot_dynamics::functions::Derivation;
 use robot_model::functions::out_of_reach;
+use robot_model::robot::Robot;
 use robot_symbolic::{
     AngleSums, Expr, Id, Number, Polynomial, PolynomialOptions, Random, Rational, walk,
 };
@@ -51,6 +52,7 @@ pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameter
             return Err(Error::Base { reason });
         }
     }
+    check_nominal(&found, derivation.robot)?;
     Ok(found)
 }
 
@@ -115,26 +117,48 @@ fn fraction(value: f64) -> Option<Rational> {
 
 /// Expands coefficients or values.
 pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
-    let refused = |reason: String| Error::Base { reason: format!("{reason}; {SHORTER}") };
-    let expanded =
-        Polynomial::of_all(values, &LIMITS).map_err(|error| refused(error.to_string()))?;
-    match values.iter().zip(&expanded).all(|(value, expanded)| is_kept(*value, expanded)) {
-        true => Ok(expanded),
-        false => Err(refused(
-            "rounded coefficients lose their digits when they are multiplied out".to_owned(),
-        )),
+    let expanded = Polynomial::of_all(values, &LIMITS)
+        .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })?;
+    for place in PLACES {
+        check_digits(values, &expanded, &|symbol| seeded(symbol, place))?;
     }
+    Ok(expanded)
 }
 
-/// Whether an expanded value still has the digits of the value: with rounded numbers, long terms can cancel.
-fn is_kept(value: Expr<'_>, expanded: &Polynomial<'_>) -> bool {
-    let graph = value.graph();
-    PLACES.iter().all(|place| {
-        let found = expanded.evaluate(|symbol| seeded(&graph.symbol_name(symbol), *place));
-        let expected = at(value, *place);
+/// Returns an error if expanded coefficients or values lose their digits at the nominal parameters, for example because
+/// a divisor is nearly 0 there.
+fn check_nominal(found: &BaseParameters<'_>, robot: &Robot) -> Result<(), Error> {
+    let nominal = |symbol: &str| {
+        let value = robot.nominal_value(symbol);
+        if value.is_nan() { seeded(symbol, PLACES[0]) } else { value }
+    };
+    let coefficients = found.base.iter().map(|parameter| {
+        parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect::<Vec<_>>()
+    });
+    for values in coefficients.chain([found.nominal()]) {
+        check_digits(&values, &polynomials(&values)?, &nominal)?;
+    }
+    Ok(())
+}
+
+/// Returns an error if an expanded value differs from the value at these values of symbols: long terms can cancel.
+fn check_digits(
+    values: &[Expr<'_>],
+    expanded: &[Polynomial<'_>],
+    of_symbol: &dyn Fn(&str) -> f64,
+) -> Result<(), Error> {
+    let is_kept = |(value, expanded): (&Expr<'_>, &Polynomial<'_>)| {
+        let name = |symbol| value.graph().symbol_name(symbol);
+        let found = expanded.evaluate(|symbol| of_symbol(&name(symbol)));
+        let expected = value.evaluate(|symbol| of_symbol(&name(symbol)));
         let size = found.abs().max(expected.abs());
         expanded.is_zero() || !size.is_finite() || (found - expected).abs() <= KEPT * size
-    })
+    };
+    if values.iter().zip(expanded).all(is_kept) {
+        return Ok(());
+    }
+    let reason = format!("multiplied out, their terms cancel, so that digits are lost; {SHORTER}");
+    Err(Error::Base { reason })
 }
 
 /// Expands the coefficients of a base parameter.
@@ -172,10 +196,11 @@ mod tests {
     fn digits_are_kept_or_refused() {
         let graph = robot_symbolic::Graph::new();
         let root = graph.parse("sqrt(2)*a").unwrap();
-        let exact = Polynomial::of(root, &LIMITS).unwrap();
-        assert!(is_kept(root, &exact));
-        let noise = graph.parse("sqrt(2)*a + 0.000001*b").unwrap();
-        assert!(!is_kept(root, &Polynomial::of(noise, &LIMITS).unwrap()));
+        let kept = |text: &str| {
+            let expanded = Polynomial::of(graph.parse(text).unwrap(), &LIMITS).unwrap();
+            check_digits(&[root], &[expanded], &|symbol| seeded(symbol, 1)).is_ok()
+        };
+        assert!(kept("sqrt(2)*a") && !kept("sqrt(2)*a + 0.000001*b"));
         let same = graph.parse("(a^2 + a*b)/(2*a)/(a + b)").unwrap();
         assert_eq!(constant(same).unwrap().as_number().unwrap().to_f64(), 0.5);
         assert!(constant(root).is_none());
