@@ -225,8 +225,9 @@ impl Expressions<'_> {
                 return (level, index_of(letter, angle, exponent));
             }
             Trigonometry::Paper => Math::Letter(letter),
-            _ if is_sine => Math::Function(FunctionName::Sine),
-            _ => Math::Function(FunctionName::Cosine),
+            Trigonometry::Named | Trigonometry::Short => {
+                Math::Function(if is_sine { FunctionName::Sine } else { FunctionName::Cosine })
+            }
         };
         if angle.as_symbol().is_none() {
             return match joints(angle) {
