@@ -15,11 +15,7 @@ pub(crate) fn programs(
     options: &Options,
     terminal: &mut Terminal<'_>,
 ) -> Result<Programs, Failure> {
-    let programs = watched("generating", terminal, || {
-        let programs = robot_build::programs(source, options)?;
-        budget::check(&programs, source, options)?;
-        Ok::<_, robot_build::Errors>(programs)
-    })?;
+    let programs = watched("generating", terminal, || budget::programs(source, options))?;
     let derived = programs.warnings.iter().filter(|warning| warning.code == code::INFINITE);
     text::warnings(&Diagnostics::new(source.clone(), derived.cloned().collect()), terminal)?;
     Ok(programs)

@@ -42,8 +42,14 @@ pub enum Error {
     /// The tolerance for snapping angles is invalid.
     #[error(transparent)]
     Snap(#[from] InvalidSnap),
-    /// The base parameters cannot be found or written out.
+    /// The base parameters cannot be found.
     #[error("the base parameters cannot be computed: {reason}")]
+    NoBase {
+        /// The reason.
+        reason: &'static str,
+    },
+    /// The formulas of the base parameters cannot be written out.
+    #[error("the base parameters cannot be printed: {reason}")]
     Base {
         /// The reason.
         reason: String,

@@ -12,6 +12,13 @@ impl Random {
         Random(seed)
     }
 
+    /// Creates a generator for a name, such as that of a symbol: equal names and seeds give equal numbers.
+    #[must_use]
+    pub fn of_name(name: &str, seed: u64) -> Random {
+        let mix = |seed: u64, byte: u8| seed.wrapping_mul(257).wrapping_add(u64::from(byte));
+        Random(name.bytes().fold(seed, mix))
+    }
+
     /// Returns 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);

@@ -14,7 +14,7 @@ use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code};
 use robot_model::functions::FunctionKind;
 
 use crate::driver::options::Options;
-use crate::driver::programs::Programs;
+use crate::driver::programs::{self, Programs};
 use crate::error::{Error, Errors};
 
 /// The resource that is limited.
@@ -78,12 +78,19 @@ pub fn max_stack(programs: &Programs, options: &Options, function: &str) -> Opti
     of_file.map(|limit| limit.value).chain(options.max_stack).min()
 }
 
-/// Checks the functions against the budgets of the file and of the options.
+/// Does the same as [`programs()`](crate::programs), and checks the functions against their budgets.
 ///
 /// # Errors
 ///
-/// Each function that exceeds a budget.
-pub fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
+/// All errors in the file or the options, or each function that exceeds a budget.
+pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> {
+    let programs = programs::programs(source, options)?;
+    check(&programs, source, options)?;
+    Ok(programs)
+}
+
+/// Returns an error for each function that exceeds a budget of the file or of the options.
+fn check(programs: &Programs, source: &Source, options: &Options) -> Result<(), Errors> {
     let (mut found, mut errors) = (vec![], vec![]);
     for function in &programs.module.functions {
         let limits: Vec<_> = limits(programs, &function.name).collect();

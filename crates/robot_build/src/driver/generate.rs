@@ -11,7 +11,7 @@ use robot_model::robot::{Payload, Robot};
 
 use crate::driver::budget;
 use crate::driver::options::Options;
-use crate::driver::programs::{Programs, programs};
+use crate::driver::programs::Programs;
 use crate::error::Errors;
 
 /// The Rust code of a robot.
@@ -37,8 +37,7 @@ pub struct Generated {
 ///
 /// All errors in the file or the options.
 pub fn generate(source: &Source, options: &Options) -> Result<Generated, Errors> {
-    let programs = programs(source, options)?;
-    budget::check(&programs, source, options)?;
+    let programs = budget::programs(source, options)?;
     let code = rust_text(&programs, source, options, Wrapping::Module)?;
     let Programs { warnings, snapped, module, .. } = programs;
     Ok(Generated {

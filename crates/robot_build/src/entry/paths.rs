@@ -126,6 +126,9 @@ pub fn missing(path: &Path) -> String {
 
 /// The same message for a file whose actual path was derived from the given one.
 fn missing_at(path: &Path, given: &Path) -> String {
+    if let Ok(target) = path.read_link() {
+        return format!("it is a link to {}, which does not exist", shown(&target));
+    }
     let place =
         if path == given { String::new() } else { format!(" (looked for {})", shown(path)) };
     let mut near =
@@ -193,6 +196,12 @@ mod tests {
         let place = format!("{none} (looked for {})", shown(&at("puma.tom")));
         assert_eq!(told, format!("{place}; did you mean arms/puma.urdf?"));
         assert!(missing(Path::new("nothing_like_it")).starts_with(none));
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("gone.toml", at("link.toml")).unwrap();
+            let link = "it is a link to gone.toml, which does not exist";
+            assert_eq!(missing(&at("link.toml")), link);
+        }
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -198,16 +198,21 @@ fn infinite_base_parameters_are_a_warning() {
     let links = [link("a", "revolute"), link("b", "prismatic"), link("c", "revolute")].concat();
     let folder = folder("infinite");
     let file = folder.join("arm.toml");
-    let text = format!("format = 1\n[robot]\nname = \"arm\"\n[parameters]\nd = 0\n{links}");
-    fs::write(&file, text).unwrap();
+    let text =
+        |d: &str| format!("format = 1\n[robot]\nname = \"arm\"\n[parameters]\nd = {d}\n{links}");
+    fs::write(&file, text("0")).unwrap();
     let (file, out) = (file.to_str().unwrap(), folder.join("arm"));
     let base = ["--language", "c", "--function", "base_parameters"];
     for command in [&["generate", file][..], &["crate", file, "-o", out.to_str().unwrap()]] {
         let outcome = run(&[command, &base].concat());
         assert_eq!(outcome.code, 0, "{}", outcome.errors);
-        assert_eq!(outcome.errors.matches("warning[R0804]").count(), 1, "{}", outcome.errors);
+        let warning = "warning[R0804]: `base_parameters` has no finite value";
+        assert_eq!(outcome.errors.matches(warning).count(), 1, "{}", outcome.errors);
         let outcome = run(&[command, &["--language", "c"]].concat());
         assert!(!outcome.errors.contains("R0804"), "{}", outcome.errors);
     }
     assert!(out.join("arm.h").is_file());
+    fs::write(file, text("0.3")).unwrap();
+    let outcome = run(&[&["generate", file], &base[..]].concat());
+    assert_eq!((outcome.code, outcome.errors.contains("R0804")), (0, false), "{}", outcome.errors);
 }

@@ -21,6 +21,31 @@ fn the_process_reads_and_writes_its_streams() {
     assert!(shown.starts_with("[\n{\"tau\":["), "{shown}");
 }
 
+/// Nobody reads what is written into the pipe of one's own input, so that a long text would wait forever.
+#[cfg(unix)]
+#[test]
+fn the_pipe_of_standard_input_is_no_output() {
+    let folder = std::env::temp_dir().join(format!("robot_symbolic_input_{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let link = folder.join("code.rs");
+    let _ = std::fs::remove_file(&link);
+    std::os::unix::fs::symlink("/dev/stdin", &link).unwrap();
+    for path in ["/dev/stdin", "/dev/fd/0", link.to_str().unwrap()] {
+        let child = Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
+            .args(["generate", &robot("panda"), "--function", "all", "-o", path])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let output = child.wait_with_output().unwrap();
+        let errors = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{errors}");
+        assert!(errors.contains("the pipe of standard input"), "{errors}");
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
 #[test]
 fn exit_codes_tell_wrong_files_from_wrong_usage() {
     for (argument, code) in [("none.toml", 1), ("--nothing", 2)] {

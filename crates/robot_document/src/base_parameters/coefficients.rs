@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::SHORTER;
 use crate::error::Error;
-use crate::forms::{decimal, with_values};
+use crate::forms::with_values;
 
 /// The limits of expansions: beyond them, nobody could read the formulas.
 const LIMITS: PolynomialOptions =
@@ -27,6 +27,9 @@ const TOO_LONG: u64 = 100_000;
 const DENOMINATOR: f64 = 1000.0;
 const DISTANCE: f64 = 1e-14;
 
+/// The size, as a fraction of the largest coefficient, below which a rounded one is the rest of terms that cancel.
+const RESIDUE: f64 = 1e-14;
+
 /// The seeds of the values at which expressions are compared.
 const PLACES: [u64; 4] = [1990, 1991, 1992, 1993];
 /// The largest relative difference of values of a constant.
@@ -36,8 +39,8 @@ const KEPT: f64 = 1e-7;
 
 /// Finds the base parameters, with coefficients that can be printed, or returns the reason why this is impossible.
 pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameters<'g>, Error> {
-    let mut found = base_parameters(derivation).ok_or_else(|| Error::Base {
-        reason: out_of_reach(derivation.robot).unwrap_or_default().to_owned(),
+    let mut found = base_parameters(derivation).ok_or_else(|| Error::NoBase {
+        reason: out_of_reach(derivation.robot).unwrap_or_default(),
     })?;
     for (_, coefficient) in found.base.iter_mut().flat_map(|parameter| &mut parameter.terms) {
         if length(*coefficient) <= LONG {
@@ -52,7 +55,10 @@ pub(crate) fn found<'g>(derivation: &Derivation<'_, 'g>) -> Result<BaseParameter
             return Err(Error::Base { reason });
         }
     }
-    check_nominal(&found, derivation.robot)?;
+    for parameter in &found.base {
+        let expanded = coefficients(parameter, derivation.robot)?;
+        found.rounded |= expanded.iter().any(|coefficient| !coefficient.is_exact());
+    }
     Ok(found)
 }
 
@@ -76,7 +82,7 @@ fn constant(expr: Expr<'_>) -> Option<Expr<'_>> {
     if !value.is_finite() || !others.iter().all(is_same) {
         return None;
     }
-    Some(graph.number(fraction(value).map(Number::Rational).or_else(|| decimal(value))?))
+    Some(graph.number(fraction(value).map_or(Number::Real(value), Number::Rational)))
 }
 
 /// The value of an expression at seeded values of its symbols.
@@ -85,15 +91,14 @@ fn at(expr: Expr<'_>, place: u64) -> f64 {
 }
 
 fn seeded(symbol: &str, place: u64) -> f64 {
-    let mix = |seed: u64, byte: u8| seed.wrapping_mul(257).wrapping_add(u64::from(byte));
-    Random::new(symbol.bytes().fold(place, mix)).uniform(0.4, 1.6)
+    Random::of_name(symbol, place).uniform(0.4, 1.6)
 }
 
 /// Replaces long constants with decimals, or the whole coefficient with a fraction if it is near a simple one.
 fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
     let graph = coefficient.graph();
     // Expansions of expressions as long as these take minutes.
-    let short = with_values(&[coefficient], graph, |_, value| value);
+    let short = with_values(&[coefficient], graph, |_, value| Some(Number::Real(value)));
     let short = short.first().copied().unwrap_or(coefficient);
     let fraction = short.as_number().and_then(|number| fraction(number.to_f64()));
     fraction.map_or(short, |fraction| graph.number(Number::Rational(fraction)))
@@ -115,30 +120,57 @@ fn fraction(value: f64) -> Option<Rational> {
     None
 }
 
-/// Expands coefficients or values.
-pub(crate) fn polynomials<'g>(values: &[Expr<'g>]) -> Result<Vec<Polynomial<'g>>, Error> {
+/// Expands coefficients or values of a robot; beside rounded numbers, other constants are rounded, too. Those that lose
+/// their digits are refused: at seeded values of the symbols, as long terms that cancel do, or at the nominal ones,
+/// where a divisor may be nearly 0.
+pub(crate) fn polynomials<'g>(
+    values: &[Expr<'g>],
+    robot: &Robot,
+) -> Result<Vec<Polynomial<'g>>, Error> {
     let expanded = Polynomial::of_all(values, &LIMITS)
         .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })?;
+    let rounded = |one: Polynomial<'g>| if one.is_exact() { one } else { one.in_decimals(RESIDUE) };
+    let expanded: Vec<_> = expanded.into_iter().map(rounded).collect();
     for place in PLACES {
         check_digits(values, &expanded, &|symbol| seeded(symbol, place))?;
     }
+    check_digits(values, &expanded, &|symbol| {
+        let value = robot.nominal_value(symbol);
+        if value.is_nan() { seeded(symbol, PLACES[0]) } else { value }
+    })?;
     Ok(expanded)
 }
 
-/// Returns an error if expanded coefficients or values lose their digits at the nominal parameters, for example because
-/// a divisor is nearly 0 there.
-fn check_nominal(found: &BaseParameters<'_>, robot: &Robot) -> Result<(), Error> {
-    let nominal = |symbol: &str| {
-        let value = robot.nominal_value(symbol);
-        if value.is_nan() { seeded(symbol, PLACES[0]) } else { value }
-    };
-    let coefficients = found.base.iter().map(|parameter| {
-        parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect::<Vec<_>>()
-    });
-    for values in coefficients.chain([found.nominal()]) {
-        check_digits(&values, &polynomials(&values)?, &nominal)?;
+/// Expands the values of the base parameters. Those that are only the rounding errors of their terms are 0.
+pub(crate) fn expanded_values<'g>(
+    found: &BaseParameters<'g>,
+    robot: &Robot,
+) -> Result<Vec<Polynomial<'g>>, Error> {
+    let mut values = found.nominal();
+    for (value, parameter) in values.iter_mut().zip(&found.base) {
+        if is_rounded(*value) && is_residue(parameter, found) {
+            *value = value.graph().zero();
+        }
     }
-    Ok(())
+    polynomials(&values, robot)
+}
+
+/// Whether an expression contains rounded numbers.
+fn is_rounded(expr: Expr<'_>) -> bool {
+    let is_rounded = |number: Number| number.as_rational().is_none();
+    walk::reachable(&[expr]).into_iter().any(|part| part.as_number().is_some_and(is_rounded))
+}
+
+/// Whether the terms of a base parameter cancel each other up to rounding errors, at all seeded values.
+fn is_residue(parameter: &BaseParameter<'_>, found: &BaseParameters<'_>) -> bool {
+    PLACES.into_iter().all(|place| {
+        let terms = parameter.terms.iter().filter_map(|(standard, coefficient)| {
+            Some(at(*coefficient, place) * at(found.standard.get(*standard)?.1, place))
+        });
+        let (sum, size) =
+            terms.fold((0.0_f64, 0.0), |(sum, size), term| (sum + term, size + term.abs()));
+        sum.abs() <= RESIDUE * size
+    })
 }
 
 /// Returns an error if an expanded value differs from the value at these values of symbols: long terms can cancel.
@@ -164,10 +196,11 @@ fn check_digits(
 /// Expands the coefficients of a base parameter.
 pub(super) fn coefficients<'g>(
     parameter: &BaseParameter<'g>,
+    robot: &Robot,
 ) -> Result<Vec<Polynomial<'g>>, Error> {
     let coefficients: Vec<Expr<'g>> =
         parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
-    polynomials(&coefficients)
+    polynomials(&coefficients, robot)
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use robot_model::snap;
 use robot_symbolic::{Expr, Graph, Polynomial};
 
 use self::coefficients::coefficients;
-pub(crate) use self::coefficients::{found, polynomials};
+pub(crate) use self::coefficients::{expanded_values, found, polynomials};
 use crate::error::Error;
 use crate::forms::{Equation, Group, MAX_NODES};
 use crate::latex;
@@ -92,9 +92,9 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
     let derivation = Derivation::new(robot, graph, &options, None);
     let found = found(&derivation)?;
     let symbols = SymbolTable::new(robot, Trigonometry::Named)?;
-    let formulas = Formulas { symbols: &symbols, order: &Order::new(robot) };
+    let formulas = Formulas { robot, symbols: &symbols, order: &Order::new(robot) };
     let values = found.nominal();
-    check_names(&symbols, &found, &values)?;
+    check_names(robot, &symbols, &found, &values)?;
     let standard: Vec<Option<Written>> = found
         .standard
         .iter()
@@ -104,8 +104,8 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
         })
         .collect();
     let mut list = vec![];
-    for (parameter, value) in found.base.iter().zip(&polynomials(&values)?) {
-        let coefficients = coefficients(parameter)?;
+    for (parameter, value) in found.base.iter().zip(&expanded_values(&found, robot)?) {
+        let coefficients = coefficients(parameter, robot)?;
         let places = parameter.terms.iter().map(|(place, _)| *place);
         let texts: Result<Vec<_>, Error> = places
             .zip(&coefficients)
@@ -127,6 +127,7 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
 /// Returns an error if a symbol of the robot has the name or the layout of a standard or base parameter without being
 /// the value of this parameter. `values` are those of the base parameters.
 fn check_names(
+    robot: &Robot,
     symbols: &SymbolTable,
     found: &BaseParameters<'_>,
     values: &[Expr<'_>],
@@ -140,7 +141,7 @@ fn check_names(
         let printed = symbols.printed_as(&latex::formula(&shape)).map(str::to_owned);
         let named = symbols.has(&name).then(|| name.clone());
         for other in [printed, named].into_iter().flatten() {
-            let value = polynomials(&[value])?.first().map(Polynomial::to_expr);
+            let value = polynomials(&[value], robot)?.first().map(Polynomial::to_expr);
             let symbol =
                 value.and_then(|value| Some(value.graph().symbol_name(value.as_symbol()?)));
             if symbol.as_ref() != Some(&other) {
@@ -223,6 +224,7 @@ pub(crate) fn word(letters: &str, link: usize) -> Math {
 
 /// Writes formulas of base parameters.
 pub(crate) struct Formulas<'w> {
+    pub(crate) robot: &'w Robot,
     pub(crate) symbols: &'w SymbolTable,
     pub(crate) order: &'w Order<'w>,
 }
@@ -241,7 +243,7 @@ impl Formulas<'_> {
         parameter: &BaseParameter<'_>,
         standard: &[Option<Written>],
     ) -> Result<Written, Error> {
-        let coefficients = coefficients(parameter)?;
+        let coefficients = coefficients(parameter, self.robot)?;
         let mut groups: Vec<(Term, Vec<&Written>)> = vec![];
         let mut terms: Vec<_> = parameter.terms.iter().zip(&coefficients).collect();
         terms.sort_by_key(|((place, _), _)| *place != parameter.column);
@@ -384,27 +386,18 @@ mod tests {
         }
     }
 
-    /// A length that is a parameter, between axes in the planes of the frame.
-    fn with_length(second: &str) -> Robot {
-        let inertia =
-            "mass = 1\ncenter_of_mass = [0.1, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n";
-        let text = format!(
-            "format = 1\n[robot]\nname = \"rob\"\n[parameters]\nb = 0.13\n[[link]]\nname = \"1\"\n\
-             joint = {{ type = \"revolute\", axis = [0, 3, 4] }}\n{inertia}[[link]]\nname = \"2\"\n\
-             joint = {{ type = \"prismatic\", axis = [1, 1, 0] }}\norigin = {{ xyz = [0.23, \"b\", 0] }}\n{second}"
-        );
-        read_toml("rob.toml", &text).unwrap().robot
-    }
-
     /// Coefficients are long quotients in the length here, whose value does not depend on it. Multiplied out with
     /// rounded numbers, they would be noise.
     #[test]
     fn coefficients_that_do_not_depend_on_a_parameter_are_numbers() {
-        let robot = with_length(
-            "mass = 1\ncenter_of_mass = [1, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n",
+        let rest = "mass = 1\ncenter_of_mass = [1, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n";
+        let text = format!(
+            "format = 1\n[robot]\nname = \"rob\"\nbase_frames = \"denavit_hartenberg\"\n[parameters]\nb = 0.13\n\
+             [[link]]\nname = \"1\"\njoint = {{ type = \"revolute\", axis = [0, 3, 4] }}\n{rest}\
+             [[link]]\nname = \"2\"\njoint = {{ type = \"prismatic\", axis = [1, 1, 0] }}\n\
+             origin = {{ xyz = [0.23, \"b\", 0] }}\n{rest}"
         );
-        let robot =
-            Robot { base_frames: robot_model::robot::BaseFrames::DenavitHartenberg, ..robot };
+        let robot = read_toml("rob.toml", &text).unwrap().robot;
         let set = base(&robot, None).unwrap();
         assert!(set.rounded);
         let value = |name: &str| {

@@ -45,7 +45,7 @@ use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_tex
 use crate::math::Math;
 pub(crate) use grouped::titles;
 pub use letters::{InvalidLetters, Letters};
-pub(crate) use numbers::{decimal, with_values};
+pub(crate) use numbers::with_values;
 pub use options::{EquationOptions, Form};
 pub use published::{Differences, TermOrder};
 
@@ -223,7 +223,8 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         robot,
         options,
         graph: &graph,
-        symbols: SymbolTable::new(robot, options.trigonometry)?,
+        symbols: SymbolTable::new(robot, options.trigonometry)?
+            .beside_components(options.has_components()),
         order: Order::new(robot),
         parallel: vec![],
         differences: Differences::default(),

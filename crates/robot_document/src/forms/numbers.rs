@@ -50,7 +50,7 @@ pub(super) fn rounded<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Ex
 }
 
 fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
-    with_values(roots, graph, expanded)
+    with_values(roots, graph, |constant, value| decimal(expanded(constant, value)))
 }
 
 /// The value of a constant, given that of its expression as it stands. The same constant in two forms has the same value,
@@ -61,12 +61,12 @@ fn expanded(constant: Expr<'_>, value: f64) -> f64 {
     found.filter(|found| (found - value).abs() <= LOST * value.abs()).unwrap_or(value)
 }
 
-/// The expressions with decimals for all parts that are long sums with functions of numbers; `value` returns that of a
+/// The expressions with numbers for all parts that are long sums with functions of numbers; `value` returns that of a
 /// part, given that of its expression as it stands.
 pub(crate) fn with_values<'g>(
     roots: &[Expr<'g>],
     graph: &'g Graph,
-    value: impl Fn(Expr<'g>, f64) -> f64,
+    value: impl Fn(Expr<'g>, f64) -> Option<Number>,
 ) -> Vec<Expr<'g>> {
     let mut constants: FxHashMap<Id, Constant> = FxHashMap::default();
     for expr in walk::reachable(roots) {
@@ -79,7 +79,7 @@ pub(crate) fn with_values<'g>(
     }
     walk::rebuild_above(roots, graph, |part| {
         let constant = constants.get(&part.id()).filter(|constant| constant.is_decimal())?;
-        Some(graph.number(decimal(value(part, constant.value))?))
+        Some(graph.number(value(part, constant.value)?))
     })
 }
 
@@ -236,7 +236,7 @@ mod tests {
         for _ in 0..70 {
             value = (value + graph.one()) / value;
         }
-        let found = with_values(&[value], &graph, |_, value| value);
+        let found = with_values(&[value], &graph, |_, value| decimal(value));
         let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
         assert!((found[0].as_number().unwrap().to_f64() - golden).abs() < 1e-15);
     }

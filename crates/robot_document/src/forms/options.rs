@@ -102,6 +102,17 @@ impl EquationOptions {
     pub(super) fn has_christoffel(&self) -> bool {
         self.christoffel || self.letters.velocity.as_deref() == Some(VELOCITY_MATRIX)
     }
+
+    /// Whether components of vectors are printed, with the number of a link as their upper index.
+    pub(super) fn has_components(&self) -> bool {
+        match self.form {
+            Form::Recursive => true,
+            Form::Grouped | Form::Regrouped => false,
+            Form::Expanded | Form::Collected | Form::Compact => {
+                self.kinds.iter().any(|kind| *kind != Kind::JointTorque)
+            }
+        }
+    }
 }
 
 /// The default options: the joint torques, expanded, without friction.

@@ -27,7 +27,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let found = base::found(&derivation)?;
     let outputs = derivation.regressor_over(&found).outputs;
     let mut columns: Vec<Expr<'_>> = outputs.into_iter().flat_map(|output| output.values).collect();
-    let values = base::polynomials(&found.nominal())?;
+    let values = base::expanded_values(&found, &robot)?;
     let equal = equal_frictions(&found, &values);
     for row in columns.chunks_mut(values.len().max(1)) {
         for (forward, backward) in &equal {
@@ -133,7 +133,7 @@ fn united_friction<'g>(
     if let Some(name) = symbol_of(value) {
         return Ok(writer.graph.symbol(&name));
     }
-    let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
+    let formulas = Formulas { robot: writer.robot, symbols: &writer.symbols, order: &writer.order };
     let Written { text, math: right } = formulas.of_polynomial(value)?;
     let name = format!("FC_{}", link + 1);
     writer.define_parameter(&name, base::word("FC", link))?;
@@ -206,7 +206,7 @@ fn standard<'g>(
     let mut equations = vec![];
     let mut written = vec![];
     let values: Vec<Expr<'g>> = found.standard.iter().map(|(_, value)| *value).collect();
-    for (place, value) in base::polynomials(&values)?.iter().enumerate() {
+    for (place, value) in base::polynomials(&values, writer.robot)?.iter().enumerate() {
         let Some((parameter, _)) = found.standard.get(place) else { continue };
         if !places.contains(&place) || value.is_zero() {
             written.push(None);
@@ -236,7 +236,7 @@ fn parameter<'g>(
     if let Some(name) = symbol_of(value) {
         return Ok(writer.graph.symbol(&name));
     }
-    let formulas = Formulas { symbols: &writer.symbols, order: &writer.order };
+    let formulas = Formulas { robot: writer.robot, symbols: &writer.symbols, order: &writer.order };
     let value = formulas.of_polynomial(value)?;
     // If all terms are symbols of the file, the formula would only repeat the value.
     let is_defined = |(place, _): &(usize, Expr<'g>)| {

@@ -115,8 +115,8 @@ impl Expressions<'_> {
             View::Pi => (Level::Atom, vec![Step::Piece(Math::Letter('π'))]),
             View::Symbol(symbol) => {
                 let look = self.0.look(&expr.graph().symbol_name(symbol));
-                // A symbol with an upper index needs parentheses if it is raised to a power.
-                let level = if look.has_upper_index() { Level::Power } else { Level::Atom };
+                let is_fenced = self.0.is_fenced_in_powers(&look);
+                let level = if is_fenced { Level::Power } else { Level::Atom };
                 (level, vec![Step::Piece(look)])
             }
             View::Add(a, b) => (Level::Sum, infix(a, Level::Sum, '+', b, Level::Sum)),

@@ -149,6 +149,22 @@ impl Math {
         false
     }
 
+    /// Whether the lower index ends with the name of an axis, as those of the components of a vector do.
+    #[must_use]
+    pub fn is_like_component(&self) -> bool {
+        match self {
+            Math::Symbol(symbol) => symbol.shape.is_like_component(),
+            Math::Script(script) => {
+                match script.lower.as_ref().and_then(|lower| lower.pieces().last()) {
+                    Some(Math::Letter('x' | 'y' | 'z')) => true,
+                    Some(index) => index.is_like_component(),
+                    None => false,
+                }
+            }
+            _ => false,
+        }
+    }
+
     /// Whether the piece is a function, possibly with an exponent, whose argument follows.
     #[must_use]
     pub fn is_function(&self) -> bool {

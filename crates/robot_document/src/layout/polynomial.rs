@@ -102,18 +102,17 @@ impl Terms<'_> {
             View::Call(function, argument) if FunctionName::of(function).is_some() => {
                 setter.named_power(function, argument, exponent)?
             }
-            View::Symbol(_) | View::Pi | View::Call(..) => raised(setter.pieces(atom)?, exponent),
+            View::Symbol(_) | View::Pi | View::Call(..) => {
+                let pieces = setter.pieces(atom)?;
+                let is_fenced = pieces.iter().any(|piece| self.table.is_fenced_in_powers(piece));
+                let is_fenced = exponent > 1 && is_fenced;
+                power_of(if is_fenced { vec![fenced(pieces)] } else { pieces }, exponent)
+            }
             _ => power_of(vec![fenced(setter.pieces(atom)?)], exponent),
         };
         self.powers.insert((atom.id(), exponent), pieces.clone());
         Ok(pieces)
     }
-}
-
-/// A power; the base is in parentheses if it already has an upper index.
-fn raised(pieces: Vec<Math>, exponent: u32) -> Vec<Math> {
-    let fence = exponent > 1 && pieces.iter().any(Math::has_upper_index);
-    power_of(if fence { vec![fenced(pieces)] } else { pieces }, exponent)
 }
 
 fn power_of(mut pieces: Vec<Math>, exponent: u32) -> Vec<Math> {

@@ -36,6 +36,8 @@ pub struct SymbolTable {
     defined: Vec<String>,
     /// Letters that are given for what a form defines, which no other definition may have.
     reserved: Vec<String>,
+    /// Whether components of vectors are printed beside the symbols.
+    has_components: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -49,7 +51,14 @@ impl SymbolTable {
     #[must_use]
     pub fn spelled(trigonometry: Trigonometry) -> SymbolTable {
         let (entries, printed) = (FxHashMap::default(), FxHashMap::default());
-        SymbolTable { trigonometry, entries, printed, defined: vec![], reserved: vec![] }
+        SymbolTable {
+            trigonometry,
+            entries,
+            printed,
+            defined: vec![],
+            reserved: vec![],
+            has_components: false,
+        }
     }
 
     /// The coordinates, parameters and wrenches of a robot, with the layouts that its file gives.
@@ -75,6 +84,16 @@ impl SymbolTable {
         table.check_powers()?;
         OWN.into_iter().try_for_each(|(other, latex)| table.check_printed(other, latex))?;
         Ok(table)
+    }
+
+    /// The table for equations that contain components of vectors: `F_y^2` is one of link 2 there.
+    pub(crate) fn beside_components(self, has_components: bool) -> SymbolTable {
+        SymbolTable { has_components, ..self }
+    }
+
+    /// Whether a power of what is printed needs parentheses, because an exponent would be read as an index.
+    pub(super) fn is_fenced_in_powers(&self, look: &Math) -> bool {
+        look.has_upper_index() || self.has_components && look.is_like_component()
     }
 
     /// Returns an error if a symbol is printed like something else, `other`, whose LaTeX is given.

@@ -159,6 +159,27 @@ fn looks_that_could_do_more_than_print_are_not_used() {
     assert_eq!(shown(&robot), "J_x^{2}");
 }
 
+/// Beside components of vectors, a square of `F_y` would look like that of link 2.
+#[test]
+fn powers_are_not_printed_like_components() {
+    let graph = Graph::new();
+    let expr = graph.parse("F_y^2 + Ixx^2*m_1^2 + sqrt(1 + F_y^2)").unwrap();
+    let table = SymbolTable::spelled(Trigonometry::Named);
+    let both = |table: &SymbolTable| {
+        let sum = Polynomial::of(expr, &PolynomialOptions::default()).unwrap();
+        let terms = sum.arranged(default_rank);
+        [table.terms(&terms), table.expression(expr)].map(|one| formula(&one.unwrap()))
+    };
+    for latex in both(&table) {
+        assert!(latex.contains("F_y^{2}") && !latex.contains(r"F_y\right)"), "{latex}");
+    }
+    for latex in both(&table.beside_components(true)) {
+        assert!(!latex.contains("F_y^{2}") && latex.contains(r"m_1^{2}"), "{latex}");
+        assert_eq!(latex.matches(r"F_y\right)^{2}").count(), 2, "{latex}");
+        assert!(latex.contains(r"I_{xx}\right)^{2}"), "{latex}");
+    }
+}
+
 #[test]
 fn nesting_ends_somewhere() {
     let graph = Graph::new();

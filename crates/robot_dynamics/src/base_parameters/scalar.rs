@@ -7,7 +7,7 @@ use robot_symbolic::{Expr, Polynomial, PolynomialOptions, Random, View, walk};
 
 /// The number of points at which symbols have seeded values.
 const POINTS: usize = 3;
-/// The seed of the symbols' values; the number of the point and the name of the symbol are combined with it.
+/// The seed of the symbols' values at the first point.
 const SEED: u64 = 1990;
 /// A difference below this fraction of its operands may be 0.
 const NOTICED: f64 = 1e-9;
@@ -42,8 +42,7 @@ pub(super) struct Scalar<'g> {
 
 /// The value of a symbol at a point.
 fn seeded(name: &str, point: u64) -> f64 {
-    let mix = |seed: u64, byte: u8| seed.wrapping_mul(257).wrapping_add(u64::from(byte));
-    Random::new(name.bytes().fold(SEED, mix).wrapping_add(point)).uniform(0.4, 1.6)
+    Random::of_name(name, SEED + point).uniform(0.4, 1.6)
 }
 
 impl<'g> Scalar<'g> {

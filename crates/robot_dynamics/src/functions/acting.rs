@@ -124,9 +124,7 @@ fn evaluate(evaluator: &Evaluator, value: impl Fn(SymbolId) -> f64) -> Vec<f64> 
 
 /// The value of a symbol in a seeded state.
 fn value(name: &str, state: u64) -> f64 {
-    let mix = |seed: u64, byte: u8| seed.wrapping_mul(0x0100_0000_01b3) ^ u64::from(byte);
-    let seed = name.bytes().fold(0xcbf2_9ce4_8422_2325, mix);
-    Random::new(seed.wrapping_add(state)).uniform(0.4, 1.6)
+    Random::of_name(name, state).uniform(0.4, 1.6)
 }
 
 /// A sum together with the sum of its terms' magnitudes.

@@ -2,6 +2,8 @@
 
 use std::io::{BufRead, Read as _};
 
+use robot_build::system_reason;
+
 use crate::error::Error;
 
 /// The largest number of bytes of a line. A longer one is an error, because a file without lines can be endless.
@@ -54,7 +56,9 @@ impl<R: BufRead> Lines<R> {
         let read =
             self.reader.by_ref().take(MAX_BYTES as u64 + 1).read_until(b'\n', &mut self.line);
         let source = &self.source;
-        read.map_err(|error| Error::input(format!("cannot read {source}: {error}")))?;
+        read.map_err(|error| {
+            Error::input(format!("cannot read {source}: {}", system_reason(&error)))
+        })?;
         self.number += 1;
         if self.line.len() > MAX_BYTES {
             let (number, limit) = (self.number, MAX_BYTES >> 20);

@@ -14,6 +14,7 @@ mod accumulator;
 mod angles;
 mod atoms;
 mod collect;
+mod decimals;
 mod denominators;
 mod expand;
 mod monomial;

@@ -11,7 +11,7 @@ use robot_model::diagnostic::Source;
 pub use self::package::{package, package_of};
 use crate::driver::budget;
 use crate::driver::options::Options;
-use crate::driver::programs::{Programs, programs};
+use crate::driver::programs::Programs;
 use crate::error::{Error, Errors};
 
 /// Declares the languages, each in one place: its variant, its name on the command line, and its description in a list.
@@ -103,8 +103,7 @@ pub fn sources(
     language: Language,
 ) -> Result<Vec<SourceFile>, Errors> {
     check(options, language)?;
-    let programs = programs(source, options)?;
-    budget::check(&programs, source, options)?;
+    let programs = budget::programs(source, options)?;
     sources_of(&programs, source, options, language)
 }
 

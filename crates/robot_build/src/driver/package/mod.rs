@@ -12,7 +12,7 @@ use crate::driver::check::{CheckValue, finite_check_values};
 use crate::driver::file::File;
 use crate::driver::generate::{header, names, rust_text, unnamed_header};
 use crate::driver::options::Options;
-use crate::driver::programs::{Programs, programs};
+use crate::driver::programs::Programs;
 use crate::error::Errors;
 
 /// Generates the files of a crate with a robot's functions, in a fixed order.
@@ -26,8 +26,7 @@ use crate::error::Errors;
 ///
 /// All errors in the file or the options.
 pub fn package(source: &Source, options: &Options) -> Result<Vec<File>, Errors> {
-    let programs = programs(source, options)?;
-    budget::check(&programs, source, options)?;
+    let programs = budget::programs(source, options)?;
     package_of(&programs, source, options)
 }
 

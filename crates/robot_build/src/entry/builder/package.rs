@@ -8,7 +8,6 @@ use crate::driver::budget;
 use crate::driver::file::File;
 use crate::driver::generate::module_name;
 use crate::driver::languages::package_of;
-use crate::driver::programs::programs;
 use crate::entry::cargo::Directives;
 use crate::entry::files::Writer;
 use crate::entry::pin::robot_inputs;
@@ -57,8 +56,7 @@ impl Builder {
         directives: &mut Directives,
     ) -> Result<Package, Errors> {
         let (file, options) = self.read(path, package, directives)?;
-        let programs = programs(&file.source, &options)?;
-        budget::check(&programs, &file.source, &options)?;
+        let programs = budget::programs(&file.source, &options)?;
         directives.warnings(&programs.warnings);
         Ok(Package {
             name: module_name(&programs.module),

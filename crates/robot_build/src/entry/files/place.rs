@@ -23,6 +23,11 @@ pub(super) enum Place {
 pub(super) fn place(path: &Path) -> Result<Place> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
+        if is_pipe_of_input(&target) {
+            return Err(Error::other(
+                "it is the pipe of standard input, from which nothing else reads",
+            ));
+        }
         if is_stream(&target) {
             return Ok(Place::Stream);
         }
@@ -50,6 +55,21 @@ pub fn is_stream(path: &Path) -> bool {
         || path.parent().is_some_and(|folder| {
             folder == Path::new("/dev/fd") || folder.starts_with("/proc") && folder.ends_with("fd")
         })
+}
+
+/// Whether the path names standard input, and that is a pipe: what is written to it stays there, and a long text would
+/// wait forever.
+#[cfg(unix)]
+fn is_pipe_of_input(path: &Path) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    let inputs = ["/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"];
+    inputs.iter().any(|input| path == Path::new(input))
+        && fs::metadata(path).is_ok_and(|metadata| metadata.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+fn is_pipe_of_input(_: &Path) -> bool {
+    false
 }
 
 /// Whether a file is in one of the system's virtual file systems; it looks like a file but cannot be replaced.

@@ -25,7 +25,7 @@ use crate::driver::file::File;
 use crate::driver::generate::{file_name, unnamed_header};
 use crate::driver::options::Options;
 use crate::driver::package;
-use crate::driver::programs::{Programs, programs};
+use crate::driver::programs::Programs;
 use crate::driver::readme::{Sections, paragraph, plain, section};
 use crate::error::Errors;
 
@@ -44,8 +44,7 @@ pub fn package(
     if language == Language::Rust {
         return package::package(source, options);
     }
-    let programs = programs(source, options)?;
-    budget::check(&programs, source, options)?;
+    let programs = budget::programs(source, options)?;
     package_of(&programs, source, options, language)
 }
 
