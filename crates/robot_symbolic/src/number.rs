@@ -4,6 +4,10 @@ use std::hash::{Hash, Hasher};
 
 use crate::rational::{MAX_BITS, Rational};
 
+/// The size of rounding errors of floating-point numbers, as a fraction of their largest term. Each comes from some tens
+/// of operations.
+const ROUNDED: f64 = 1e-14;
+
 /// A constant of an expression.
 ///
 /// Robot files contain decimal numbers, which are exact rationals, and their sums and products stay exact. A constant
@@ -122,6 +126,12 @@ impl Number {
     }
 }
 
+/// The sum of floating-point numbers, or 0 if they cancel each other up to the rounding errors that they have already.
+fn sum(a: f64, b: f64) -> f64 {
+    let sum = a + b;
+    if sum.abs() <= ROUNDED * a.abs().max(b.abs()) { 0.0 } else { sum }
+}
+
 impl std::ops::Add for &Number {
     type Output = Number;
     #[inline]
@@ -129,14 +139,14 @@ impl std::ops::Add for &Number {
         if let Some(sum) = self.integers(other, i64::checked_add) {
             return sum;
         }
-        self.combine(other, |a, b| a + b, |a, b| a + b)
+        self.combine(other, |a, b| a + b, sum)
     }
 }
 
 impl std::ops::Sub for &Number {
     type Output = Number;
     fn sub(self, other: &Number) -> Number {
-        self.combine(other, |a, b| a - b, |a, b| a - b)
+        self.combine(other, |a, b| a - b, |a, b| sum(a, -b))
     }
 }
 

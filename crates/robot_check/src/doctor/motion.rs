@@ -76,7 +76,7 @@ fn rotates(facts: &RobotFacts<'_>, index: usize) -> bool {
     false
 }
 
-/// Reports coordinates whose inertia is 0 in every configuration.
+/// Reports coordinates whose inertia is 0, or next to 0 beside the largest, in every configuration.
 fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     let Ok(mechanism) = Mechanism::nominal(facts.robot) else {
         return;
@@ -97,14 +97,23 @@ fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
             continue;
         }
         let place = place(facts, index);
-        let message = format!("the joint `{}` moves no mass", coordinate.joint);
+        let [how_much, label, why] = match *own == 0.0 {
+            true => [
+                "no mass",
+                "no inertia about or along its axis",
+                "the mass matrix is singular, so forward dynamics has no solution",
+            ],
+            false => [
+                "next to no mass",
+                "its inertia is below 10⁻¹² of the largest",
+                "the mass matrix is nearly singular, so forward dynamics can lose its digits",
+            ],
+        };
+        let message = format!("the joint `{}` moves {how_much}", coordinate.joint);
         found.push(
-            Diagnostic::warning(code::MOVES_NOTHING, message)
-                .at(&place, "no inertia about or along its axis")
-                .because("the mass matrix is singular, so forward dynamics has no solution")
-                .help(
-                    "give mass or inertia to the links that it moves, or `armature` to its drive",
-                ),
+            Diagnostic::warning(code::MOVES_NOTHING, message).at(&place, label).because(why).help(
+                "give mass or inertia to the links that it moves, or `armature` to its drive",
+            ),
         );
     }
 }

@@ -48,6 +48,13 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
     max_products: 4_000_000,
 };
 
+/// The number of terms that printed equations may have together, multiplied out. They may also have four times as many
+/// as the derived ones.
+const MAX_PRINTED: usize = 100_000;
+
+/// The maximum number of printed terms that are not among the derived ones; more are those of another robot.
+const MAX_WRONG: usize = 10_000;
+
 /// The maximum number of pairs of a wrong printed term and a missing derived term that are compared for one equation.
 const MAX_PAIRS: usize = 2_000_000;
 
@@ -233,20 +240,26 @@ fn expand<'p, 'g>(
         let one = Compared { equation, dimension, print: vec![], derived, is_name };
         compared.push((one, first..values.len()));
     }
-    let mut terms = term::terms_of(&values, &LIMITS).map_err(|_| {
-        Diagnostic::error(code::LIMIT, "the printed equations are too long to be expanded")
-            .help("leave out the longest equations, or compare each in a file of its own")
-    })?;
-    Ok(compared
-        .into_iter()
-        .map(|(one, range)| {
-            let own = terms.get_mut(range).unwrap_or_default().iter_mut().map(std::mem::take);
-            let own = own.zip(&one.equation.terms);
-            let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
-            let derived = term::noted_like(one.derived, &print);
-            Compared { print, derived, ..one }
-        })
-        .collect())
+    let mut room = MAX_PRINTED.max(4 * derived.values().map(Vec::len).sum::<usize>());
+    let expanded = |(one, range): (Compared<'p, 'g>, std::ops::Range<usize>)| {
+        let limits = PolynomialOptions { max_terms: room, ..LIMITS };
+        let own = term::terms_of(values.get(range).unwrap_or_default(), &limits).ok();
+        let own = own.filter(|own| own.iter().map(Vec::len).sum::<usize>() <= room);
+        let own = own.ok_or_else(|| too_long(one.equation))?;
+        let own = own.into_iter().zip(&one.equation.terms);
+        let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
+        room = room.saturating_sub(print.len());
+        let derived = term::noted_like(one.derived, &print);
+        Ok(Compared { print, derived, ..one })
+    };
+    compared.into_iter().map(expanded).collect()
+}
+
+fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {
+    let message = "the printed equations up to this one have too many terms, multiplied out";
+    let error = Diagnostic::error(code::LIMIT, message).at(&equation.span, "");
+    let help = "are these equations of this robot? leave out the longest, or compare each in a file of its own";
+    Box::new(error.help(help))
 }
 
 /// The terms of a printed formula, with the errors of their coefficients.
@@ -273,10 +286,11 @@ fn find(
     let derived = compared.iter().map(|one| (one.derived.as_slice(), one.dimension));
     let has_units = dimensions.explain(derived);
     let known = Known { printed, dimensions, has_units };
-    let (mut rounded, mut differences, mut errors) = (0, vec![], vec![]);
+    let (mut wrong, mut rounded, mut differences, mut errors) = (0, 0, vec![], vec![]);
     for one in compared {
         let left = term::leftover(&one.print, &one.derived);
-        if left.wrong.len().saturating_mul(one.derived.len()) > MAX_PAIRS {
+        wrong += left.wrong.len();
+        if wrong > MAX_WRONG || left.wrong.len().saturating_mul(one.derived.len()) > MAX_PAIRS {
             errors.push(too_different(one, left.wrong.len()));
             continue;
         }

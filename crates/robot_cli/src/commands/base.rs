@@ -11,6 +11,7 @@ use crate::Terminal;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
 use crate::forms::{NO_DIGITS, failed, note_rounding};
+use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::text;
 use crate::values::whole;
@@ -71,7 +72,8 @@ impl Arguments {
             _ => self.robot.printed(terminal)?,
         };
         let failed = |error| failed(&self.robot, &error);
-        let exact = base(&robot, self.robot.snap()).map_err(failed)?;
+        let snap = self.robot.snap();
+        let exact = watched("deriving", terminal, || base(&robot, snap)).map_err(failed)?;
         let (set, is_rounded) = exact.readable(self.digits.map_or(DIGITS, usize::from));
         if !matches!(self.format, Format::Json) {
             note_rounding(is_rounded && self.digits.is_none(), terminal)?;

@@ -16,6 +16,7 @@ use crate::displayed::centimeters;
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName};
 use crate::function::check_values_once;
+use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::values::whole;
 
@@ -136,7 +137,8 @@ impl Arguments {
             check: check.as_ref(),
             snaps: &snaps,
         };
-        let document = document(&robot, &options, &forms, extras).map_err(failed)?;
+        let derived = || document(&robot, &options, &forms, extras);
+        let document = watched("deriving", terminal, derived).map_err(failed)?;
         note_length(&document, &forms, terminal)?;
         if self.equations.inputs().is_some() {
             let options = EquationOptions { form: Form::Expanded, ..options };

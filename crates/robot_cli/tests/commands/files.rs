@@ -21,28 +21,33 @@ fn the_process_reads_and_writes_its_streams() {
     assert!(shown.starts_with("[\n{\"tau\":["), "{shown}");
 }
 
-/// Nobody reads what is written into the pipe of one's own input, so that a long text would wait forever.
-#[cfg(unix)]
+/// What is written into the pipe of one's own input waits forever, and a file that is only read belongs to others.
+#[cfg(target_os = "linux")]
 #[test]
-fn the_pipe_of_standard_input_is_no_output() {
+fn standard_input_is_no_output() {
     let folder = std::env::temp_dir().join(format!("robot_symbolic_input_{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).unwrap();
-    let link = folder.join("code.rs");
-    let _ = std::fs::remove_file(&link);
+    let (link, notes) = (folder.join("code.rs"), folder.join("notes.txt"));
     std::os::unix::fs::symlink("/dev/stdin", &link).unwrap();
-    for path in ["/dev/stdin", "/dev/fd/0", link.to_str().unwrap()] {
-        let child = Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
-            .args(["generate", &robot("panda"), "--function", "all", "-o", path])
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let output = child.wait_with_output().unwrap();
-        let errors = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{errors}");
-        assert!(errors.contains("the pipe of standard input"), "{errors}");
+    std::fs::write(&notes, "notes").unwrap();
+    let paths = ["/dev/stdin", "/dev/fd/0", "/proc/self/fd/0", "/proc/thread-self/fd/0"];
+    for path in paths.into_iter().chain(link.to_str()) {
+        for input in [Stdio::piped(), std::fs::File::open(&notes).unwrap().into()] {
+            let child = Command::new(env!("CARGO_BIN_EXE_robot-symbolic"))
+                .args(["generate", &robot("panda"), "--function", "all", "-o", path])
+                .stdin(input)
+                .stdout(Stdio::piped())
+                .stderr(Stdio::piped())
+                .spawn()
+                .unwrap();
+            let output = child.wait_with_output().unwrap();
+            let errors = String::from_utf8(output.stderr).unwrap();
+            assert_eq!(output.status.code(), Some(1), "{path}: {errors}");
+            assert!(errors.contains("a stream that is open for reading only"), "{errors}");
+        }
     }
+    assert_eq!(std::fs::read_to_string(&notes).unwrap(), "notes");
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

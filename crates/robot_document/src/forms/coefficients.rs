@@ -5,7 +5,7 @@ use robot_symbolic::collected::length;
 use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
 
-use super::compact::definitions;
+use super::compact::{definitions, tidy};
 use super::definitions::Root;
 use super::naming::named_length;
 use super::{Equation, Group, Writer, aliases, joint_torque, letters, numbers, references, shapes};
@@ -258,7 +258,7 @@ pub(super) fn definitions_of<'g>(
                 Shown::Long { .. } if section.by_symbols => {
                     writer.of_expression(name, left, coefficient.value)?
                 }
-                Shown::Long { .. } => writer.of_expression(name, left, named.rewritten(value))?,
+                Shown::Long { .. } => tidy(writer, name, left, named.rewritten(value))?,
             });
         }
         groups.push(Group::of_definitions(section.title, equations));

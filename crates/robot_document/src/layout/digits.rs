@@ -26,7 +26,7 @@ pub(crate) fn tidied(math: &Math, digits: Option<usize>) -> Math {
     let tidy = mapped(math.clone(), &|piece| rounded(piece, digits));
     // A number that was rounded is not exactly a fraction.
     let simple = is_simple(math) && (digits.is_none() || tidy == *math);
-    let tidy = mapped(tidy, &|piece| fractions(piece, simple));
+    let tidy = mapped(tidy, &|piece| fractions(piece, simple, digits));
     mapped(tidy, &|piece| match piece {
         Math::Number(text) => number(&text),
         other => other,
@@ -207,13 +207,12 @@ fn plain(value: f64) -> String {
 /// Rounds a decimal to `digits` significant digits, or to those of a double, if it has more; integers stay as they are.
 fn short(number: &str, digits: Option<usize>) -> String {
     let (mantissa, exponent) = number.split_once('e').map_or((number, ""), |(m, e)| (m, e));
+    let mantissa = mantissa.strip_suffix(".0").unwrap_or(mantissa);
     let significant = significant(mantissa);
-    let Some((_, value)) = mantissa.split_once('.').zip(mantissa.parse::<f64>().ok()) else {
-        return number.to_owned();
-    };
-    let text = match digits {
-        Some(digits) if significant > digits => significantly(value, digits),
-        None if significant > DOUBLE => plain(value),
+    let decimal = mantissa.parse::<f64>().ok().filter(|_| mantissa.contains('.'));
+    let text = match (decimal, digits) {
+        (Some(value), Some(digits)) if significant > digits => significantly(value, digits),
+        (Some(value), None) if significant > DOUBLE => plain(value),
         _ => mantissa.to_owned(),
     };
     if exponent.is_empty() { text } else { format!("{text}e{exponent}") }
@@ -279,13 +278,13 @@ fn is_simple(math: &Math) -> bool {
     simple.get()
 }
 
-/// Writes fractions instead of decimals in products, and decimals instead of long fractions.
-fn fractions(piece: Math, simple: bool) -> Math {
+/// Writes fractions instead of decimals in products, and decimals, rounded to `digits`, instead of long fractions.
+fn fractions(piece: Math, simple: bool, digits: Option<usize>) -> Math {
     match piece {
         Math::Row(pieces) => Math::Row(row(pieces, simple)),
         Math::Fraction(parts) => match parts.as_ref() {
             [Math::Number(above), Math::Number(below)] if is_long(above, below) => {
-                Math::Number(quotient(above, below))
+                Math::Number(short(&quotient(above, below), digits))
             }
             _ => Math::Fraction(parts),
         },

@@ -5,6 +5,7 @@ use robot_model::signs::FunctionName;
 use robot_model::variable::JointVariable;
 use robot_symbolic::print::{MAX_OPERATIONS, Magnitude, as_power, check_length};
 use robot_symbolic::{Expr, Function, Number, View};
+use rustc_hash::FxHashSet;
 
 use super::Trigonometry;
 use super::math::{Fence, Math, Script};
@@ -151,7 +152,7 @@ impl Expressions<'_> {
             }
             return (Level::Power, vec![Step::Operand(base, Level::Atom), Step::Raise(exponent)]);
         }
-        let (a, b) = if leads_with_number(b) && !leads_with_number(a) { (b, a) } else { (a, b) };
+        let [a, b] = in_order_of_print(a, b);
         let mut steps = vec![Step::Operand(a, Level::Product)];
         if self.ends_open(a) || leads_with_number(b) {
             steps.push(sign('·'));
@@ -167,7 +168,7 @@ impl Expressions<'_> {
         loop {
             let base = as_power(last).0;
             match base.view() {
-                View::Mul(_, b) => last = b,
+                View::Mul(a, b) => last = in_order_of_print(a, b)[1],
                 View::Call(Function::Sin | Function::Cos, angle) => {
                     return self.0.trigonometry() == Trigonometry::Named
                         && angle.as_symbol().is_some();
@@ -266,13 +267,25 @@ fn magnitude(number: &Number) -> (Level, Vec<Math>) {
     }
 }
 
+/// The factors of a product as they are printed: the one with a number first.
+fn in_order_of_print<'g>(a: Expr<'g>, b: Expr<'g>) -> [Expr<'g>; 2] {
+    if leads_with_number(b) && !leads_with_number(a) { [b, a] } else { [a, b] }
+}
+
 /// Whether a product begins with a number, which needs a sign between it and a preceding factor.
 fn leads_with_number(expr: Expr<'_>) -> bool {
-    let mut first = expr;
-    while let View::Mul(a, _) = first.view() {
-        first = a;
+    let (mut pending, mut known) = (vec![expr], FxHashSet::default());
+    while let Some(factor) = pending.pop() {
+        match factor.view() {
+            View::Number(_) => return true,
+            // A number among the factors is printed first.
+            View::Mul(a, b) if known.insert(factor.id()) && as_power(factor).1 == 1 => {
+                pending.extend([a, b]);
+            }
+            _ => {}
+        }
     }
-    first.as_number().is_some()
+    false
 }
 
 fn sign<'g>(sign: char) -> Step<'g> {

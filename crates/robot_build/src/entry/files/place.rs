@@ -23,13 +23,11 @@ pub(super) enum Place {
 pub(super) fn place(path: &Path) -> Result<Place> {
     let mut target = path.to_owned();
     for _ in 0..MAX_LINKS {
-        if is_pipe_of_input(&target) {
-            return Err(Error::other(
-                "it is the pipe of standard input, from which nothing else reads",
-            ));
-        }
         if is_stream(&target) {
-            return Ok(Place::Stream);
+            return match is_for_reading(&target) {
+                true => Err(Error::other("it is a stream that is open for reading only")),
+                false => Ok(Place::Stream),
+            };
         }
         if let Ok(next) = fs::read_link(&target) {
             target = folder_of(&target).join(next);
@@ -57,19 +55,22 @@ pub fn is_stream(path: &Path) -> bool {
         })
 }
 
-/// Whether the path names standard input, and that is a pipe: what is written to it stays there, and a long text would
-/// wait forever.
-#[cfg(unix)]
-fn is_pipe_of_input(path: &Path) -> bool {
-    use std::os::unix::fs::FileTypeExt;
-    let inputs = ["/dev/stdin", "/dev/fd/0", "/proc/self/fd/0"];
-    inputs.iter().any(|input| path == Path::new(input))
-        && fs::metadata(path).is_ok_and(|metadata| metadata.file_type().is_fifo())
-}
-
-#[cfg(not(unix))]
-fn is_pipe_of_input(_: &Path) -> bool {
-    false
+/// Whether the path names an open stream from which the process only reads, as from standard input. Linux opens such a
+/// path for writing nevertheless: the end of a pipe from which nothing else reads, or a file that belongs to others.
+fn is_for_reading(path: &Path) -> bool {
+    let own = || PathBuf::from("/proc/self");
+    let (process, stream) = match (path.to_str(), path.parent(), path.file_name()) {
+        (Some("/dev/stdin"), ..) => (own(), "0".as_ref()),
+        (Some("/dev/stdout"), ..) => (own(), "1".as_ref()),
+        (Some("/dev/stderr"), ..) => (own(), "2".as_ref()),
+        (_, Some(folder), Some(name)) if folder == Path::new("/dev/fd") => (own(), name),
+        (_, Some(folder), Some(name)) => (folder_of(folder).to_owned(), name),
+        _ => return false,
+    };
+    let info = fs::read_to_string(process.join("fdinfo").join(stream)).unwrap_or_default();
+    let flags = info.lines().find_map(|line| line.strip_prefix("flags:"));
+    let flags = flags.and_then(|flags| u32::from_str_radix(flags.trim(), 8).ok());
+    flags.is_some_and(|flags| flags & 3 == 0)
 }
 
 /// Whether a file is in one of the system's virtual file systems; it looks like a file but cannot be replaced.

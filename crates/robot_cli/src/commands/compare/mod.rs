@@ -13,6 +13,7 @@ use robot_model::robot::Robot;
 use crate::Terminal;
 use crate::delivery::answered;
 use crate::failure::Failure;
+use crate::progress::watched;
 use crate::robot::RobotArgument;
 use crate::screen::is_colored;
 
@@ -78,7 +79,7 @@ impl Arguments {
             NotationName::Latex => Notation::Latex,
         });
         let options = Options { notation, snap: self.robot.snap() };
-        let found = compare(&robot, &printed, &options);
+        let found = watched("comparing", terminal, || compare(&robot, &printed, &options));
         let found = found.map_err(|errors| Failure::Robot(errors.into()))?;
         Ok((robot, found))
     }

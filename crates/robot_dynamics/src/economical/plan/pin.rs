@@ -136,6 +136,9 @@ impl Pin {
                 fault.message()
             )));
         }
+        if table.get_ref().iter().any(|(key, _)| key.get_ref() == "robot") {
+            return Err(PinError("the pinned plan is a robot file".to_owned()));
+        }
         let mut keys = Keys::new(table.get_ref());
         // The format is checked first, because other formats may have other keys.
         let format = keys.required("format", number)?;
