@@ -12,7 +12,7 @@ use robot_document::{
 };
 use robot_dynamics::quantity::Kind;
 use robot_model::description::read_toml;
-use robot_model::robot::Robot;
+use robot_model::robot::{BaseFrames, Robot};
 use robot_model::variable::JointVariable;
 
 fn robots() -> Vec<Robot> {
@@ -248,6 +248,57 @@ fn forces_that_are_zero_are_not_in_friction() {
     let robot = read_toml("robot.toml", &text).unwrap().robot;
     for form in Form::ALL {
         check_all(&robot, &EquationOptions { form, friction: true, ..EquationOptions::default() });
+    }
+}
+
+/// Terms that cancel leave nothing: joints about and along axes between those of the frames, whose directions have roots
+/// or are rounded.
+#[test]
+fn rounding_errors_are_not_terms() {
+    let text = |kind: &str, [first, second]: [&str; 2], pose: &str| {
+        let link = |name: &str, axis: &str, origin: &str| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ type = \"{kind}\", axis = {axis} }}\nmass = 2\n{origin}\n\
+                 center_of_mass = [0, \"l/2\", \"l/2\"]\ninertia = {{ xx = 1, yy = 1.1, zz = 1.2 }}\n"
+            )
+        };
+        let links = [link("a", first, ""), link("b", second, &format!("origin = {pose}"))];
+        format!(
+            "format = 1\n[robot]\nname = \"rob\"\ngravity = [0, \"-g\", 0]\n[parameters]\ng = 9.81\nl = 0.3\n{}",
+            links.concat()
+        )
+    };
+    let turned = "{ rpy = [0, 0, 0.3] }";
+    for (kind, axes, pose) in [
+        ("prismatic", ["[1, -2, 2]", "\"z\""], turned),
+        ("revolute", ["[1, 0, 1]", "\"x\""], "{ xyz = [0.1, \"l\", 0], rpy = [0.4, \"pi/2\", 0] }"),
+        ("revolute", ["[1, 1, 1]", "[0, 1, 1]"], "{ xyz = [\"l\", 0, 0.2], rpy = [0, 0.4, 0] }"),
+    ] {
+        let robot = read_toml("robot.toml", &text(kind, axes, pose)).unwrap().robot;
+        for base_frames in [BaseFrames::File, BaseFrames::DenavitHartenberg] {
+            let robot = Robot { base_frames, ..robot.clone() };
+            for form in Form::ALL {
+                let options = EquationOptions { form, ..EquationOptions::default() };
+                let Ok(printed) = equations(&robot, &options) else { continue };
+                for equation in printed.groups.iter().flat_map(|group| &group.equations) {
+                    let is_tiny = |exponent: u32| equation.text.contains(&format!("e-{exponent}"));
+                    assert!(
+                        !(13..20).any(is_tiny),
+                        "{form:?} {}: {}",
+                        equation.name,
+                        equation.text
+                    );
+                }
+            }
+            let base = robot_document::base_parameters::base(&robot, None).unwrap();
+            for entry in base.list {
+                let text = entry.formula.text + &entry.value.text;
+                assert!(
+                    (13..20).all(|exponent| !text.contains(&format!("e-{exponent}"))),
+                    "{text}"
+                );
+            }
+        }
     }
 }
 

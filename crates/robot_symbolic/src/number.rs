@@ -204,6 +204,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn sums_that_cancel_are_zero() {
+        let real = |value: f64| Number::Real(value);
+        assert!((&real(0.1 + 0.2) - &real(0.3)).is_zero());
+        assert!((&real(0.1 + 0.2) + &real(-0.3)).is_zero());
+        assert!((&real(0.1 + 0.2) - &Number::Rational(Rational::new(3, 10).unwrap())).is_zero());
+        assert!(!(&real(1.0) - &real(1.0 + 1e-12)).is_zero());
+        assert!(!(&real(1e-300) + &Number::integer(0)).is_zero());
+        let third = Number::Rational(Rational::new(1, 3).unwrap());
+        let near = Number::Rational(Rational::from_f64(1.0 / 3.0).unwrap());
+        assert!(!(&third - &near).is_zero());
+    }
+
+    #[test]
     fn repeated_squaring_ends_in_a_float() {
         let mut number = Number::Rational(Rational::new(10, 7).unwrap());
         for _ in 0..20 {

@@ -53,7 +53,7 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
 const MAX_PRINTED: usize = 100_000;
 
 /// The maximum number of printed terms that are not among the derived ones; more are those of another robot.
-const MAX_WRONG: usize = 10_000;
+const MAX_WRONG: usize = 50_000;
 
 /// The maximum number of pairs of a wrong printed term and a missing derived term that are compared for one equation.
 const MAX_PAIRS: usize = 2_000_000;
@@ -256,9 +256,9 @@ fn expand<'p, 'g>(
 }
 
 fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {
-    let message = "the printed equations up to this one have too many terms, multiplied out";
+    let message = "the printed equations up to this one are too long, multiplied out";
     let error = Diagnostic::error(code::LIMIT, message).at(&equation.span, "");
-    let help = "are these equations of this robot? leave out the longest, or compare each in a file of its own";
+    let help = "is this an equation of this robot? leave out the longest, or compare each in a file of its own";
     Box::new(error.help(help))
 }
 

@@ -3,12 +3,14 @@
 use robot_model::variable::JointVariable;
 use robot_symbolic::collected::length;
 use robot_symbolic::print::ArrangedTerm;
-use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions};
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, walk};
 
-use super::compact::{definitions, tidy};
+use super::compact::definitions;
 use super::definitions::Root;
 use super::naming::named_length;
-use super::{Equation, Group, Writer, aliases, joint_torque, letters, numbers, references, shapes};
+use super::{
+    Equation, Group, Writer, aliases, arranged, joint_torque, letters, numbers, references, shapes,
+};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -226,6 +228,23 @@ fn all<'s, 'g>(sections: &'s [Section<'g>]) -> impl Iterator<Item = &'s Coeffici
     sections.iter().flat_map(|section| &section.coefficients)
 }
 
+/// The largest number of expressions of a value whose numbers and powers are collected; a larger one could share parts.
+const MAX_ARRANGED: usize = 60;
+
+/// An equation whose right side is an expression in the structure in which it was built, with collected numbers and
+/// powers if it is short.
+fn as_built(
+    writer: &Writer<'_, '_>,
+    name: String,
+    left: Math,
+    value: Expr<'_>,
+) -> Result<Equation, Error> {
+    match walk::is_longer_than(value, MAX_ARRANGED) {
+        true => writer.of_expression(name, left, value),
+        false => writer.of_terms(name, left, &arranged::terms(value, &writer.order)),
+    }
+}
+
 /// The definitions of the coefficients and of the names that long ones need.
 pub(super) fn definitions_of<'g>(
     writer: &mut Writer<'_, 'g>,
@@ -258,7 +277,7 @@ pub(super) fn definitions_of<'g>(
                 Shown::Long { .. } if section.by_symbols => {
                     writer.of_expression(name, left, coefficient.value)?
                 }
-                Shown::Long { .. } => tidy(writer, name, left, named.rewritten(value))?,
+                Shown::Long { .. } => as_built(writer, name, left, named.rewritten(value))?,
             });
         }
         groups.push(Group::of_definitions(section.title, equations));

@@ -431,6 +431,8 @@ mod tests {
             (r"\frac{0.96}{a} + \frac{1.03 b}{a}", r"\frac{1}{a}+\frac{b}{a}"),
             (r"a / 1.04 b", "a/1 b"),
             (r"0.0123 q", "0.01 q"),
+            (r"\frac{745523852833173678489}{559146513121000000000000} q", r"0.001 q"),
+            (r"3.0 q", "3 q"),
             (r"0.0000096 q", r"10^{-5}q"),
         ] {
             let shown = formula(&tidied(&read(given).unwrap(), Some(1)));

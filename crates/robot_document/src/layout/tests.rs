@@ -180,6 +180,20 @@ fn powers_are_not_printed_like_components() {
     }
 }
 
+/// A number within a product is printed first, so that there is a dot between it and a number before.
+#[test]
+fn numbers_do_not_meet() {
+    let graph = Graph::new();
+    let [x, y] = ["x", "y"].map(|name| graph.symbol(name));
+    let table = SymbolTable::spelled(Trigonometry::Named);
+    let shown = |expr| formula(&table.expression(expr).unwrap());
+    let number = |text| graph.parse(text).unwrap();
+    let inner = x * (number("0.1") * y);
+    assert_eq!(shown(number("0.8") * (inner + 0)), r"0.8 \cdot 0.1 y x");
+    // A sine is last if it is printed last.
+    assert_eq!(shown(x.sin() * number("0.5") * y), r"0.5 \sin x \cdot y");
+}
+
 #[test]
 fn nesting_ends_somewhere() {
     let graph = Graph::new();
