@@ -20,11 +20,12 @@ pub fn states() -> String {
     )
 }
 
-/// The largest error of each function in a component, as a fraction of the largest component of the result.
+/// For each function, the largest error of any component of its result, as a fraction of the largest component.
 ///
 /// # Errors
 ///
-/// The reason why the programs could not be compared with the solver: parameters without values, or a missing function.
+/// The reason why the programs could not be compared with the solver: parameters without values, a missing
+/// function, or a state for which the solver has no result.
 pub fn worst(programs: &Programs) -> Result<Vec<(&'static str, f64)>, String> {
     let mechanism = Mechanism::nominal(&programs.robot).map_err(|error| error.to_string())?;
     let interpreter = Interpreter::new(&programs.module, &[]).map_err(|error| error.to_string())?;

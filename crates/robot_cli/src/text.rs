@@ -125,7 +125,7 @@ pub(crate) fn list(title: &str, names: &[&str]) -> String {
     shown
 }
 
-/// Prints rows in columns; the first row is the title, and numbers are right-aligned.
+/// Prints rows in columns; the first row is the header, and a column of numbers alone is right-aligned.
 pub(crate) fn table(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {

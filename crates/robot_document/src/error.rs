@@ -86,7 +86,9 @@ pub enum Error {
     },
     /// A letter that was chosen for the torques, the mass matrix, the Coriolis and centrifugal terms or the gravity
     /// terms stands for something else in the equations.
-    #[error("the letter {letter} is that of {owner}; choose another letter for the equations")]
+    #[error(
+        "the letter {letter} already stands for {owner}; choose another letter for the joint torques or the matrices"
+    )]
     TakenLetter {
         /// The letter.
         letter: String,

@@ -169,11 +169,11 @@ fn given_letters_name_nothing_else() {
             let why = printed(refused, form, Trigonometry::Named).unwrap_err().to_string();
             assert_eq!(
                 why,
-                "the letter q is that of the joint positions; choose another letter for the equations"
+                "the letter q already stands for the joint positions; choose another letter for the joint torques or the matrices"
             );
         }
         let sines = printed("tau,M,c,g", form, Trigonometry::Short).unwrap_err().to_string();
-        assert!(sines.contains("the letter c is that of sines and cosines;"), "{sines}");
+        assert!(sines.contains("the letter c already stands for sines and cosines;"), "{sines}");
         // The letters that the forms choose give way.
         for taken in ["x,M,C,g", "tau,w,C,g", "tau,M,w,t", "tau,k,x,g", "Y,M,C,g", "h,w,x,k"] {
             let printed = printed(taken, form, Trigonometry::Named).unwrap();
@@ -190,7 +190,10 @@ fn given_letters_name_nothing_else() {
         }
     }
     let why = printed("omega,M,C,g", Form::Recursive, Trigonometry::Named).unwrap_err().to_string();
-    assert!(why.contains("the letter omega is that of other symbols of these equations"), "{why}");
+    assert!(
+        why.contains("the letter omega already stands for other symbols of these equations"),
+        "{why}"
+    );
 }
 
 /// A symbol of the robot that is printed like something that the equations define is refused, and the letter is named.
@@ -205,7 +208,9 @@ fn symbols_of_the_robot_name_nothing_else() {
     let why =
         |latex: String, form: Form| printed("\nr1 = {", &latex, form).unwrap_err().to_string();
     for form in [Form::Expanded, Form::Collected, Form::Grouped, Form::Regrouped] {
-        assert!(why(latex("Q_1"), form).starts_with("the letter Q is that of other symbols"));
+        assert!(
+            why(latex("Q_1"), form).starts_with("the letter Q already stands for other symbols")
+        );
         assert!(why(latex(r"\pi"), form).contains("`r1` and `pi` are both printed as"));
         assert!(why(latex(r"\mathrm{sin}"), form).contains("`r1` and `sin` are both printed as"));
         assert!(why(latex("r_2^2"), form).contains("`r1` and `r2^2` are both printed as"));
@@ -214,7 +219,7 @@ fn symbols_of_the_robot_name_nothing_else() {
         assert!(why(latex(vector), Form::Grouped).contains("`r1` and `q"), "{vector}");
         assert!(printed("\nr1 = {", &latex(vector), Form::Expanded).is_ok());
     }
-    assert!(why(latex("Q"), Form::Grouped).starts_with("the letter Q is that of a symbol"));
+    assert!(why(latex("Q"), Form::Grouped).starts_with("the letter Q already stands for a symbol"));
     // Without a joint 3, `Q_3` is only a parameter.
     assert!(printed("\nr1 = {", &latex("Q_3"), Form::Grouped).is_ok());
 }

@@ -11,7 +11,7 @@ use crate::probe::TABLE;
 /// The bias of x86 relocations, which are relative to the end of an instruction.
 const PC_BIAS: i64 = 4;
 
-/// A processor whose instructions can be read.
+/// An instruction set that can be decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Machine {
     /// 64-bit x86.

@@ -161,7 +161,7 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
 fn reason(error: &Error) -> String {
     match error {
         Error::TakenLetter { letter, owner } => format!(
-            "the letter {letter} is that of {owner}; give the robot's symbols with this letter another `latex` in the \
+            "the letter {letter} already stands for {owner}; give the robot's symbols with this letter another `latex` in the \
              robot file"
         ),
         other => other.to_string(),

@@ -75,11 +75,12 @@ pub fn programs(source: &Source, options: &Options) -> Result<Programs, Errors> 
     Ok(programs)
 }
 
-/// Does the same as [`programs`] for a robot that has been read; `name` is the name of its source in errors.
+/// Derives and compiles the functions of a robot that has been read, with these options alone: the result has no warnings
+/// and no budgets of a file. `name` is the name of the robot's source in errors.
 ///
 /// # Errors
 ///
-/// All errors in the options.
+/// All errors in the options; a plan that does not fit the robot; functions that are too large or cannot be computed.
 pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Programs, Errors> {
     programs_under(robot, name, options, &options.codegen(), MAX_NODES)
 }

@@ -1,4 +1,4 @@
-//! The numbers of links, in a fixed order.
+//! The numbers that describe links, such as angles, lengths and masses, in a fixed order.
 
 use robot_model::robot::{Body, Drive, Friction, Inertia, Joint, Link, Move, Placement};
 use robot_symbolic::Formula;
@@ -12,7 +12,7 @@ pub(super) enum Number {
     Size,
 }
 
-/// All numbers of the links; the order is the same for links with the same pattern.
+/// All numbers that describe the links; the order is the same for links with the same pattern.
 pub(super) fn numbers(links: &mut [Link]) -> Vec<(Number, &mut Formula)> {
     links.iter_mut().flat_map(of_link).collect()
 }

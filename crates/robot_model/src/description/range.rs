@@ -170,7 +170,7 @@ impl Range<'_, '_> {
                 Diagnostic::error(code::NUMBER, message)
                     .at(at, format!("magnitudes must be 0 or at least {LEAST:e}"))
                     .because(
-                        "products and quotients of smaller values are outside the range of \
+                        "products and quotients of values with smaller magnitudes can be outside the range of \
                          floating-point numbers",
                     )
                     .help("give the value in SI units, or 0 if it may be 0"),
@@ -185,7 +185,7 @@ pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic>
     (value.abs() > LARGEST).then(|| {
         Diagnostic::error(code::NUMBER, message())
             .at(at, format!("magnitudes may be at most {LARGEST:e}"))
-            .because("products of larger values are outside the range of floating-point numbers")
+            .because("products of larger values can be outside the range of floating-point numbers")
             .help("give the value in SI units")
     })
 }

@@ -59,7 +59,8 @@ pub struct Curve {
 /// The factor by which figures are drawn larger than they are shown, because coordinates are integers.
 const SCALE: u32 = 4;
 
-/// The style that replaces each drawn color by a dark one if the viewer prefers a dark scheme. Programs that ignore
+/// The style for viewers that prefer a dark scheme: it replaces the colors of the background, the text, the grid, the sums
+/// and the first curve, which could hardly be seen there. Programs that ignore
 /// `prefers-color-scheme`, such as converters to PDF, show the light colors.
 const DARK: &str = "<style>@media (prefers-color-scheme: dark) { \
     [fill='#FFFFFF'] { fill: #14171c } [fill='#282828'] { fill: #d8dce3 } [stroke='#282828'] { stroke: #d8dce3 } \

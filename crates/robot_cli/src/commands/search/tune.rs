@@ -13,7 +13,7 @@ use robot_symbolic::Random;
 
 use crate::failure::Failure;
 
-/// The rows of a table; the first is the title.
+/// The rows of a table; the first is the header.
 type Rows = Vec<Vec<String>>;
 
 /// The function whose operations the search minimizes.
