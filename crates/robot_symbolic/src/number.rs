@@ -129,7 +129,8 @@ impl Number {
 /// The sum of floating-point numbers, or 0 if they cancel each other up to the rounding errors that they have already.
 fn sum(a: f64, b: f64) -> f64 {
     let sum = a + b;
-    if sum.abs() <= ROUNDED * a.abs().max(b.abs()) { 0.0 } else { sum }
+    let is_rounding = sum.is_finite() && sum.abs() <= ROUNDED * a.abs().max(b.abs());
+    if is_rounding { 0.0 } else { sum }
 }
 
 impl std::ops::Add for &Number {
@@ -211,6 +212,7 @@ mod tests {
         assert!((&real(0.1 + 0.2) - &Number::Rational(Rational::new(3, 10).unwrap())).is_zero());
         assert!(!(&real(1.0) - &real(1.0 + 1e-12)).is_zero());
         assert!(!(&real(1e-300) + &Number::integer(0)).is_zero());
+        assert_eq!((&real(f64::INFINITY) + &real(1.0)).to_f64(), f64::INFINITY);
         let third = Number::Rational(Rational::new(1, 3).unwrap());
         let near = Number::Rational(Rational::from_f64(1.0 / 3.0).unwrap());
         assert!(!(&third - &near).is_zero());
