@@ -382,7 +382,11 @@ fn the_remedy_for_a_taken_letter_is_the_option_for_letters() {
     std::fs::write(&path, text).unwrap();
     let grouped = ["equations", path.to_str().unwrap(), "--form", "grouped", "--format", "latex"];
     let shown = complaint(1, &grouped, "");
-    assert!(shown.ends_with("choose another letter for the equations (--letters)\n"), "{shown}");
+    assert!(
+        shown
+            .ends_with("choose another letter for the joint torques or the matrices (--letters)\n"),
+        "{shown}"
+    );
     output(&[&grouped[..], &["--letters", "tau,M,C,g"]].concat(), "");
 }
 
