@@ -291,7 +291,7 @@ pub(crate) fn between<'g>(
             let back = parent.axes.transpose();
             (clean(back * rotation), back * (origin - parent.origin))
         }
-        None => (clean(rotation), origin),
+        None => (rotation, origin),
     }
 }
 
