@@ -115,8 +115,7 @@ impl<'g> Scalar<'g> {
 
 /// Whether the polynomial only contains symbols and rational coefficients.
 fn is_rational(polynomial: &Polynomial<'_>) -> bool {
-    polynomial.terms().all(|(_, number)| number.as_rational().is_some())
-        && polynomial.atoms().iter().all(|atom| atom.as_symbol().is_some())
+    polynomial.is_exact() && polynomial.atoms().iter().all(|atom| atom.as_symbol().is_some())
 }
 
 /// The canonical form of an expression, if the expression is short and the form contains no sums as atoms.
