@@ -256,10 +256,10 @@ fn forces_that_are_zero_are_not_in_friction() {
     }
 }
 
-/// Terms of base parameters that cancel leave nothing: joints about and along axes between those of the frames, whose
-/// directions have roots or are rounded.
+/// Terms that cancel leave nothing: joints about and along axes between those of the frames, whose directions have roots
+/// or are rounded.
 #[test]
-fn rounding_errors_are_not_terms_of_base_parameters() {
+fn rounding_errors_are_not_terms() {
     let text = |kind: &str, [first, second]: [&str; 2], pose: &str| {
         let link = |name: &str, axis: &str, origin: &str| {
             format!(
@@ -282,6 +282,19 @@ fn rounding_errors_are_not_terms_of_base_parameters() {
         let robot = read_toml("robot.toml", &text(kind, axes, pose)).unwrap().robot;
         for base_frames in [BaseFrames::File, BaseFrames::DenavitHartenberg] {
             let robot = Robot { base_frames, ..robot.clone() };
+            for form in Form::ALL {
+                let options = EquationOptions { form, ..EquationOptions::default() };
+                let Ok(printed) = equations(&robot, &options) else { continue };
+                for equation in printed.groups.iter().flat_map(|group| &group.equations) {
+                    let is_tiny = |exponent: u32| equation.text.contains(&format!("e-{exponent}"));
+                    assert!(
+                        !(13..20).any(is_tiny),
+                        "{form:?} {}: {}",
+                        equation.name,
+                        equation.text
+                    );
+                }
+            }
             let base = robot_document::base_parameters::base(&robot, None).unwrap();
             for entry in base.list {
                 let text = entry.formula.text + &entry.value.text;

@@ -4,6 +4,10 @@ use std::hash::{Hash, Hasher};
 
 use crate::rational::{MAX_BITS, Rational};
 
+/// The size of rounding errors of floating-point numbers, as a fraction of their largest term. Each comes from some tens
+/// of operations.
+const ROUNDED: f64 = 1e-14;
+
 /// A constant of an expression.
 ///
 /// Robot files contain decimal numbers, which are exact rationals, and their sums and products stay exact. A constant
@@ -122,6 +126,13 @@ impl Number {
     }
 }
 
+/// The sum of floating-point numbers, or 0 if they cancel each other up to the rounding errors that they have already.
+fn sum(a: f64, b: f64) -> f64 {
+    let sum = a + b;
+    let is_rounding = sum.is_finite() && sum.abs() <= ROUNDED * a.abs().max(b.abs());
+    if is_rounding { 0.0 } else { sum }
+}
+
 impl std::ops::Add for &Number {
     type Output = Number;
     #[inline]
@@ -129,14 +140,14 @@ impl std::ops::Add for &Number {
         if let Some(sum) = self.integers(other, i64::checked_add) {
             return sum;
         }
-        self.combine(other, |a, b| a + b, |a, b| a + b)
+        self.combine(other, |a, b| a + b, sum)
     }
 }
 
 impl std::ops::Sub for &Number {
     type Output = Number;
     fn sub(self, other: &Number) -> Number {
-        self.combine(other, |a, b| a - b, |a, b| a - b)
+        self.combine(other, |a, b| a - b, |a, b| sum(a, -b))
     }
 }
 
@@ -192,6 +203,20 @@ impl From<Rational> for Number {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sums_that_cancel_are_zero() {
+        let real = |value: f64| Number::Real(value);
+        assert!((&real(0.1 + 0.2) - &real(0.3)).is_zero());
+        assert!((&real(0.1 + 0.2) + &real(-0.3)).is_zero());
+        assert!((&real(0.1 + 0.2) - &Number::Rational(Rational::new(3, 10).unwrap())).is_zero());
+        assert!(!(&real(1.0) - &real(1.0 + 1e-12)).is_zero());
+        assert!(!(&real(1e-300) + &Number::integer(0)).is_zero());
+        assert_eq!((&real(f64::INFINITY) + &real(1.0)).to_f64(), f64::INFINITY);
+        let third = Number::Rational(Rational::new(1, 3).unwrap());
+        let near = Number::Rational(Rational::from_f64(1.0 / 3.0).unwrap());
+        assert!(!(&third - &near).is_zero());
+    }
 
     #[test]
     fn repeated_squaring_ends_in_a_float() {

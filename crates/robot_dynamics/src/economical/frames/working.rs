@@ -291,7 +291,7 @@ pub(crate) fn between<'g>(
             let back = parent.axes.transpose();
             (clean(back * rotation), back * (origin - parent.origin))
         }
-        None => (rotation, origin),
+        None => (clean(rotation), origin),
     }
 }
 
