@@ -42,6 +42,15 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Parses a time in seconds, such as `0.5`, `1/2` or `2s`. Whether it is finite is not checked.
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    let digits = |text: &str| text.trim().parse().or_else(|_| number(text));
+    digits(text).or_else(|wrong| match text.trim().strip_suffix('s') {
+        Some(before) => digits(before).map_err(|_| wrong),
+        None => Err(wrong),
+    })
+}
+
 /// Returns a parser of arguments that are whole numbers in a range, written such as `1000` or `1e3`.
 pub(crate) fn whole<T>(
     range: impl RangeBounds<T> + Clone,
@@ -159,6 +168,17 @@ mod tests {
         }
         for text in ["", "x", "pi/", "1/0", "inf", "nan", "90deg", "1,5", "2*x"] {
             assert!(number(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn seconds_have_a_unit_or_none() {
+        for (text, value) in [("2", 2.0), ("1/2", 0.5), ("1s", 1.0), ("-1e-3 s", -1e-3)] {
+            assert_eq!(seconds(text), Ok(value), "{text}");
+        }
+        for text in ["", "s", "1m", "1 ms", "x"] {
+            let shown = quote(text);
+            assert!(seconds(text).is_err_and(|why| why.contains(&*shown)), "{text}");
         }
     }
 

@@ -22,7 +22,7 @@ use crate::progress::Progress;
 use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
-use crate::values::{of_joints, whole};
+use crate::values::{self, of_joints, seconds, whole};
 
 /// The number of lines of the output that are in memory as text.
 const PART: usize = 1024;
@@ -41,13 +41,13 @@ pub(crate) struct Arguments {
     #[command(flatten)]
     robot: RobotArgument,
     /// Duration of the simulation, s
-    #[arg(long, value_name = "S", default_value_t = 10.0, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", value_parser = seconds, default_value_t = 10.0, allow_hyphen_values = true)]
     time: f64,
     /// Time between lines of the output, s
-    #[arg(long, value_name = "S", default_value_t = 0.01, allow_hyphen_values = true)]
+    #[arg(long, value_name = "S", value_parser = seconds, default_value_t = 0.01, allow_hyphen_values = true)]
     step: f64,
     /// Error tolerance of a step in a component y of q and qd: TOLERANCE (1 + |y|)
-    #[arg(long, default_value = "1e-9", allow_hyphen_values = true)]
+    #[arg(long, default_value = "1e-9", value_parser = values::number, allow_hyphen_values = true)]
     tolerance: f64,
     /// Maximum number of integrator steps [default: 1000000, or ten per line of output if that is more]
     #[arg(long, value_name = "STEPS", value_parser = whole(0_usize..), allow_hyphen_values = true)]

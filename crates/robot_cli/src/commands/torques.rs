@@ -17,6 +17,7 @@ use crate::motion;
 use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
+use crate::values::seconds;
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -51,6 +52,7 @@ pub(crate) struct Arguments {
     #[arg(
         long,
         value_name = "S",
+        value_parser = seconds,
         requires = "expressions",
         conflicts_with = "trajectory",
         allow_hyphen_values = true
@@ -60,6 +62,7 @@ pub(crate) struct Arguments {
     #[arg(
         long,
         value_name = "S",
+        value_parser = seconds,
         default_value_t = 0.01,
         conflicts_with = "trajectory",
         allow_hyphen_values = true

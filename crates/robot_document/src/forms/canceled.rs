@@ -1,4 +1,4 @@
-//! Sums in whose shared parts terms cancel.
+//! Sums in which terms cancel, also in their shared parts.
 
 use robot_symbolic::{Expr, Graph, Id, Number, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashMap;
@@ -8,6 +8,24 @@ type Terms<'g> = Vec<(Expr<'g>, Number)>;
 
 /// The largest number of expressions that are visited in a sum, and of terms of a polynomial.
 const MAX_TERMS: usize = 40;
+
+/// The largest number of terms of a sum that is multiplied out because few are left.
+const MAX_FEW: usize = 4;
+
+/// Writes sums of which fewer terms are left if they are multiplied out, such as the squares of a sine and a cosine, as
+/// these terms.
+pub(super) fn with_few_terms<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
+    let limits =
+        PolynomialOptions { max_terms: MAX_FEW, ..PolynomialOptions::keeping_angle_sums() };
+    walk::rebuild_upward(values, graph, |part| match part.view() {
+        View::Add(..) | View::Sub(..) => {
+            let few = Polynomial::of(part, &limits).ok();
+            let count = terms(part, &|_| true).map_or(usize::MAX, |terms| terms.len());
+            few.filter(|few| few.len() < count).map_or(part, |few| few.to_expr())
+        }
+        _ => part,
+    })
+}
 
 /// Writes sums without the shared parts whose terms cancel, unless this takes more terms. A reader of x₁ − x₂ with
 /// x₁ = a + c and x₂ = b + c would believe that c has an effect; the sum becomes a − b.
@@ -118,6 +136,19 @@ mod tests {
         let deep = ["sin(z - (a - b))", "cos(z - (a - b))", "sin(a + b)", "cos(a + b)"];
         let found = texts(&[deep.as_slice(), &["(z - (a - b)) - (a + b)"]].concat());
         assert_eq!(found[4], "z - 2*a");
+    }
+
+    #[test]
+    fn few_terms_that_are_left_are_written() {
+        let graph = Graph::new();
+        for (sum, few) in [
+            ("a*(cos(q)*cos(q) + sin(q)*sin(q)) - b*(sin(q) - cos(q))", "a - b*(sin(q) - cos(q))"),
+            ("3*(w*w) + z - 1.5*((2*w)*w)", "z"),
+            ("x*(a + b) + y*(a - b)", "x*(a + b) + y*(a - b)"),
+        ] {
+            let found = with_few_terms(&[graph.parse(sum).unwrap()], &graph);
+            assert_eq!(to_text(found[0]).unwrap(), few);
+        }
     }
 
     #[test]

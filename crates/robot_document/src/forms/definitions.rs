@@ -4,7 +4,7 @@ use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_value};
 use robot_symbolic::{Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::compact::{moving, short_terms, tidy};
 use super::letters::candidates;
@@ -26,6 +26,8 @@ pub(super) struct Definitions<'g, 'h> {
     roots: Vec<Expr<'g>>,
     worthy: Vec<Worthy<'g>>,
     moving: FxHashSet<Id>,
+    /// The names of the expressions that are defined, by their values in the graph of the names.
+    names: FxHashMap<Id, Expr<'h>>,
     /// Parts that possibly need no name.
     pending: Vec<Expr<'g>>,
     /// The joint torques that are parts of others.
@@ -92,6 +94,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             roots: roots.to_vec(),
             worthy: worth_naming(roots, digits),
             moving: moving(roots),
+            names: FxHashMap::default(),
             pending: vec![],
             named_torques: vec![],
             defined: vec![],
@@ -260,7 +263,9 @@ impl<'g, 'h> Definitions<'g, 'h> {
                 return Ok(());
             }
         }
-        if let Some(known) = known(&terms, self.named.graph) {
+        let written = arranged_value(&terms, self.named.graph);
+        let same = self.names.get(&written.id()).copied();
+        if let Some(known) = same.or_else(|| known(&terms, self.named.graph)) {
             self.named.replace(expr, known);
             return Ok(());
         }
@@ -283,6 +288,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         let left = writer.symbols.look(&name);
         section.equations.push(writer.of_terms(name.clone(), left, &terms)?);
         self.named.name(expr, &name);
+        self.names.insert(written.id(), self.named.graph.symbol(&name));
         Ok(())
     }
 

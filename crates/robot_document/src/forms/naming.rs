@@ -59,8 +59,26 @@ pub(super) fn is_leaf(expr: Expr<'_>) -> bool {
 
 /// Whether a constant is long enough for a name if it is printed with `digits` significant digits.
 pub(super) fn is_long_constant(expr: Expr<'_>, digits: Option<usize>) -> bool {
-    let shown = || robot_symbolic::print::to_text(expr).map(|text| tidied_text(&text, digits));
-    matches!(expr.view(), View::Number(_)) && shown().is_ok_and(|text| text.len() > LONG_CONSTANT)
+    matches!(expr.view(), View::Number(_)) && !is_short_text(expr, digits)
+}
+
+/// Whether a constant is as easy to read as a name if it is printed with `digits` significant digits.
+fn is_short_text(expr: Expr<'_>, digits: Option<usize>) -> bool {
+    let shown = robot_symbolic::print::to_text(expr).map(|text| tidied_text(&text, digits));
+    shown.is_ok_and(|text| text.len() <= LONG_CONSTANT)
+}
+
+/// The expressions without symbols.
+fn constants(all: &[Expr<'_>]) -> FxHashSet<Id> {
+    let mut constants = FxHashSet::default();
+    for expr in all {
+        let is_constant = expr.as_symbol().is_none()
+            && expr.operands().iter().all(|operand| constants.contains(&operand.id()));
+        if is_constant {
+            constants.insert(expr.id());
+        }
+    }
+    constants
 }
 
 /// An expression that should have a name.
@@ -78,6 +96,7 @@ pub(super) struct Worthy<'g> {
 pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec<Worthy<'g>> {
     let all = walk::reachable(roots);
     let angles = angles(&all);
+    let constants = constants(&all);
     let mut users: FxHashMap<Id, usize> = FxHashMap::default();
     for expr in &all {
         // The base of a square is counted twice.
@@ -99,7 +118,8 @@ pub(super) fn worth_naming<'g>(roots: &[Expr<'g>], digits: Option<usize>) -> Vec
             _ => 1 + operand_sizes(expr, &sizes),
         };
         let used = users.get(&expr.id()).copied().unwrap_or_default();
-        let long = (used > 1 && size >= SHORT && !is_leaf(expr)) || size > LONG;
+        let is_short = || constants.contains(&expr.id()) && is_short_text(expr, digits);
+        let long = (used > 1 && size >= SHORT && !is_leaf(expr) && !is_short()) || size > LONG;
         // A quantity that is not part of another one already has a name.
         let is_quantity = used == 1 && is_root(&expr);
         let is_negative = matches!(expr.view(), View::Neg(_));

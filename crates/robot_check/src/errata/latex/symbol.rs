@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use robot_model::diagnostic::quote;
 use robot_symbolic::ParseError;
 use robot_symbolic::formula::is_reserved;
 
@@ -57,6 +58,15 @@ impl Translator<'_, '_> {
                     return self.applied(function, first, exponent);
                 }
                 None => {}
+            }
+        }
+        for (index, what) in [(&lower, "index"), (&upper, "exponent")] {
+            let is_known = what == "index" && (self.names)(&key).is_some();
+            match index {
+                Some(index) if is_arithmetic(&index.key) && !is_known => {
+                    return Err(calculated(index, what));
+                }
+                _ => {}
             }
         }
         match upper {
@@ -128,6 +138,25 @@ impl Translator<'_, '_> {
     }
 }
 
+/// Whether an index is a calculation, such as `1+1`, whose operators a name would lose.
+fn is_arithmetic(index: &str) -> bool {
+    let has_digit = index.bytes().any(|byte| byte.is_ascii_digit());
+    let has_operator = index.trim_start_matches('-').contains(['+', '-', '/', '^', '(', ')']);
+    let is_number_with_index =
+        index.starts_with(|first: char| first.is_ascii_digit()) && index.contains('_');
+    (has_digit && has_operator) || is_number_with_index
+}
+
+/// The error of an index that is a calculation.
+fn calculated(index: &Index, what: &str) -> ParseError {
+    let message = match what {
+        "exponent" => "expected an integer as the exponent".to_owned(),
+        _ => format!("`{}` is not the index of a symbol of the robot", quote(&index.key)),
+    };
+    let help = format!("write the {what} as one number, or the symbol as `equations` prints it");
+    ParseError::new(index.span.clone(), message).help(help)
+}
+
 /// The angle of joint numbers: `q2+q3` for `23`, `q2-q3` for `2-3`, `q2+q10` for `2,10`.
 fn joints(index: &str) -> Option<String> {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
@@ -155,12 +184,13 @@ fn joints(index: &str) -> Option<String> {
     angle.strip_prefix('+').map(str::to_owned).or((!angle.is_empty()).then_some(angle))
 }
 
-/// A name made of the letters and digits of a key.
+/// A name made of the letters and digits of a key; signs that tell a symbol from another one are words.
 fn plain(key: &str) -> String {
     if key == r"\pi" {
         return "pi".to_owned();
     }
-    let name: String = key.chars().filter(char::is_ascii_alphanumeric).collect();
+    let words = key.replace('*', "star").replace('+', "plus").replace('-', "minus");
+    let name: String = words.chars().filter(char::is_ascii_alphanumeric).collect();
     let begins = name.starts_with(|first: char| first.is_ascii_alphabetic());
     if begins && !is_reserved(&name) { name } else { format!("_{name}") }
 }

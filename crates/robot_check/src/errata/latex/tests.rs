@@ -65,6 +65,13 @@ fn what_papers_print_is_read() {
 
 #[test]
 fn keys_tell_symbols_apart() {
+    let read = |latex: &str| to_infix(latex, &|_| None).unwrap().text().to_owned();
+    for (one, other) in
+        [("m_1", "m_1^*"), ("m_1^*", "m_1^+"), ("m_1^+", "m_1^-"), ("m_{1}", r"\bar m_1")]
+    {
+        assert_ne!(read(one), read(other));
+    }
+    assert_eq!(read("F_{l_6}"), "Fl6");
     assert_eq!(symbol_key(r"F_{l_x}^{5}"), "F_l_x^5");
     assert_eq!(symbol_key(r"\ddot{q}_{1}"), symbol_key(r"\ddot q_1"));
 }
@@ -78,6 +85,15 @@ fn errors_name_their_place() {
         (r"\sin q_2^2", "q_2^2", "a power of the function"),
         (r"q_1^{a}^2", "^", "second subscript"),
         (r"(q_1)^{x}", "^{x}", "integer"),
+        // The operators of an exponent or an index are not lost: none of these is m_{12} or q_{12}.
+        (r"m_1^{2-}", "^{2-}", "integer"),
+        (r"m_1^{(2)}", "^{(2)}", "integer"),
+        (r"m_1^{4/2}", "^{4/2}", "integer"),
+        (r"q_1^{2^{3}}", "^{2^{3}}", "integer"),
+        (r"m_1^{2_3}", "^{2_3}", "integer"),
+        (r"m_{1-2}", "_{1-2}", "not the index"),
+        (r"m_{1^2}", "_{1^2}", "not the index"),
+        (r"\cos q_{1-2}", "_{1-2}", "not the index"),
         (r"q_1 é", "é", "is not supported here"),
         (r"\frac{1}", "", "incomplete"),
         (r"a_{b", "{", "not closed"),

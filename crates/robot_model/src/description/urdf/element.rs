@@ -87,6 +87,7 @@ impl<'a, 'i> Element<'a, 'i> {
         let element = Element { node, kind };
         element.check_attributes(reader);
         element.check_children(reader);
+        element.check_text(reader);
         element
     }
 
@@ -233,6 +234,29 @@ impl<'a, 'i> Element<'a, 'i> {
                 names => format!("the known elements are {}", list(names)),
             };
             reader.report(unknown(&place, message, near, self.kind.strict).help(help));
+        }
+    }
+
+    /// Values are attributes in URDF, so text between the tags is of no effect.
+    fn check_text(&self, reader: &mut Reader<'_>) {
+        let written = self.node.document().input_text();
+        let texts = self.node.children().filter(Node::is_text).map(|text| text.range());
+        for range in texts {
+            let text = written.get(range.clone()).unwrap_or_default();
+            let line = text.trim().lines().next().unwrap_or_default();
+            if line.is_empty() {
+                continue;
+            }
+            let start = range.start + text.find(line).unwrap_or_default();
+            let message = format!("text in `<{}>` is not read", self.kind.name);
+            let help = match self.kind.attributes {
+                [] => format!("`<{}>` has only other elements as contents", self.kind.name),
+                known => format!("the attributes of `<{}>` are {}", self.kind.name, list(known)),
+            };
+            let place = start..start + line.len();
+            reader.report(
+                Diagnostic::warning(code::NOT_READ, message).at(&place, "ignored").help(help),
+            );
         }
     }
 }
