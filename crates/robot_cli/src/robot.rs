@@ -235,10 +235,25 @@ pub(crate) struct LanguageArgument {
 
 /// The parser for the name of a language.
 fn language() -> impl TypedValueParser<Value = Language> {
-    let words = Language::ALL.iter().map(|one| PossibleValue::new(one.name()).help(one.title()));
-    let words = PossibleValuesParser::new(words);
-    words.map(|word| Language::named(&word).unwrap_or_default())
+    let word = |one: &Language| {
+        let also = OTHER_NAMES.iter().filter(|(_, name)| *name == one.name()).map(|(also, _)| also);
+        PossibleValue::new(one.name()).help(one.title()).aliases(also)
+    };
+    let words = PossibleValuesParser::new(Language::ALL.iter().map(word));
+    words.map(|word| {
+        let other = OTHER_NAMES.iter().find(|(also, _)| *also == word);
+        Language::named(other.map_or(word.as_str(), |(_, name)| name)).unwrap_or_default()
+    })
 }
+
+/// Other names of languages, as people may write them.
+const OTHER_NAMES: [(&str, &str); 5] = [
+    ("c++", "cpp"),
+    ("octave", "matlab"),
+    ("js", "javascript"),
+    ("typescript", "javascript"),
+    ("node", "javascript"),
+];
 
 /// Functions in one call.
 #[derive(Args)]

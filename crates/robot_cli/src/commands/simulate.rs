@@ -50,7 +50,7 @@ pub(crate) struct Arguments {
     #[arg(long, default_value = "1e-9", value_parser = values::number, allow_hyphen_values = true)]
     tolerance: f64,
     /// Maximum number of integrator steps [default: 1000000, or ten per line of output if that is more]
-    #[arg(long, value_name = "STEPS", value_parser = whole(0_usize..), allow_hyphen_values = true)]
+    #[arg(long, value_name = "STEPS", value_parser = whole(1_usize..), allow_hyphen_values = true)]
     max_steps: Option<usize>,
     /// Initial joint positions, separated by commas; in rad or m, such as 0.5, pi/2 or 90deg [default: 0]
     #[arg(long, value_name = "Q1,Q2,…", allow_hyphen_values = true)]

@@ -216,3 +216,14 @@ fn infinite_base_parameters_are_a_warning() {
     let outcome = run(&[&["generate", file], &base[..]].concat());
     assert_eq!((outcome.code, outcome.errors.contains("R0804")), (0, false), "{}", outcome.errors);
 }
+
+#[test]
+fn languages_have_the_names_that_people_write() {
+    let file = robot("planar_2r");
+    let names =
+        [("c++", "cpp"), ("octave", "matlab"), ("js", "javascript"), ("node", "javascript")];
+    for (other, name) in names {
+        let [a, b] = [other, name].map(|name| run(&["generate", &file, "--language", name]));
+        assert_eq!((a.code, a.output, a.errors), (b.code, b.output, b.errors));
+    }
+}

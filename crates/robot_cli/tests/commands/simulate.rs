@@ -120,8 +120,13 @@ fn everything_that_is_wrong_is_said() {
     assert!(shown(&["--set", "x=1"]).contains("there is no parameter `x`"));
     assert!(shown(&["--max-steps", "5"]).contains("the limit of 5 steps was reached"));
     assert!(shown(&["--friction"]).contains("friction"));
-    let usage = run(&["simulate", &file, "--smoothing", "1"]);
-    assert_eq!(usage.code, 2);
+    for wrong in [["--smoothing", "1"], ["--max-steps", "0"], ["--time", "1 min"]] {
+        assert_eq!(run(&[&["simulate", &file], &wrong[..]].concat()).code, 2);
+    }
+    let times = [["--time", "0.5"], ["--time", "1/2"], ["--time", "0.5s"]];
+    let [first, others @ ..] =
+        times.map(|time| output(&[&["simulate", &file], &time[..]].concat(), ""));
+    assert!(others.iter().all(|other| *other == first));
     let trttr1 = robot("trttr1");
     let zero = run(&["simulate", &trttr1, "--friction", "--smoothing", "0"]);
     assert_eq!(zero.code, 2, "{}", zero.errors);

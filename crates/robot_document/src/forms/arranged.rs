@@ -82,17 +82,80 @@ pub(super) fn operations(terms: &[ArrangedTerm<'_>]) -> usize {
 const MAX_FACTORED: usize = 200;
 
 /// Joins terms that differ in only one factor: `l_4 x_2 + x_2 q_4` becomes `(l_4 + q_4) x_2`, which has one product
-/// less and no additional symbol.
+/// less and no additional symbol. Factors that all terms of a sum have in common stand before it.
 pub(super) fn factored<'h>(terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
-    let inside = |(factor, exponent): Power<'h>| match factor {
-        ArrangedFactor::Sum(terms) => (ArrangedFactor::Sum(factored(terms, order)), exponent),
-        atom => (atom, exponent),
+    let inside = |term: ArrangedTerm<'h>| {
+        let start = ArrangedTerm { factors: vec![], ..term.clone() };
+        let mut found = term.factors.into_iter().fold(start, |product, (factor, exponent)| {
+            let ArrangedFactor::Sum(terms) = factor else {
+                return multiplied(product, of_factors(vec![(factor, exponent)]));
+            };
+            let terms = factored(terms, order);
+            match (exponent, terms.as_slice()) {
+                (1, [single]) => multiplied(product, single.clone()),
+                _ => {
+                    let sum = (ArrangedFactor::Sum(terms), exponent);
+                    multiplied(product, of_factors(vec![sum]))
+                }
+            }
+        });
+        found.factors.sort_by_key(|(factor, _)| rank(factor, order));
+        found
     };
-    let one = |term: ArrangedTerm<'h>| ArrangedTerm {
-        factors: term.factors.into_iter().map(inside).collect(),
-        ..term
+    let terms = joined_terms(terms.into_iter().map(inside).collect(), order);
+    match common(&terms) {
+        Some(before) => vec![extracted(&terms, before, order)],
+        None => terms,
+    }
+}
+
+/// The product of two terms.
+fn multiplied<'h>(one: ArrangedTerm<'h>, other: ArrangedTerm<'h>) -> ArrangedTerm<'h> {
+    let mut factors = one.factors;
+    for (factor, exponent) in other.factors {
+        match factors.iter_mut().find(|(known, _)| *known == factor) {
+            Some((_, known)) => *known += exponent,
+            None => factors.push((factor, exponent)),
+        }
+    }
+    factors.retain(|(_, exponent)| *exponent != 0);
+    let coefficient = &one.coefficient * &other.coefficient;
+    ArrangedTerm { negative: one.negative != other.negative, coefficient, factors }
+}
+
+/// The factors that all terms have in common, with their coefficient if that is the same too; `None` if the terms have
+/// no common factor.
+fn common<'h>(terms: &[ArrangedTerm<'h>]) -> Option<ArrangedTerm<'h>> {
+    let [first, others @ ..] = terms else { return None };
+    let is_common = |power: &&Power<'h>| others.iter().all(|term| term.factors.contains(power));
+    let factors: Vec<_> = first.factors.iter().filter(is_common).cloned().collect();
+    let is_same = others.iter().all(|term| term.coefficient == first.coefficient);
+    let coefficient = if is_same { first.coefficient.clone() } else { Number::integer(1) };
+    let is_shorter = !factors.is_empty() && !others.is_empty();
+    is_shorter.then_some(ArrangedTerm { negative: false, coefficient, factors })
+}
+
+/// The sum of terms as a product of their common factors and the sum of what is left.
+fn extracted<'h>(
+    terms: &[ArrangedTerm<'h>],
+    common: ArrangedTerm<'h>,
+    order: &Order<'_>,
+) -> ArrangedTerm<'h> {
+    let is_same = !common.coefficient.is_one();
+    let rest = |term: &ArrangedTerm<'h>| {
+        let factors = term.factors.iter().filter(|power| !common.factors.contains(power));
+        let coefficient = if is_same { Number::integer(1) } else { term.coefficient.clone() };
+        ArrangedTerm { negative: term.negative, coefficient, factors: factors.cloned().collect() }
     };
-    let mut terms: Terms<'h> = terms.into_iter().map(one).collect();
+    let rest = sorted(terms.iter().map(rest).collect(), order);
+    let mut product = ArrangedTerm::product(&rest, common.factors);
+    product.coefficient = &product.coefficient * &common.coefficient;
+    product.factors.sort_by_key(|(factor, _)| rank(factor, order));
+    product
+}
+
+/// The terms of a sum in which those that differ in only one factor are joined.
+fn joined_terms<'h>(mut terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     if terms.len() > MAX_FACTORED {
         return terms;
     }
@@ -182,24 +245,16 @@ fn merged<'h>(mut terms: Terms<'h>, more: Terms<'h>) -> Terms<'h> {
     terms
 }
 
-/// The product or, with the power −1, the quotient of two sums. A sum of several terms becomes a factor in parentheses.
+/// The product or, with a negative `power`, the quotient of two sums. A sum of several terms becomes a factor in parentheses.
 fn times<'h>(a: Terms<'h>, b: Terms<'h>, power: i32, order: &Order<'_>) -> ArrangedTerm<'h> {
-    let (a, b) = (one_term(sorted(a, order)), one_term(sorted(b, order)));
-    let mut factors = a.factors;
-    for (factor, exponent) in b.factors {
-        let exponent = exponent * power;
-        match factors.iter_mut().find(|(known, _)| *known == factor) {
-            Some((_, known)) => *known += exponent,
-            None => factors.push((factor, exponent)),
-        }
+    let (a, mut b) = (one_term(sorted(a, order)), one_term(sorted(b, order)));
+    if power < 0 {
+        b.coefficient = b.coefficient.recip();
+        b.factors.iter_mut().for_each(|(_, exponent)| *exponent = -*exponent);
     }
-    factors.retain(|(_, exponent)| *exponent != 0);
-    factors.sort_by_key(|(factor, _)| rank(factor, order));
-    let coefficient = match power {
-        1 => &a.coefficient * &b.coefficient,
-        _ => &a.coefficient * &b.coefficient.recip(),
-    };
-    ArrangedTerm { negative: a.negative != b.negative, coefficient, factors }
+    let mut product = multiplied(a, b);
+    product.factors.sort_by_key(|(factor, _)| rank(factor, order));
+    product
 }
 
 /// A sum as one term, which is 0 for an empty sum.
@@ -292,7 +347,10 @@ mod tests {
             ("2*l1*qd1*qd2 - 2*r1*qd1*qd2 + l1*r1", "l1*r1 + 2*(l1 - r1)*qd1*qd2"),
             ("-l1*qd1 - r1*qd1", "-(l1 + r1)*qd1"),
             ("r1*qd1 + (l1 + q2)*qd1 + 1", "(l1 + r1 + q2)*qd1 + 1"),
-            ("2*l1*qd1 + r1*qd1", "2*l1*qd1 + r1*qd1"),
+            ("2*l1*qd1 + r1*qd1", "(2*l1 + r1)*qd1"),
+            ("2*l1*qd1 + r1*qd1 + 1", "2*l1*qd1 + r1*qd1 + 1"),
+            ("m1*(0.5*l1*r1*qd1 - 0.5*r1*q2*qd2)", "0.5*m1*r1*(l1*qd1 - q2*qd2)"),
+            ("m1*(2*l1*r1 + r1)", "m1*r1*(2*l1 + 1)"),
             ("l1*qd1 + r1*qd2 + qd1", "l1*qd1 + r1*qd2 + qd1"),
             ("(l1 + r1)*qd1 - l1*qd1", "r1*qd1"),
             ("qd2*(l1*qd1 + q2*qd1 + 1)", "((l1 + q2)*qd1 + 1)*qd2"),

@@ -9,22 +9,21 @@ type Terms<'g> = Vec<(Expr<'g>, Number)>;
 /// The largest number of expressions that are visited in a sum, and of terms of a polynomial.
 const MAX_TERMS: usize = 40;
 
-/// The largest number of terms of a sum that is multiplied out because few are left.
-const MAX_FEW: usize = 4;
-
-/// Writes sums of which fewer terms are left if they are multiplied out, such as the squares of a sine and a cosine, as
-/// these terms.
-pub(super) fn with_few_terms<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
+/// Writes sums that are numbers, such as that of the squares of a sine and a cosine, as these numbers, and a value of which
+/// one term is left if it is multiplied out as this term.
+pub(super) fn with_single_terms<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     let limits =
-        PolynomialOptions { max_terms: MAX_FEW, ..PolynomialOptions::keeping_angle_sums() };
-    walk::rebuild_upward(values, graph, |part| match part.view() {
-        View::Add(..) | View::Sub(..) => {
-            let few = Polynomial::of(part, &limits).ok();
-            let count = terms(part, &|_| true).map_or(usize::MAX, |terms| terms.len());
-            few.filter(|few| few.len() < count).map_or(part, |few| few.to_expr())
-        }
+        PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
+    let left = |sum: Expr<'g>, most: usize| {
+        let left = Polynomial::of(sum, &limits).ok();
+        left.filter(|left| left.len() <= most || left.as_number().is_some())
+            .map_or(sum, |left| left.to_expr())
+    };
+    let values = walk::rebuild_upward(values, graph, |part| match part.view() {
+        View::Add(..) | View::Sub(..) => left(part, 0),
         _ => part,
-    })
+    });
+    values.into_iter().map(|value| left(value, 1)).collect()
 }
 
 /// Writes sums without the shared parts whose terms cancel, unless this takes more terms. A reader of x₁ − x₂ with
@@ -139,15 +138,16 @@ mod tests {
     }
 
     #[test]
-    fn few_terms_that_are_left_are_written() {
+    fn a_single_term_that_is_left_is_written() {
         let graph = Graph::new();
-        for (sum, few) in [
-            ("a*(cos(q)*cos(q) + sin(q)*sin(q)) - b*(sin(q) - cos(q))", "a - b*(sin(q) - cos(q))"),
+        for (sum, left) in [
+            ("a*(cos(q)*cos(q) + sin(q)*sin(q)) + b*(sin(q) + cos(q))", "a + b*(cos(q) + sin(q))"),
             ("3*(w*w) + z - 1.5*((2*w)*w)", "z"),
+            ("(3*(w*w) + z - 1.5*((2*w)*w))*y", "(3*w^2 + z - 1.5*(2*w^2))*y"),
             ("x*(a + b) + y*(a - b)", "x*(a + b) + y*(a - b)"),
         ] {
-            let found = with_few_terms(&[graph.parse(sum).unwrap()], &graph);
-            assert_eq!(to_text(found[0]).unwrap(), few);
+            let found = with_single_terms(&[graph.parse(sum).unwrap()], &graph);
+            assert_eq!(to_text(found[0]).unwrap(), left);
         }
     }
 

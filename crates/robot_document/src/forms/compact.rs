@@ -27,7 +27,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let values = with_short_parameters(writer, &values);
     let values = numbers::rounded(writer, &values);
-    let values = canceled::with_few_terms(&values, writer.graph);
+    let values = canceled::with_single_terms(&values, writer.graph);
     let values = canceled::without_canceled_terms(&values, writer.graph);
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;

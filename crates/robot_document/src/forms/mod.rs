@@ -22,6 +22,7 @@ mod published;
 mod recursive;
 mod references;
 mod regrouped;
+mod roots;
 mod shapes;
 mod vectors;
 
@@ -434,6 +435,7 @@ impl<'g> Writer<'_, 'g> {
         left: Math,
         terms: &[ArrangedTerm<'_>],
     ) -> Result<Equation, Error> {
+        let terms = &roots::reduced(terms);
         let text = arranged_text(terms)?;
         let right = self.symbols.terms(terms)?;
         Ok(Equation { name, text, left, right })

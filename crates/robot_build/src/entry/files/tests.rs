@@ -171,6 +171,11 @@ fn a_folder_appears_whole_and_a_present_one_keeps_what_is_in_it() {
     let file = folder.put("file", OWN);
     let shown = message(Writer::new().force(true).write_folder(&file, &files));
     assert!(shown.contains("it is a file, but a folder is needed"), "{shown}");
+    #[cfg(unix)]
+    {
+        let shown = message(Writer::new().write_folder(Path::new("/dev/null"), &files));
+        assert!(shown.contains("it is a pipe or a device, but"), "{shown}");
+    }
 }
 
 #[test]

@@ -209,8 +209,12 @@ impl Writer {
                     .collect();
                 return self.write(&outputs);
             }
-            Place::Regular(..) | Place::Stream => {
-                let reason = "it is a file, but a folder is needed".to_owned();
+            place @ (Place::Regular(..) | Place::Stream) => {
+                let what = match place {
+                    Place::Regular(..) => "a file",
+                    _ => "a pipe or a device",
+                };
+                let reason = format!("it is {what}, but a folder is needed");
                 let path = folder.to_owned();
                 return Err(Errors::from(Error::File { action: "write", path, reason }));
             }

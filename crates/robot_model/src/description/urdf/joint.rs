@@ -194,7 +194,7 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
     }
     if let Some(limit) = element.child(reader, "limit") {
         if has_limits {
-            (moving.limits, moving.of_limits) = limits(reader, &limit);
+            (moving.limits, moving.of_limits) = limits(reader, &limit, element);
         }
         moving.unread = unread(reader, &limit);
     }
@@ -275,6 +275,7 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,
+    joint: &Element<'_, '_>,
 ) -> (Option<[Rational; 2]>, Option<Span>) {
     let attributes = [element.attribute("lower"), element.attribute("upper")];
     if attributes.iter().all(Option::is_none) {
@@ -304,9 +305,11 @@ fn limits(
         return (Some([lower, upper]), Some(span));
     }
     let equal = lower == upper;
+    let name = joint.attribute("name").map_or("", |name| name.text);
     reader.report(if equal {
-        Diagnostic::note(code::LEFT_OUT, "the limits leave no room to move and are ignored")
-            .at(&span, "lower and upper limit are equal")
+        let message =
+            format!("the limits of joint `{}` leave no room to move and are ignored", quote(name));
+        Diagnostic::note(code::LEFT_OUT, message).at(&span, "lower and upper limit are equal")
     } else {
         Diagnostic::error(code::LIMITS, "the lower limit is not below the upper limit")
             .at(&span, "")
