@@ -16,8 +16,8 @@ arm
 
 # %% [markdown]
 # Every value of the file is a symbol, so the equations are those of a textbook. `form="grouped"` groups the terms by
-# acceleration, velocity and gravity. The equations also contain the wrench w at the tip; it is 0 unless a call sets
-# it.
+# acceleration, velocity and gravity. The equations also contain w, the contribution of the wrench at the tip; the
+# wrench is 0 unless a call sets it.
 
 # %%
 equations = arm.equations(form="grouped")
@@ -63,8 +63,8 @@ print("the sum with its transpose:", (S + S.T).applyfunc(sympy.simplify))
 # The Coriolis and centrifugal terms of the printed equations are C q̇. The difference between the two is
 
 # %%
-velocity_terms = torques - torques.subs({qd1: 0, qd2: 0})
-print((C * qd - velocity_terms).applyfunc(lambda entry: sympy.simplify(sympy.expand(entry))))
+coriolis_terms = torques - torques.subs({qd1: 0, qd2: 0})
+print((C * qd - coriolis_terms).applyfunc(lambda entry: sympy.simplify(sympy.expand(entry))))
 
 # %% [markdown]
 # ## On a motion
@@ -96,10 +96,10 @@ for one in axes:
 # %%
 inertia = np.einsum("nij,nj->ni", arm.mass_matrix(motion["q"]), motion["qdd"])
 gravity = arm.gravity(motion["q"])
-velocity = arm.bias(motion["q"], motion["qd"]) - gravity
-print("sum below 1e-9 N m:", bool(np.abs(inertia + velocity + gravity).max() < 1e-9))
-for name, part in (("inertia", inertia), ("velocity", velocity), ("gravity", gravity)):
-    print(f"{name:9}", np.sqrt(np.mean(part**2, axis=0)).round(1), "N m, root mean square of joint 1 and 2")
+coriolis = arm.bias(motion["q"], motion["qd"]) - gravity
+print("sum below 1e-9 N m:", bool(np.abs(inertia + coriolis + gravity).max() < 1e-9))
+for name, part in (("inertia", inertia), ("Coriolis", coriolis), ("gravity", gravity)):
+    print(f"{name:9}", np.sqrt(np.mean(part**2, axis=0)).round(1), "N m, root mean square of joints 1 and 2")
 
 # %% [markdown]
 # Exercises: Set `m2=0.0` in a call of `arm.mass_matrix` and explain what remains of M₁₂. Show that the arm stays at

@@ -315,7 +315,7 @@ pub struct Drive {
     pub armature: Formula,
     /// The inertia of the rotor about its own axis, kg m².
     pub rotor_inertia: Formula,
-    /// The number of turns of the rotor per turn of the joint. The reflected inertia is the rotor's inertia times the
+    /// The rotor's turns per turn of a revolute joint, or its rad per m of a prismatic joint. The reflected inertia is the rotor's inertia times the
     /// square of this ratio.
     pub gear_ratio: Formula,
     /// Whether the gyroscopic moments of the spinning rotor are part of the model. In this case the rotor's axis is the

@@ -1,4 +1,4 @@
-//! The operation counts of the generated code: by function, by compiler pass and by option of the recursion.
+//! The operation counts of the generated code: by function, by pass and by option of the recursion.
 
 use robot_build::ablation::Ablation;
 use robot_codegen::{Counts, Module};
@@ -50,7 +50,7 @@ pub(crate) fn functions(module: &Module) -> Element {
     counted(caption, ["Function", "Once per set of parameters"], rows.collect())
 }
 
-/// The operations of a function after each compiler pass.
+/// The operations of a function after each pass.
 pub(crate) fn passes(module: &Module, function: &str) -> Option<Element> {
     let rows = module.function(function)?.passes.iter().map(|pass| {
         let mut counts = of_kinds(&pass.counts);
@@ -95,7 +95,7 @@ fn capitalized(words: &str) -> String {
     letters.next().map(|first| first.to_ascii_uppercase()).into_iter().chain(letters).collect()
 }
 
-/// What the compiler pass of this name does.
+/// What the pass of this name does.
 fn of_pass(name: &'static str) -> &'static str {
     match name {
         "as built" => "derivation of the function",
@@ -110,12 +110,12 @@ fn of_pass(name: &'static str) -> &'static str {
         "fusing" => "joining products and sums to multiply-adds",
         "signs" => "moving signs into differences",
         "schedule" => "ordering of statements",
-        "any pass" => "all compiler passes",
+        "any pass" => "all passes",
         other => other,
     }
 }
 
-/// What the option of the recursion or the compiler pass of this name does.
+/// What the option of the recursion or the pass of this name does.
 fn of_option(name: &'static str) -> &'static str {
     match name {
         "origin" => "origins of working frames shifted along the joint axes",
@@ -141,7 +141,7 @@ pub(crate) fn options(found: &[Ablation], function: &str) -> Option<Element> {
     let (all, without) = found.split_first()?;
     let least = operations(all)?;
     let caption = format!(
-        "Multiplications, additions and divisions of {function} if one option of the recursion or one compiler pass is \
+        "Multiplications, additions and divisions of {function} if one option of the recursion or one pass is \
          left out. The savings do not add up, because the options interact. ω and ε are the angular velocity and \
          acceleration of a link."
     );

@@ -51,7 +51,7 @@ impl Table {
         self.rows.iter().any(|row| row.cells.get(column).is_some_and(|cell| !is_empty(cell)))
     }
 
-    /// The elements of a row: its heading and the cells of the columns that are shown.
+    /// The element of a row, with its heading and the cells of the columns that are shown.
     fn row_of(&self, row: Row, shown: &[usize]) -> Element {
         let cells = row.cells.into_iter().zip(&self.columns).enumerate();
         let cells = cells.filter(|(column, _)| shown.contains(column));

@@ -20,7 +20,7 @@ pub struct RobotProgram<'p> {
     robot: &'p Robot,
     executable: Executable<'p>,
     friction: Option<RobotFriction>,
-    /// The pivots of the mass matrix, which show why there are no accelerations.
+    /// The pivots of the mass matrix: if a state has no accelerations, they show which joint is the cause.
     pivots: Option<Pivots>,
 }
 

@@ -127,13 +127,10 @@ fn moving(
         joint.mimic = mimic(reader, entry.value, joint.kind);
         if let Some(limits) = &places.limits {
             reader.report(
-                Diagnostic::error(
-                    code::CONFLICT,
-                    "a joint that follows another cannot have limits",
-                )
-                .at(limits, "these limits have no effect")
-                .and_at(&entry.key, "the joint follows another")
-                .help("put the limits on the leading joint"),
+                Diagnostic::error(code::CONFLICT, "a joint that mimics another cannot have limits")
+                    .at(limits, "these limits have no effect")
+                    .and_at(&entry.key, "the joint mimics another")
+                    .help("put the limits on the leading joint"),
             );
         }
     }
@@ -243,7 +240,7 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> 
                 reader.report(
                     Diagnostic::error(
                         code::MIMIC,
-                        "a joint that follows another with ratio 0 is \
+                        "a joint that mimics another with ratio 0 is \
                         fixed",
                     )
                     .at(&entry.value.span(), "the ratio is 0")

@@ -259,7 +259,7 @@ pub static JOINT: Shape = Shape {
             Limits,
             "Lower and upper, rad or m; nothing enforces them. They bound random states and the motions on pages.",
         ),
-        key("mimic", Table(&MIMIC), "The joint follows another."),
+        key("mimic", Table(&MIMIC), "The joint mimics another."),
     ],
 };
 
@@ -350,7 +350,7 @@ pub static DRIVE: Shape = Shape {
         key(
             "gear_ratio",
             Formula,
-            "N, the rotor's turns per turn of the joint; the reflected inertia is N^2 times the rotor inertia.",
+            "N, the rotor's turns per turn of a revolute joint, or its rad per m of a prismatic joint; the reflected inertia is N^2 times the rotor inertia.",
         ),
         key("gyroscopic", Boolean, "Includes the gyroscopic moments of the rotor."),
     ],

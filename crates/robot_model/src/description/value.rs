@@ -205,7 +205,7 @@ impl Reader<'_> {
                 "inf" => ("infinite", "give a finite value"),
                 _ => (
                     "outside the range of floating-point numbers",
-                    "magnitudes must be between 5e-324 and 1.7e308, with at most 400 digits",
+                    "magnitudes must be between 5e-324 and 1.7e308, with an exponent between -400 and 400",
                 ),
             };
             self.report(

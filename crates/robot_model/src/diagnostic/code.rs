@@ -65,7 +65,7 @@ codes! {
     CYCLE = "R0402", "A link is its own ancestor.";
     ZERO_AXIS = "R0403", "A joint axis has no direction.";
     LIMITS = "R0404", "Joint limits are in the wrong order.";
-    MIMIC = "R0405", "A joint cannot follow the joint that it names.";
+    MIMIC = "R0405", "A joint cannot mimic the joint that it names.";
     NO_JOINT = "R0406", "No joint moves.";
     TWO_PARENTS = "R0407", "A link is the child of several joints.";
     UNREACHABLE = "R0408", "A link has no parent.";

@@ -1,4 +1,4 @@
-//! The correction of the height of letters.
+//! Text in bitmaps: moves letters down, because plotters draws them too high, and replaces accents.
 
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,

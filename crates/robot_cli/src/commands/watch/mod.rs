@@ -94,7 +94,7 @@ fn clock() -> impl Fn() -> String {
     }
 }
 
-/// Prints the changes from look to look, until there are no more looks.
+/// Prints, for each look at the files, what has changed since the last one, and rewrites the page if there is one.
 fn follow(
     looks: impl Iterator<Item = Look>,
     settings: &Settings<'_>,

@@ -119,7 +119,7 @@ impl<'p> List<'p> {
         self.ready.is_empty() && self.waiting.is_empty()
     }
 
-    /// Starts as many operations as one cycle has room for.
+    /// Starts the operations of one cycle: at most `PRODUCTS` products and `SUMS` sums, fewer if no registers are left.
     fn cycle(&mut self) {
         while let Some(entry) = self.waiting.first_entry()
             && *entry.key() <= self.now

@@ -334,7 +334,7 @@ fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<Urd
         reader.report(
             Diagnostic::error(
                 code::MIMIC,
-                "a joint that follows another with multiplier 0 is fixed",
+                "a joint that mimics another with multiplier 0 is fixed",
             )
             .at(&span.unwrap_or(element.tag()), "the multiplier is 0")
             .help("write the type \"fixed\", or correct the multiplier"),
