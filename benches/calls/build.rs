@@ -2,6 +2,9 @@
 //! runtime's, and the list of all calls. If the target has no multiply-adds, they are products and sums. It also
 //! generates inverse dynamics with the default options, forms of the UR5 over many states, and single functions of
 //! larger robots.
+//!
+//! If the environment variable `CALLS_OF` has names of robots, there are only their functions, and the gravity torques of
+//! the larger robots: CI then checks in seconds that the benchmark compiles. The UR5 must be one of them.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -13,6 +16,8 @@ use robot_build::{
 
 const TRIGONOMETRY: [(&str, Trigonometry); 2] =
     [("standard", Trigonometry::Standard), ("polynomial", Trigonometry::Polynomial)];
+
+const ROBOTS: &str = "../../robots";
 
 /// The poses and Jacobians of all named frames in one call; the other programs compute those of the last frame
 /// only.
@@ -26,8 +31,14 @@ const LARGE: [(&str, &[&str]); 3] = [
 const BUNDLED: [FunctionKind; 2] = [FunctionKind::FramePoses, FunctionKind::Jacobian];
 
 fn main() -> Result<(), Box<dyn Error>> {
+    println!("cargo::rerun-if-env-changed=CALLS_OF");
     let out = PathBuf::from(std::env::var("OUT_DIR")?);
-    let folder = Path::new("../../robots");
+    let only = std::env::var("CALLS_OF").ok();
+    let folder = &match &only {
+        Some(names) => copied(names.split(','), &out.join("robots"))?,
+        None => PathBuf::from(ROBOTS),
+    };
+    let large = LARGE.map(|(file, functions)| (file, if only.is_some() { &["gravity"] } else { functions }));
     for (name, trigonometry) in TRIGONOMETRY {
         let out = out.join(name);
         std::fs::create_dir_all(&out)?;
@@ -53,7 +64,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     forms().batch(8).out_dir(folder_of("double")?).compile(&ur5)?;
     let single = forms().batch(16).scalar(Scalar::F32);
     single.out_dir(folder_of("single")?).compile(&ur5)?;
-    for (file, functions) in LARGE {
+    for (file, functions) in large {
         Builder::new()
             .functions(functions.iter().copied())
             .trigonometry(Trigonometry::Polynomial)
@@ -73,11 +84,23 @@ fn main() -> Result<(), Box<dyn Error>> {
         robot(&mut list, &file, &built)?;
         robot(&mut list, &file, &[("default", Some(&["inverse_dynamics"]))])?;
     }
-    for (file, functions) in LARGE {
+    for (file, functions) in large {
         robot(&mut list, Path::new(file), &[("large", Some(functions))])?;
     }
     list.push_str("}\n");
     Ok(std::fs::write(out.join("list.rs"), list)?)
+}
+
+/// Copies the files of these robots into a folder, which is returned.
+fn copied<'r>(robots: impl Iterator<Item = &'r str>, folder: &Path) -> std::io::Result<PathBuf> {
+    std::fs::create_dir_all(folder)?;
+    for robot in robots {
+        for extension in ["toml", "plan"] {
+            let file = format!("{robot}.{extension}");
+            std::fs::copy(Path::new(ROBOTS).join(&file), folder.join(&file))?;
+        }
+    }
+    Ok(folder.to_owned())
 }
 
 /// Adds the calls of one robot's functions to the list. Each module has either the given functions of the robot, or

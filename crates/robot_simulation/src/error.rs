@@ -92,11 +92,14 @@ impl fmt::Display for Cause {
                 "joints with Coulomb friction stick and break away endlessly; look for forces \
                  that jump with a velocity, or set `smoothing` for the friction",
             ),
-            Cause::Steps(limit) => write!(
-                formatter,
-                "the limit of {limit} steps was reached. {SMALL}; otherwise allow more steps, or increase \
-                 the tolerance"
-            ),
+            Cause::Steps(limit) => {
+                let steps = if *limit == 1 { "step" } else { "steps" };
+                write!(
+                    formatter,
+                    "the limit of {limit} {steps} was reached. {SMALL}; otherwise allow more steps, or increase \
+                     the tolerance"
+                )
+            }
             Cause::Slow(steps, limit) => write!(
                 formatter,
                 "the last {steps} steps advanced so little that {limit} would not be enough. \

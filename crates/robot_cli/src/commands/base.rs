@@ -48,6 +48,7 @@ pub(crate) struct Arguments {
 #[derive(Clone, Copy, ValueEnum)]
 enum Format {
     Text,
+    #[value(alias = "tex")]
     Latex,
     Typst,
     /// Markdown with formulas between $$

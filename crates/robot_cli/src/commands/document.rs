@@ -72,6 +72,7 @@ fn source_path(text: &str) -> Result<PathBuf, String> {
 
 #[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
+    #[value(alias = "tex")]
     Latex,
     Typst,
     /// Markdown with formulas between $ and $$, without the figure

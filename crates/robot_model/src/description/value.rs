@@ -33,6 +33,7 @@ impl Reader<'_> {
     pub(super) fn wrong_type(&mut self, value: Value<'_>, expected: &str) {
         let found = match value.get_ref() {
             DeValue::String(_) => "a string",
+            DeValue::Float(_) if expected.contains("number") => "a number with a decimal point",
             DeValue::Integer(_) | DeValue::Float(_) => "a number",
             DeValue::Boolean(_) => "a Boolean",
             DeValue::Datetime(_) => "a date",

@@ -47,6 +47,7 @@ pub(crate) struct Arguments {
 #[derive(Clone, Copy, ValueEnum)]
 enum NotationName {
     Text,
+    #[value(alias = "tex")]
     Latex,
 }
 
