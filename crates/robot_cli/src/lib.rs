@@ -16,6 +16,7 @@ mod forms;
 mod friction;
 mod function;
 mod help;
+mod interrupt;
 mod messages;
 mod motion;
 mod options;

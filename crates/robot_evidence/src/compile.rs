@@ -6,6 +6,7 @@ use std::process::{Command, Output};
 use robot_build::{system_reason, visible};
 
 use crate::error::Error;
+use crate::folder::Folder;
 use crate::probe::{CRATE, Probe, ROOT_FILE};
 
 /// The largest number of lines of the compiler's messages that are shown.
@@ -81,7 +82,7 @@ impl Compiler {
 
     /// Compiles a crate and returns the object file.
     pub(crate) fn compile(&self, probe: &Probe, profile: Profile) -> Result<Vec<u8>, Error> {
-        let folder = tempfile::tempdir()?;
+        let folder = Folder::new()?;
         for file in &probe.files {
             let path = folder.path().join(&file.path);
             if let Some(parent) = path.parent() {
@@ -132,9 +133,14 @@ impl Compiler {
     }
 
     fn run(&self, command: &mut Command) -> Result<Output, Error> {
-        command
-            .output()
-            .map_err(|error| Error::NoCompiler { path: self.path(), reason: system_reason(&error) })
+        command.output().map_err(|error| {
+            let path = self.path();
+            let reason = match path.is_dir() {
+                true => "it is a folder".to_owned(),
+                false => system_reason(&error),
+            };
+            Error::NoCompiler { path, reason }
+        })
     }
 
     fn refused(&self, output: &Output, folder: &Path) -> Error {

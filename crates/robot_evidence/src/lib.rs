@@ -21,6 +21,7 @@
 mod claim;
 mod compile;
 mod error;
+mod folder;
 mod listing;
 mod object_file;
 mod probe;
@@ -30,6 +31,7 @@ mod x86;
 pub use claim::{Evidence, Measurements, Violation};
 pub use compile::{Compiler, Profile};
 pub use error::Error;
+pub use folder::remove_temporary_folders;
 pub use probe::{Probe, Root};
 
 use object_file::Object;

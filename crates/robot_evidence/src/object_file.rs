@@ -65,6 +65,9 @@ impl Code {
 impl Object {
     pub(crate) fn parse(bytes: &[u8]) -> Result<Object, Error> {
         let failed = |error: object::Error| Error::Object(error.to_string());
+        if bytes.starts_with(b"\0asm") {
+            return Err(Error::Architecture { architecture: "WebAssembly".to_owned() });
+        }
         let file = object::File::parse(bytes).map_err(failed)?;
         let machine = match file.architecture() {
             Architecture::X86_64 => Machine::X86,
@@ -263,5 +266,9 @@ mod tests {
         for bytes in [&b""[..], b"robot", &[0x7f, b'E', b'L', b'F', 2, 1, 1]] {
             assert!(matches!(Object::parse(bytes), Err(Error::Object(_))));
         }
+        let wasm = Object::parse(b"\0asm\x01\0\0\0");
+        assert!(
+            matches!(wasm, Err(Error::Architecture { architecture }) if architecture == "WebAssembly")
+        );
     }
 }

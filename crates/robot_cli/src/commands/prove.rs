@@ -12,6 +12,7 @@ use crate::delivery::answered;
 use crate::failure::Failure;
 use crate::format::Format;
 use crate::function::check_values_once;
+use crate::interrupt;
 use crate::progress::watched;
 use crate::robot::{CodeArguments, RobotArgument};
 use crate::text;
@@ -82,6 +83,7 @@ impl Arguments {
             other => Failure::input(other.to_string()),
         };
         let description = compiler.description().map_err(failed)?;
+        interrupt::remove_folders();
         let source = self.robot.source()?;
         let compiled = || prove(&source, &options, &compiler, &profiles);
         let modules = watched("compiling", terminal, compiled).map_err(failed)?;

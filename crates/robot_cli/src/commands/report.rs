@@ -11,6 +11,7 @@ use robot_report::{Accuracy, Compiled, Input, report};
 use crate::Terminal;
 use crate::delivery::{Delivery, OutputArguments};
 use crate::failure::Failure;
+use crate::interrupt;
 use crate::progress::watched;
 use crate::robot::{PRINT_SNAP, RobotArgument};
 use crate::text;
@@ -136,6 +137,7 @@ fn compare_with_solver(programs: &Programs) -> Result<Accuracy, String> {
 
 /// Compiles the usual functions and measures their code.
 fn compiled(source: &Source, options: &Options) -> Result<Compiled, Failure> {
+    interrupt::remove_folders();
     let compiler = Compiler::default();
     let read = || -> Result<Compiled, robot_evidence::Error> {
         let description = compiler.description()?;

@@ -267,3 +267,28 @@ fn a_crate_that_was_not_there_is_whole_or_not_there() {
 fn each_file_of_a_crate_is_old_or_new() {
     kill_again_and_again("interrupted-crate", "crate", "arm", true);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_compiler_that_is_interrupted_leaves_no_folder() {
+    let folder = folder("interrupted-prove");
+    let entries = || fs::read_dir(&folder).unwrap().count();
+    for signal in ["-INT", "-TERM"] {
+        let child = Command::new(BINARY)
+            .args(["prove", &robot("planar_2r")])
+            .env("TMPDIR", &folder)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let start = Instant::now();
+        while entries() == 0 {
+            assert!(start.elapsed() < Duration::from_secs(60), "nothing is compiled");
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args([signal, &id]).status().unwrap().success());
+        assert_eq!(ended(child).status.code(), Some(130));
+        assert_eq!(entries(), 0);
+    }
+}

@@ -31,6 +31,9 @@ fn words(text: &str, error: &Error) -> Diagnostic {
         _ => byte_of(text, error.pos()),
     };
     let syntax = |message: String| Diagnostic::error(code::SYNTAX, message).at(&place, "");
+    if let Some((message, help)) = of_characters(text, &place, error) {
+        return syntax(message.to_owned()).help(help);
+    }
     match error {
         Error::UnknownNamespace(prefix, _) if prefix == "xacro" => template(&place),
         Error::UnknownNamespace(prefix, _) => {
@@ -60,16 +63,9 @@ fn words(text: &str, error: &Error) -> Diagnostic {
             syntax(format!("`&{};` is not a known entity", quote(name)))
                 .help("write the character, or `&amp;`, `&lt;`, `&gt;`, `&quot;`, `&apos;`")
         }
-        Error::MalformedEntityReference(_) => {
-            syntax("`&` is not escaped".to_owned()).help("write the character `&` as `&amp;`")
-        }
         Error::DuplicatedNamespace(name, _) => {
             syntax(format!("the prefix `{}` is declared twice", quote(name)))
                 .help("keep one of the declarations")
-        }
-        Error::UnknownToken(_) if !text.trim_start().starts_with('<') => {
-            syntax("the file is not XML".to_owned())
-                .help("the name of a robot file in TOML ends in `.toml`: rename the file")
         }
         Error::UnexpectedDeclaration(_) => syntax(
             "`<?xml …?>` is not at the start of the file".to_owned(),
@@ -78,6 +74,32 @@ fn words(text: &str, error: &Error) -> Diagnostic {
         other => syntax(format!("invalid XML: {}", without_place(other)))
             .help("write an element as `<name attribute=\"value\"/>`"),
     }
+}
+
+/// The message and the remedy for characters that cannot stand where they do.
+fn of_characters(text: &str, place: &Span, error: &Error) -> Option<(&'static str, &'static str)> {
+    let is_number = || text.get(place.start..).is_some_and(|at| at.starts_with("&#"));
+    Some(match error {
+        Error::MalformedEntityReference(_) if is_number() => (
+            "the number after `&#` is not that of a character of XML",
+            "write the character itself, or remove the reference",
+        ),
+        Error::MalformedEntityReference(_) => {
+            ("`&` is not escaped", "write the character `&` as `&amp;`")
+        }
+        Error::InvalidComment(_) => {
+            ("the comment contains `--`", "write one dash there; a comment ends with `-->`")
+        }
+        Error::UnknownToken(_) if !text.trim_start().starts_with('<') => (
+            "the file is not XML",
+            "the name of a robot file in TOML ends in `.toml`: rename the file",
+        ),
+        Error::UnknownToken(_) => (
+            "here is text that XML does not allow",
+            "remove it; nothing but comments can follow the root element",
+        ),
+        _ => return None,
+    })
 }
 
 /// The message of the parser without the line and column, which the diagnostic shows.
