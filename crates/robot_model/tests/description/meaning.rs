@@ -45,6 +45,23 @@ fn numbers_are_exact_and_expressions_are_kept() {
 }
 
 #[test]
+fn terms_of_one_dimension_can_be_added() {
+    let parameters =
+        "[parameters]\na = { value = 2, unit = \"m\" }\nb = { value = 0.5, unit = \"m\" }\n";
+    let link = revolute("1", "origin = { xyz = [\"a + b\", \"2*a - b/3\", 0] }");
+    assert!(read(&arm(&format!("{parameters}{link}"))).warnings.is_empty());
+}
+
+#[test]
+fn a_tensor_is_about_the_center_of_mass_if_nothing_is_said() {
+    let plain = revolute("1", "");
+    let stated = plain.replace("xy = 0.01", "xy = 0.01, about = \"center_of_mass\"");
+    let link = |text: &str| read(&arm(text)).robot.links[0].clone();
+    assert_ne!(plain, stated);
+    assert_eq!(link(&plain), link(&stated));
+}
+
+#[test]
 fn a_root_has_half_the_dimension() {
     let text = |mass: &str, gravity: &str| {
         let parameters = "[parameters]\na = { value = 2, unit = \"kg\" }\n\
