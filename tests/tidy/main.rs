@@ -295,7 +295,7 @@ const SYSTEM: [(&[&str], &[&str]); 3] = [
         &[
             "robot_build/src/entry/",
             "robot_macros/",
-            "robot_evidence/src/compile.rs",
+            "robot_evidence/src/compile/",
             "robot_cli/",
             "robot_testing/",
             "robot_languages/",
@@ -303,7 +303,7 @@ const SYSTEM: [(&[&str], &[&str]); 3] = [
     ),
     (
         &["process::{", "process::Command", "std::net"],
-        &["robot_evidence/src/compile.rs", "robot_languages/"],
+        &["robot_evidence/src/compile/", "robot_languages/"],
     ),
     (&["std::time"], &["robot_cli/", "robot_languages/"]),
 ];

@@ -91,16 +91,16 @@ const NAMED_ON_PURPOSE: [(&str, &str); 17] = [
     // The footer of a page names the program that wrote it.
     ("robot_report/src/page.rs", "Written by robot-symbolic"),
     // Options of rustc, which this crate runs.
-    ("robot_evidence/src/compile.rs", "--crate-type=lib"),
-    ("robot_evidence/src/compile.rs", "--edition=2024"),
-    ("robot_evidence/src/compile.rs", "--cap-lints=allow"),
-    ("robot_evidence/src/compile.rs", "--crate-name"),
-    ("robot_evidence/src/compile.rs", "--cfg"),
-    ("robot_evidence/src/compile.rs", "--target"),
-    ("robot_evidence/src/compile.rs", "--emit=obj"),
-    ("robot_evidence/src/compile.rs", "--out-dir"),
-    ("robot_evidence/src/compile.rs", " --target {target}"),
-    ("robot_evidence/src/compile.rs", "`rustc --print"),
+    ("robot_evidence/src/compile/mod.rs", "--crate-type=lib"),
+    ("robot_evidence/src/compile/mod.rs", "--edition=2024"),
+    ("robot_evidence/src/compile/mod.rs", "--cap-lints=allow"),
+    ("robot_evidence/src/compile/mod.rs", "--crate-name"),
+    ("robot_evidence/src/compile/mod.rs", "--cfg"),
+    ("robot_evidence/src/compile/mod.rs", "--target"),
+    ("robot_evidence/src/compile/mod.rs", "--emit=obj"),
+    ("robot_evidence/src/compile/mod.rs", "--out-dir"),
+    ("robot_evidence/src/compile/mod.rs", " --target {target}"),
+    ("robot_evidence/src/compile/mod.rs", "`rustc --print"),
 ];
 
 /// The string literals of a source outside comments, each with its line.

@@ -21,7 +21,6 @@
 mod claim;
 mod compile;
 mod error;
-mod folder;
 mod listing;
 mod object_file;
 mod probe;
@@ -29,9 +28,8 @@ mod thumb;
 mod x86;
 
 pub use claim::{Evidence, Measurements, Violation};
-pub use compile::{Compiler, Profile};
+pub use compile::{Compiler, Profile, remove_temporary_folders};
 pub use error::Error;
-pub use folder::remove_temporary_folders;
 pub use probe::{Probe, Root};
 
 use object_file::Object;

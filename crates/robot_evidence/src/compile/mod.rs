@@ -1,12 +1,16 @@
 //! Compilation with the user's compiler.
 
+mod folder;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use robot_build::{system_reason, visible};
 
+pub use self::folder::remove_temporary_folders;
+
+use self::folder::Folder;
 use crate::error::Error;
-use crate::folder::Folder;
 use crate::probe::{CRATE, Probe, ROOT_FILE};
 
 /// The largest number of lines of the compiler's messages that are shown.
