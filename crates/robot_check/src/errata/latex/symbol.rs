@@ -60,14 +60,16 @@ impl Translator<'_, '_> {
                 None => {}
             }
         }
-        for (index, what) in [(&lower, "index"), (&upper, "exponent")] {
-            let is_known = what == "index" && (self.names)(&key).is_some();
-            match index {
-                Some(index) if is_arithmetic(&index.key) && !is_known => {
-                    return Err(calculated(index, what));
-                }
-                _ => {}
-            }
+        if let Some(index) = lower.filter(|index| is_arithmetic(&index.key))
+            && (self.names)(&key).is_none()
+        {
+            let message =
+                format!("`{}` is not the index of a symbol of the robot", quote(&index.key));
+            return Err(calculated(index.span, message, "index"));
+        }
+        if let Some(index) = upper.as_ref().filter(|index| is_arithmetic(&index.key)) {
+            let message = "expected an integer as the exponent".to_owned();
+            return Err(calculated(index.span.clone(), message, "exponent"));
         }
         match upper {
             Some(index) if integer => {
@@ -147,14 +149,10 @@ fn is_arithmetic(index: &str) -> bool {
     (has_digit && has_operator) || is_number_with_index
 }
 
-/// The error of an index that is a calculation.
-fn calculated(index: &Index, what: &str) -> ParseError {
-    let message = match what {
-        "exponent" => "expected an integer as the exponent".to_owned(),
-        _ => format!("`{}` is not the index of a symbol of the robot", quote(&index.key)),
-    };
+/// The error of an index or an exponent that is a calculation.
+fn calculated(span: Range<usize>, message: String, what: &str) -> ParseError {
     let help = format!("write the {what} as one number, or the symbol as `equations` prints it");
-    ParseError::new(index.span.clone(), message).help(help)
+    ParseError::new(span, message).help(help)
 }
 
 /// The angle of joint numbers: `q2+q3` for `23`, `q2-q3` for `2-3`, `q2+q10` for `2,10`.
