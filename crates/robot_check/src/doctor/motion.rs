@@ -11,7 +11,7 @@ use super::facts::{LinkFacts, RobotFacts};
 /// The fraction of the largest inertia below which a coordinate counts as having no inertia. Rounding errors are a
 /// thousand times smaller, and the inertia of the smallest joint of an arm is about a millionth.
 const NOTHING: f64 = 1e-12;
-/// The number of configurations that are tried, because a joint may move no mass in one of them by chance.
+/// The number of configurations that are tried. In a single one, a joint may move no mass by chance.
 const CONFIGURATIONS: usize = 3;
 const SEED: u64 = 1;
 

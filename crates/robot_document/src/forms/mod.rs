@@ -160,8 +160,8 @@ impl Equation {
         self.right.pieces().is_empty()
     }
 
-    /// A label for the equation: its name in letters, digits, `-`, and `:` for the point before a component. The name
-    /// of a matrix is used without its arguments.
+    /// A label for the equation: its name, with `-` for `_` and `:` for the point before a component. The name of a
+    /// matrix is used without its arguments.
     #[must_use]
     pub fn label(&self) -> String {
         let name = self.name.split_once('(').map_or(self.name.as_str(), |(name, _)| name);
@@ -208,8 +208,8 @@ impl Equations {
 /// The largest number of expressions for which equations are derived; the equations of arms need some thousands.
 pub(crate) const MAX_NODES: usize = 300_000;
 
-/// The largest number of terms of a sum that is collected as a whole; longer sums are collected by their coefficients
-/// of accelerations and velocities. A joint torque of a 6-joint arm has thousands of terms.
+/// The largest number of terms of a sum that is collected as a whole. In longer sums, each coefficient of an
+/// acceleration or of a product of velocities is collected by itself. A joint torque of a 6-joint arm has thousands of terms.
 const MAX_WHOLE: usize = 200;
 
 /// Derives the equations of a robot.

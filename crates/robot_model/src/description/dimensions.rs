@@ -192,8 +192,8 @@ impl Reader<'_> {
             }
         };
         let label = match expected {
-            Dimension::NONE => "needs a pure number".to_owned(),
-            _ => format!("needs a value in {expected}"),
+            Dimension::NONE => "must be a pure number".to_owned(),
+            _ => format!("must be in {expected}"),
         };
         self.report(diagnostic.at(span, label));
         found.factors != Factors::Certain

@@ -202,6 +202,13 @@ mod tests {
         for label in ["", ".a", "-a", "a b", "a/b", "../x", "a\n", &long] {
             assert!(!is_label(label), "{label}");
         }
+        let told = |name: &str| {
+            let found = misshapen(name, &(0..1), "a link", Kind::Label);
+            found.primary.map(|place| place.text).unwrap_or_default()
+        };
+        assert_eq!(told(&long), "65 bytes long; at most 64");
+        assert_eq!(told(&long.replacen("xx", "-", 1)), "not a valid name");
+        assert_eq!(told(""), "empty");
     }
 
     #[test]

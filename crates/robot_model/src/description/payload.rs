@@ -108,8 +108,9 @@ fn payload_parameters() -> Vec<Parameter> {
         doc: Some(doc.to_owned()),
     };
     let mut payload_parameters = vec![parameter(mass, "kg", "mass of the payload")];
-    for name in center_of_mass {
-        payload_parameters.push(parameter(name, "m", "coordinate of the payload's center of mass"));
+    for (name, axis) in center_of_mass.into_iter().zip(["x", "y", "z"]) {
+        let doc = format!("{axis} component of the payload's center of mass");
+        payload_parameters.push(parameter(name, "m", &doc));
     }
     for name in inertia {
         let doc = "entry of the payload's inertia tensor about its center of mass";

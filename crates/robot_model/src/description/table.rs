@@ -81,7 +81,7 @@ impl<'a> Table<'a> {
             reader.report(
                 Diagnostic::error(
                     code::MISSING_KEY,
-                    format!("{} must have `{key}`", self.shape.what),
+                    format!("{} must have the key `{key}`", self.shape.what),
                 )
                 .at(&self.span, format!("`{key}` is missing"))
                 .help(help),

@@ -399,6 +399,9 @@ fn parameters_of_the_payload_are_at_its_table() {
         assert_eq!(&text[place.name.clone()], "payload", "{}", parameter.name);
         assert!(parameter.unit.is_some() && parameter.doc.is_some());
     }
+    let bodies = &described.locations.links[0].bodies;
+    let places: Vec<&str> = bodies.iter().map(|body| &text[body.name.clone()]).collect();
+    assert_eq!(places, ["\"1\"", "payload"]);
 }
 
 /// A frame `Arm` takes the name of link `arm`, whose function must not get that of link `arm_link`.

@@ -70,15 +70,16 @@ impl Circular {
         }
     }
 
-    /// Computes from `angle` the number `k` of right angles, and `shifted`, whose lowest bits are those of `k`.
+    /// Computes the number `k` of right angles in `angle`, rounded to an integer, and `shifted`, whose lowest bits are
+    /// those of `k`.
     pub fn turns(&self, language: &impl Arithmetic) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let shifted = language.mul_add("angle", &number(self.two_over_pi), &number(self.shift));
         vec![("shifted", shifted), ("k", format!("shifted - {}", number(self.shift)))]
     }
 
-    /// Computes from `x`, which is the angle or NaN, and `k` the sine `s` and cosine `c` of the angle minus `k` right
-    /// angles, with intermediate variables `r` and `z`. `once` is whether the multiply-adds of the language round once.
+    /// Computes the sine `s` and cosine `c` of the angle minus `k` right angles from `k` and `x`, which is the angle or
+    /// NaN, with intermediate variables `r` and `z`. `once` is whether the multiply-adds of the language round once.
     pub fn rest(&self, language: &impl Arithmetic, once: bool) -> Vec<Assignment> {
         let number = |value: f64| language.number(value);
         let times = language.times();

@@ -40,8 +40,8 @@ pub fn equations(list: &[NumberedEquation], layout: Layout) -> Result<String, Er
     Ok(typst)
 }
 
-/// An equation in one part, or in two if it is long: only the first one can be broken across pages, and only the last
-/// one has the number, which Typst would repeat on each page.
+/// An equation in one part or, if it is long, in two: the first can be broken across pages, and only the second has the
+/// number, because Typst would repeat it on each page.
 fn equation(
     numbered: &NumberedEquation,
     layout: Layout,

@@ -109,14 +109,14 @@ fn without_place(error: &Error) -> String {
 
 /// The error for a file that is a template.
 pub(super) fn template(place: &Span) -> Diagnostic {
-    Diagnostic::error(code::XACRO, "the file is a xacro template, not a robot")
+    Diagnostic::error(code::XACRO, "the file is a xacro template, not a robot file")
         .at(place, "not expanded")
         .because(
-            "templates are programs that read files and compute; this program does not run \
+            "templates are programs that can read files and compute values; this program does not run \
             them",
         )
         .help(
-            "expand it and read the result: `xacro robot.urdf.xacro > robot.urdf` (part of ROS, \
+            "expand it and use the result: `xacro robot.urdf.xacro > robot.urdf` (part of ROS, \
              or `pip install xacro`)",
         )
 }

@@ -87,3 +87,17 @@ fn clamp(text: &str, span: &Span) -> Span {
     let start = floor(span.start);
     start..floor(span.end).max(start)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spans_end_on_characters_of_the_text() {
+        // The two bytes of ü are 1 and 2.
+        let text = "für";
+        for (span, clamped) in [(2..2, 1..1), (2..9, 1..4), (0..2, 0..1), (9..9, 4..4)] {
+            assert_eq!(clamp(text, &span), clamped, "{span:?}");
+        }
+    }
+}
