@@ -334,8 +334,9 @@ fn equations_of_a_hundred_random_robots_are_those_derived() {
             let options = EquationOptions { form, angle_sums, references: true, ..usual() };
             let found = torques(&graph, &robot, &options);
             for (found, derived) in found.iter().zip(&derived) {
-                // Equal terms prove equality, but roots in the directions of tilted axes may hide it.
-                if equal(*found, *derived).unwrap() {
+                // Equal terms prove equality, but roots in the directions of tilted axes may hide it, or make too many
+                // terms.
+                if equal(*found, *derived) == Ok(true) {
                     proved += 1;
                 } else {
                     let what = format!("robot {number}, {options:?}");

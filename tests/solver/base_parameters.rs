@@ -103,7 +103,7 @@ fn check_set(robot: &Robot, seed: u64, name: &str) -> usize {
         let expected = solver.inverse_dynamics_with(q, qd, qdd, &loads).unwrap();
         let size = magnitude(&expected).max(1e-3);
         let exact: Vec<Expr<'_>> =
-            values.iter().map(|value| graph.number(Number::Real(*value))).collect();
+            values.iter().map(|value| graph.number(Number::real(*value))).collect();
         let representative = evaluate(&robot, &found.representative(&exact), &state);
         for (columns, values) in [(&kept, &values), (&full, &representative)] {
             let product = |row: &[f64]| row.iter().zip(values).map(|(y, p)| y * p).sum::<f64>();

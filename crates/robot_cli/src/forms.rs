@@ -174,13 +174,13 @@ impl EquationArguments {
         self.layout.map_or(usual, |layout| layout == LayoutStyle::Vectors)
     }
 
-    /// Returns an error for a layout option if the equations have no matrices or columns.
+    /// Returns an error if vectors are asked for and the equations have no matrices or columns.
     pub(crate) fn check_layout(&self, equations: &Equations) -> Result<(), Failure> {
-        if self.layout.is_none() || equations.arrays().next().is_some() {
+        if self.layout != Some(LayoutStyle::Vectors) || equations.arrays().next().is_some() {
             return Ok(());
         }
         Err(Failure::Usage(vec![
-            "--layout has no effect on these equations, which have neither vectors nor matrices; choose the form \
+            "--layout vectors has no effect on these equations, which have neither vectors nor matrices; choose the form \
              grouped or recursive, or vectors with --quantity, or leave it out"
                 .to_owned(),
         ]))

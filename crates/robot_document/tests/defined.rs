@@ -285,26 +285,60 @@ fn rounding_errors_are_not_terms() {
             for form in Form::ALL {
                 let options = EquationOptions { form, ..EquationOptions::default() };
                 let Ok(printed) = equations(&robot, &options) else { continue };
-                for equation in printed.groups.iter().flat_map(|group| &group.equations) {
-                    let is_tiny = |exponent: u32| equation.text.contains(&format!("e-{exponent}"));
-                    assert!(
-                        !(13..20).any(is_tiny),
-                        "{form:?} {}: {}",
-                        equation.name,
-                        equation.text
-                    );
-                }
+                assert_no_rounding_errors(&printed);
             }
             let base = robot_document::base_parameters::base(&robot, None).unwrap();
             for entry in base.list {
                 let text = entry.formula.text + &entry.value.text;
-                assert!(
-                    (13..20).all(|exponent| !text.contains(&format!("e-{exponent}"))),
-                    "{text}"
-                );
+                assert!(!is_rounding_error(&text), "{text}");
             }
         }
     }
+}
+
+/// Terms that cancel one after the other leave nothing either: the first joint's position has no effect on the mass
+/// matrix, so b₁₁₁ is 0.
+#[test]
+fn rounding_errors_of_many_terms_are_not_terms() {
+    let link = |name: &str, joint: &str, body: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = {joint}\nmass = {body}\n\
+             inertia = {{ xx = 0.8, yy = 0.9, zz = 1 }}\n"
+        )
+    };
+    let text = [
+        "format = 1\n[robot]\nname = \"rob\"\ngravity = [0, 0, \"-g\"]\n[parameters]\ng = 9.81\nc = 0.677\nm = 3.226\n",
+        &link("1", "\"z\" }\norigin = { rpy = [0, 0, \"-pi/2\"] }", "1\ncenter_of_mass = [0, 1, 0]"),
+        &link(
+            "2",
+            "[1, -2, 2] }\norigin = { xyz = [\"c\", 0, 0], rpy = [\"pi/6\", 0, \"pi/3\"] }",
+            "2.644016\ncenter_of_mass = [0, 0, 0]",
+        ),
+        &link(
+            "3",
+            "[-1, 0, 0] }\norigin = { xyz = [1, 0.90, 0.13], rpy = [0, 0, \"-pi/2\"] }",
+            "\"m\"\ncenter_of_mass = [\"3/5\", 0, 0]",
+        ),
+    ]
+    .concat();
+    let robot = read_toml("robot.toml", &text).unwrap().robot;
+    let options = EquationOptions { form: Form::Grouped, ..EquationOptions::default() };
+    let printed = equations(&robot, &options).unwrap();
+    assert_no_rounding_errors(&printed);
+    assert!(
+        printed.groups.iter().flat_map(|group| &group.equations).all(|one| one.name != "b_1_1_1")
+    );
+}
+
+#[track_caller]
+fn assert_no_rounding_errors(printed: &Equations) {
+    for equation in printed.groups.iter().flat_map(|group| &group.equations) {
+        assert!(!is_rounding_error(&equation.text), "{}: {}", equation.name, equation.text);
+    }
+}
+
+fn is_rounding_error(text: &str) -> bool {
+    (13..20).any(|exponent: u32| text.contains(&format!("e-{exponent}")))
 }
 
 /// Whether a name is the letter with a number, such as `x_1` or `tau1`.

@@ -192,20 +192,4 @@ mod tests {
             assert_eq!(JointVariable::parse(wrong), None, "{wrong}");
         }
     }
-
-    #[test]
-    fn symbols_of_a_robot_are_its_variables() {
-        let (q, frames) = (Position, |number| Variable::Wrench(0, number));
-        let text = "format = 1\n[robot]\nname = \"arm\"\ngravity = [0, 0, \"-g\"]\n[parameters]\n\
-                    g = 9.81\n[[link]]\nname = \"1\"\nmass = 1\ncenter_of_mass = [1, 0, 0]\n\
-                    inertia = { xx = 1, yy = 1, zz = 1 }\njoint = { type = \"revolute\", axis = \"z\" }\n\
-                    [tip]\nname = \"tip\"\nparent = \"1\"\n";
-        let robot = crate::description::read_toml("arm", text).unwrap().robot;
-        let symbols = robot.frames[0].wrench.iter().flat_map(|wrench| wrench.components());
-        let components: Vec<Variable> = (0..6).map(frames).collect();
-        assert_eq!(symbols.map(|one| robot.variable(one).unwrap()).collect::<Vec<_>>(), components);
-        assert_eq!(robot.variable("g"), Some(Variable::Parameter(0)));
-        assert_eq!(robot.variable("q1"), Some(Variable::Joint(q, 0)));
-        assert_eq!((robot.variable("q2"), robot.variable("h")), (None, None));
-    }
 }

@@ -61,7 +61,7 @@ impl<'g> Expr<'g> {
         let expr = |id| Expr::new(self.graph, id);
         match self.graph.node(self.id) {
             Node::Number(_) => {
-                View::Number(self.graph.as_number(self.id).unwrap_or(Number::Real(f64::NAN)))
+                View::Number(self.graph.as_number(self.id).unwrap_or(Number::real(f64::NAN)))
             }
             Node::Pi => View::Pi,
             Node::Symbol(symbol) => View::Symbol(symbol),

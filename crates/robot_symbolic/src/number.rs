@@ -4,8 +4,8 @@ use std::hash::{Hash, Hasher};
 
 use crate::rational::{MAX_BITS, Rational};
 
-/// The size of rounding errors of floating-point numbers, as a fraction of their largest term. Each comes from some tens
-/// of operations.
+/// The bound on the rounding error of a floating-point number, as a fraction of its largest term. Each comes from some
+/// tens of operations.
 const ROUNDED: f64 = 1e-14;
 
 /// A constant of an expression.
@@ -17,11 +17,90 @@ const ROUNDED: f64 = 1e-14;
 pub enum Number {
     /// An exact value.
     Rational(Rational),
-    /// The nearest `f64` to a value that has no short exact form.
-    Real(f64),
+    /// A floating-point number near a value that has no short exact form.
+    Real(Real),
+}
+
+/// A floating-point number with a bound on its rounding error.
+///
+/// A sum of such numbers that is not larger than its rounding error is 0. The error is that of the largest term of all
+/// sums that led to the number, so terms that cancel each other leave no small rest, in whatever order they are added.
+#[derive(Clone, Copy, Debug)]
+pub struct Real {
+    value: f64,
+    error: f64,
+}
+
+impl Real {
+    fn new(value: f64, error: f64) -> Real {
+        Real { value, error: error.max(ROUNDED * value.abs()) }
+    }
+
+    /// The number.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        self.value
+    }
+
+    fn recip(self) -> Real {
+        let value = 1.0 / self.value;
+        Real::new(value, self.error * value * value)
+    }
+}
+
+/// A number that is rounded itself.
+impl From<f64> for Real {
+    fn from(value: f64) -> Real {
+        Real::new(value, 0.0)
+    }
+}
+
+impl std::ops::Add for Real {
+    type Output = Real;
+    fn add(self, other: Real) -> Real {
+        let (sum, error) = (self.value + other.value, self.error.max(other.error));
+        let is_rounding = sum.is_finite() && sum.abs() <= error;
+        Real::new(if is_rounding { 0.0 } else { sum }, error)
+    }
+}
+
+impl std::ops::Sub for Real {
+    type Output = Real;
+    fn sub(self, other: Real) -> Real {
+        self + -other
+    }
+}
+
+impl std::ops::Mul for Real {
+    type Output = Real;
+    fn mul(self, other: Real) -> Real {
+        let error = (self.value * other.error).abs().max((self.error * other.value).abs());
+        Real::new(self.value * other.value, error)
+    }
+}
+
+impl std::ops::Div for Real {
+    type Output = Real;
+    fn div(self, other: Real) -> Real {
+        let error = (self * other.recip()).error;
+        Real::new(self.value / other.value, error)
+    }
+}
+
+impl std::ops::Neg for Real {
+    type Output = Real;
+    fn neg(self) -> Real {
+        Real { value: -self.value, ..self }
+    }
 }
 
 impl Number {
+    /// A floating-point number that is rounded itself.
+    #[must_use]
+    pub fn real(value: f64) -> Number {
+        Number::Real(Real::from(value))
+    }
+
     /// An integer.
     #[must_use]
     pub const fn integer(value: i64) -> Number {
@@ -33,7 +112,7 @@ impl Number {
     pub fn to_f64(&self) -> f64 {
         match self {
             Number::Rational(rational) => rational.to_f64(),
-            Number::Real(value) => *value,
+            Number::Real(real) => real.value,
         }
     }
 
@@ -51,7 +130,7 @@ impl Number {
     pub fn is_zero(&self) -> bool {
         match self {
             Number::Rational(rational) => rational.is_zero(),
-            Number::Real(value) => *value == 0.0,
+            Number::Real(real) => real.value == 0.0,
         }
     }
 
@@ -60,7 +139,7 @@ impl Number {
     pub fn is_one(&self) -> bool {
         match self {
             Number::Rational(rational) => rational.is_one(),
-            Number::Real(value) => *value == 1.0,
+            Number::Real(real) => real.value == 1.0,
         }
     }
 
@@ -69,7 +148,7 @@ impl Number {
     pub fn is_negative(&self) -> bool {
         match self {
             Number::Rational(rational) => rational.is_negative(),
-            Number::Real(value) => *value < 0.0,
+            Number::Real(real) => real.value < 0.0,
         }
     }
 
@@ -79,9 +158,9 @@ impl Number {
     pub fn recip(&self) -> Number {
         match self {
             Number::Rational(rational) => {
-                rational.recip().map_or(Number::Real(f64::NAN), Number::Rational)
+                rational.recip().map_or(Number::real(f64::NAN), Number::Rational)
             }
-            Number::Real(value) => Number::Real(1.0 / value),
+            Number::Real(real) => Number::Real(real.recip()),
         }
     }
 
@@ -114,7 +193,7 @@ impl Number {
         &self,
         other: &Number,
         exact: impl Fn(&Rational, &Rational) -> Rational,
-        real: impl Fn(f64, f64) -> f64,
+        real: impl Fn(Real, Real) -> Real,
     ) -> Number {
         if let (Number::Rational(a), Number::Rational(b)) = (self, other) {
             let value = exact(a, b);
@@ -122,15 +201,15 @@ impl Number {
                 return Number::Rational(value);
             }
         }
-        Number::Real(real(self.to_f64(), other.to_f64()))
+        Number::Real(real(self.to_real(), other.to_real()))
     }
-}
 
-/// The sum of floating-point numbers, or 0 if they cancel each other up to the rounding errors that they have already.
-fn sum(a: f64, b: f64) -> f64 {
-    let sum = a + b;
-    let is_rounding = sum.is_finite() && sum.abs() <= ROUNDED * a.abs().max(b.abs());
-    if is_rounding { 0.0 } else { sum }
+    fn to_real(&self) -> Real {
+        match self {
+            Number::Rational(rational) => Real::from(rational.to_f64()),
+            Number::Real(real) => *real,
+        }
+    }
 }
 
 impl std::ops::Add for &Number {
@@ -140,14 +219,14 @@ impl std::ops::Add for &Number {
         if let Some(sum) = self.integers(other, i64::checked_add) {
             return sum;
         }
-        self.combine(other, |a, b| a + b, sum)
+        self.combine(other, |a, b| a + b, |a, b| a + b)
     }
 }
 
 impl std::ops::Sub for &Number {
     type Output = Number;
     fn sub(self, other: &Number) -> Number {
-        self.combine(other, |a, b| a - b, |a, b| sum(a, -b))
+        self.combine(other, |a, b| a - b, |a, b| a - b)
     }
 }
 
@@ -167,7 +246,7 @@ impl std::ops::Neg for &Number {
     fn neg(self) -> Number {
         match self {
             Number::Rational(rational) => Number::Rational(-rational),
-            Number::Real(value) => Number::Real(-value),
+            Number::Real(real) => Number::Real(-*real),
         }
     }
 }
@@ -177,7 +256,7 @@ impl PartialEq for Number {
     fn eq(&self, other: &Number) -> bool {
         match (self, other) {
             (Number::Rational(a), Number::Rational(b)) => a == b,
-            (Number::Real(a), Number::Real(b)) => a.to_bits() == b.to_bits(),
+            (Number::Real(a), Number::Real(b)) => a.value.to_bits() == b.value.to_bits(),
             _ => false,
         }
     }
@@ -189,7 +268,7 @@ impl Hash for Number {
     fn hash<H: Hasher>(&self, state: &mut H) {
         match self {
             Number::Rational(rational) => rational.hash(state),
-            Number::Real(value) => value.to_bits().hash(state),
+            Number::Real(real) => real.value.to_bits().hash(state),
         }
     }
 }
@@ -206,12 +285,22 @@ mod tests {
 
     #[test]
     fn sums_that_cancel_are_zero() {
-        let real = |value: f64| Number::Real(value);
+        let real = Number::real;
         assert!((&real(0.1 + 0.2) - &real(0.3)).is_zero());
         assert!((&real(0.1 + 0.2) + &real(-0.3)).is_zero());
         assert!((&real(0.1 + 0.2) - &Number::Rational(Rational::new(3, 10).unwrap())).is_zero());
         assert!(!(&real(1.0) - &real(1.0 + 1e-12)).is_zero());
         assert!(!(&real(1e-300) + &Number::integer(0)).is_zero());
+        // The terms cancel one after the other, and their rest is multiplied and divided.
+        let rest = &(&real(100.1) - &real(100.0)) - &real(0.1);
+        assert!(rest.is_zero());
+        let factor = &(&real(100.1) - &real(100.0)) * &real(1e-3);
+        assert!((&factor - &real(1e-4)).is_zero());
+        let quotient = (Real::from(100.1) - Real::from(100.0)) / Real::from(1e3);
+        assert_eq!((quotient - Real::from(1e-4)).value(), 0.0);
+        let divisor = (&real(100.1) - &real(100.0)).recip();
+        assert!((&divisor - &Number::integer(10)).is_zero());
+        assert!(!(&(&real(100.1) - &real(100.0)) - &real(0.1 + 1e-11)).is_zero());
         assert_eq!((&real(f64::INFINITY) + &real(1.0)).to_f64(), f64::INFINITY);
         let third = Number::Rational(Rational::new(1, 3).unwrap());
         let near = Number::Rational(Rational::from_f64(1.0 / 3.0).unwrap());

@@ -112,7 +112,12 @@ mod tests {
         let snapped = snapping(&robot, Some(1e-3), None).unwrap().taken;
         let largest = snapped.largest().unwrap();
         assert_eq!((largest.name.as_str(), largest.angle), ("3", 1.57076));
-        // The operations are those of the given plan.
+        // The operations are those of inverse dynamics alone, and of the given plan.
+        let options = Options { snap: Some(1e-3), ..Options::default() };
+        let module = programs_of(robot.clone(), "arm", &options).unwrap().module;
+        let mut functions = module.functions.iter();
+        let torques = functions.find(|one| one.name == "inverse_dynamics").unwrap();
+        assert_eq!(snapped.operations, module.counts(torques).call.operations());
         let basic = Plan::uniform(robot.links.len(), &LinkPlan::BASIC);
         let basic = snapping(&robot, Some(1e-3), Some(&basic)).unwrap().taken;
         assert!(basic.operations > snapped.operations, "{basic:?}");

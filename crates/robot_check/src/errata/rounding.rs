@@ -33,7 +33,9 @@ const COMPUTED: f64 = 4.0 * f64::EPSILON;
 /// Whether a printed coefficient is a derived one that was computed with floating-point numbers, within its error.
 pub(super) fn is_computed(printed: &Number, derived: &Number) -> bool {
     match derived {
-        Number::Real(value) => is_within(printed, derived, &Number::Real(COMPUTED * value.abs())),
+        Number::Real(real) => {
+            is_within(printed, derived, &Number::real(COMPUTED * real.value().abs()))
+        }
         Number::Rational(_) => false,
     }
 }

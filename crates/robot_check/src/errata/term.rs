@@ -88,7 +88,7 @@ pub(super) fn noted_like<'g>(derived: Vec<Term<'g>>, printed: &[Term<'g>]) -> Ve
     for mut term in derived {
         for constant in term.factors.iter().filter(|power| is_constant(power)) {
             let value = constant.atom.evaluate(|_| f64::NAN).powi(constant.exponent);
-            term.coefficient = &term.coefficient * &Number::Real(value);
+            term.coefficient = &term.coefficient * &Number::real(value);
         }
         term.factors.retain(|power| !is_constant(power));
         let known = places.get(&term.key()).copied().and_then(|place| noted.get_mut(place));

@@ -376,7 +376,10 @@ fn entries_that_do_not_fit_have_names_and_matrices_that_do_not_are_lists() {
 fn a_layout_without_effect_is_refused() {
     let file = robot("trttr1");
     let errors = complaint(2, &["equations", &file, "--layout", "vectors"], "");
-    assert!(errors.contains("--layout has no effect on these equations"), "{errors}");
+    assert!(errors.contains("--layout vectors has no effect on these equations"), "{errors}");
+    // Equations for each entry are what this form has.
+    let plain = output(&["equations", &file], "");
+    assert_eq!(output(&["equations", &file, "--layout", "scalars"], ""), plain);
     let errors = complaint(2, &["equations", &file, "--style", "paper", "--trig", "short"], "");
     assert!(errors.contains("--style"), "{errors}");
 }

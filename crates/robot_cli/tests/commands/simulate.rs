@@ -175,6 +175,12 @@ fn a_mass_matrix_of_rounding_is_reported() {
         );
         assert!(shown.lines().any(|line| line.starts_with(&start)), "{shown}");
     }
+    // A negative inertia determines accelerations, but no motion.
+    let state = ["--q", "0,1", "--qd", "0,0", "--tau", "1,1"];
+    let of_eval = ["eval", &file, "--set", "I2=-0.6", "--function", "forward_dynamics"];
+    let shown = complaint(1, &[&of_eval[..], &state].concat(), "");
+    let reason = "forward dynamics has no solution: the mass matrix is not positive definite";
+    assert!(shown.contains(reason), "{shown}");
 }
 
 #[test]

@@ -82,7 +82,7 @@ fn constant(expr: Expr<'_>) -> Option<Expr<'_>> {
     if !value.is_finite() || !others.iter().all(is_same) {
         return None;
     }
-    Some(graph.number(fraction(value).map_or(Number::Real(value), Number::Rational)))
+    Some(graph.number(fraction(value).map_or(Number::real(value), Number::Rational)))
 }
 
 /// The value of an expression at seeded values of its symbols.
@@ -98,7 +98,7 @@ fn seeded(symbol: &str, place: u64) -> f64 {
 fn with_numbers(coefficient: Expr<'_>) -> Expr<'_> {
     let graph = coefficient.graph();
     // Expansions of expressions as long as these take minutes.
-    let short = with_values(&[coefficient], graph, |_, value| Some(Number::Real(value)));
+    let short = with_values(&[coefficient], graph, |_, value| Some(Number::real(value)));
     let short = short.first().copied().unwrap_or(coefficient);
     let fraction = short.as_number().and_then(|number| fraction(number.to_f64()));
     fraction.map_or(short, |fraction| graph.number(Number::Rational(fraction)))

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use robot_dynamics::mechanism::Mechanism;
 use robot_symbolic::{
-    Expr, Function, Graph, Id, Number, Polynomial, PolynomialOptions, Rational, View, walk,
+    Expr, Function, Graph, Id, Number, Polynomial, PolynomialOptions, Rational, Real, View, walk,
 };
 use rustc_hash::FxHashMap;
 
@@ -20,7 +20,7 @@ const LOST: f64 = 1e-13;
 /// A part of an expression that contains no symbol.
 #[derive(Clone, Copy)]
 struct Constant {
-    value: f64,
+    value: Real,
     /// Whether it contains a function of a number, such as √2 or sin(0.3).
     has_function: bool,
     /// The number of sines, cosines and other functions except roots in it.
@@ -36,7 +36,7 @@ impl Constant {
     fn is_decimal(&self) -> bool {
         let is_long = self.digits > MOST_DIGITS || self.sums > 1 || self.angles > 1;
         let is_product = self.sums == 0 && self.angles < 2;
-        self.has_function && is_long && !is_product && self.value.is_finite()
+        self.has_function && is_long && !is_product && self.value.value().is_finite()
     }
 }
 
@@ -79,7 +79,7 @@ pub(crate) fn with_values<'g>(
     }
     walk::rebuild_above(roots, graph, |part| {
         let constant = constants.get(&part.id()).filter(|constant| constant.is_decimal())?;
-        Some(graph.number(value(part, constant.value)?))
+        Some(graph.number(value(part, constant.value.value())?))
     })
 }
 
@@ -98,7 +98,7 @@ pub(super) fn round_links<'g>(writer: &Writer<'_, 'g>, mechanism: &mut Mechanism
 /// The properties of an expression without symbols, from those of its operands.
 fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant> {
     if let View::Number(number) = expr.view() {
-        let (value, digits) = (number.to_f64(), digits(&number));
+        let (value, digits) = (Real::from(number.to_f64()), digits(&number));
         return Some(Constant { value, has_function: false, angles: 0, sums: 0, digits });
     }
     let operands: Option<Vec<Constant>> =
@@ -110,7 +110,7 @@ fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant>
         (View::Sub(..), [a, b]) => a.value - b.value,
         (View::Mul(..), [a, b]) => a.value * b.value,
         (View::Div(..), [a, b]) => a.value / b.value,
-        (View::Call(function, _), [a]) => function.apply(a.value),
+        (View::Call(function, _), [a]) => Real::from(function.apply(a.value.value())),
         _ => return None,
     };
     // Common parts count each time, so numbers can exceed every limit.
@@ -166,7 +166,7 @@ pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial
             }
         }
         let digits = digits(number);
-        let new = Constant { value: 0.0, has_function, angles, sums: 0, digits };
+        let new = Constant { value: Real::from(0.0), has_function, angles, sums: 0, digits };
         coefficients
             .entry(key)
             .and_modify(|known| {
@@ -226,6 +226,13 @@ mod tests {
         let value: f64 = decimals(&["(sqrt(2) - 1)"; 18].join("*")).parse().unwrap();
         let small = (2.0_f64.sqrt() - 1.0).powi(18);
         assert!((value - small).abs() < 1e-14 * small, "{value}, {small}");
+    }
+
+    #[test]
+    fn rounding_errors_are_zero() {
+        // (a - 0.7) (a + 0.7) + 0.49 - a² for a = 0.1234567 √3.
+        let noise = "(0.1234567*sqrt(3) - 0.7)*(0.1234567*sqrt(3) + 0.7) + 0.49 - 0.04572467032467";
+        assert_eq!(decimals(noise), "0");
     }
 
     /// Each round doubles the number of sums, of which there are 2⁷⁰ as printed.

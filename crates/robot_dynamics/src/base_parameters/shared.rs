@@ -33,7 +33,7 @@ pub(super) fn reduced<'g>(derivation: &Derivation<'_, 'g>, kept: &[Kept<'g>]) ->
         }
         for (place, coefficient) in solved(&triangle, projections).into_iter().enumerate() {
             if coefficient.abs() > ROUNDING {
-                let coefficient = derivation.mechanism.graph.number(Number::Real(coefficient));
+                let coefficient = derivation.mechanism.graph.number(Number::real(coefficient));
                 add(&mut found[place].1, &kept[index].1, Scalar::new(coefficient));
             }
         }

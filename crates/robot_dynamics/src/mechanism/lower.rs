@@ -59,7 +59,7 @@ impl<'g> Lowering<'g, '_> {
         if keep || !walk::symbols(&[expr]).is_empty() {
             return expr;
         }
-        self.graph.number(Number::Real(expr.evaluate(|_| f64::NAN)))
+        self.graph.number(Number::real(expr.evaluate(|_| f64::NAN)))
     }
 
     fn link(&mut self, link: &Link) -> MechanismLink<'g> {

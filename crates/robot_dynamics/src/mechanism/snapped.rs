@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn an_angle_is_a_multiple_up_to_the_tolerance() {
-        let of = |value: f64| quarters(&Number::Real(value), 1e-5).map(|(quarters, _)| quarters);
+        let of = |value: f64| quarters(&Number::real(value), 1e-5).map(|(quarters, _)| quarters);
         let near = [FRAC_PI_2 + 4e-6, -2.0 * FRAC_PI_2 - 8e-6, 1e-12, 0.0].map(of);
         assert_eq!(near, [Some(1), Some(-2), Some(0), None]);
         assert_eq!([FRAC_PI_2 + 2e-5, 0.785, 1e-4].map(of), [None; 3]);

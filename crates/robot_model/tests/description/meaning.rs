@@ -4,6 +4,7 @@ use robot_model::description::{Budget, Code, Limit, MAX_BUNDLES, check_bundle_na
 use robot_model::diagnostic::code;
 use robot_model::functions::{self, FrameRef, FunctionKind, Functions};
 use robot_model::robot::{BaseFrames, JointKind, Move, Robot};
+use robot_model::variable::{JointVariable, Variable};
 use robot_numeric::Mechanism;
 use robot_numeric::random::Random;
 use robot_symbolic::{Formula, Rational};
@@ -417,4 +418,18 @@ fn a_name_that_was_made_is_not_that_of_another_link() {
     for (name, kind) in functions::names(&robot) {
         assert_eq!(functions::named(&robot, &name), Ok(kind), "{name}");
     }
+}
+
+#[test]
+fn symbols_of_a_robot_are_its_variables() {
+    let more = "[parameters]\ng = 9.81\n".to_owned() + &revolute("1", "");
+    let robot = read(&arm(&format!("{more}\n[tip]\nparent = \"1\"\n"))).robot;
+    let components = robot.frames[0].wrench.iter().flat_map(|wrench| wrench.components());
+    let found: Vec<Option<Variable>> = components.map(|name| robot.variable(name)).collect();
+    let wrench: Vec<Option<Variable>> =
+        (0..6).map(|entry| Some(Variable::Wrench(0, entry))).collect();
+    assert_eq!(found, wrench);
+    assert_eq!(robot.variable("g"), Some(Variable::Parameter(0)));
+    assert_eq!(robot.variable("q1"), Some(Variable::Joint(JointVariable::Position, 0)));
+    assert_eq!((robot.variable("q2"), robot.variable("h")), (None, None));
 }

@@ -40,7 +40,7 @@ impl<'g> Polynomial<'g> {
             let (constant, rest) = monomial.partition(|atom| constants.contains_key(&atom));
             let number = match constant.is_one() {
                 true => number.clone(),
-                false => Number::Real(number.to_f64() * value(&constant)),
+                false => number * &Number::real(value(&constant)),
             };
             let sum = sums.entry(rest).or_insert(Number::integer(0));
             *sum = &*sum + &number;
@@ -50,7 +50,7 @@ impl<'g> Polynomial<'g> {
         let is_kept = |number: &Number| match number {
             Number::Rational(rational) => !rational.is_zero(),
             // A value that is not a number stays.
-            Number::Real(value) => value.is_nan() || value.abs() > least,
+            Number::Real(real) => real.value().is_nan() || real.value().abs() > least,
         };
         let mut terms: Terms = sums.into_iter().filter(|(_, number)| is_kept(number)).collect();
         terms.sort_unstable_by(|(a, _), (b, _)| a.cmp(b));
@@ -66,7 +66,7 @@ mod tests {
     fn constants_of_terms_become_one_number_and_rounding_errors_vanish() {
         let graph = Graph::new();
         let (root, tiny) = (0.5_f64.sqrt(), -2.2e-16);
-        let [root, tiny] = [root, tiny].map(|value| graph.number(Number::Real(value)));
+        let [root, tiny] = [root, tiny].map(|value| graph.number(Number::real(value)));
         let [a, b] = ["a", "b"].map(|name| graph.symbol(name));
         let sum = graph.parse("2*sqrt(2)*a + 1/3*b + 1/10^20*a*b").unwrap();
         let whole = Polynomial::of(sum + root * a + tiny * b * b, &PolynomialOptions::default());

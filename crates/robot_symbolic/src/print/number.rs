@@ -45,8 +45,8 @@ impl Magnitude {
                     None => Magnitude::Decimal(text),
                 }
             }
-            Number::Real(value) if value.is_finite() => {
-                let text = format!("{:?}", value.abs());
+            Number::Real(real) if real.value().is_finite() => {
+                let text = format!("{:?}", real.value().abs());
                 match text.split_once('e') {
                     Some(parts) => Magnitude::Scientific(pair(parts)),
                     None => Magnitude::Decimal(text),

@@ -116,7 +116,7 @@ fn large_powers_read_back() {
 #[test]
 fn floating_point_constants_print_shortest() {
     let g = Graph::new();
-    let real = |value: f64| to_text(g.number(Number::Real(value)) * g.symbol("x")).unwrap();
+    let real = |value: f64| to_text(g.number(Number::real(value)) * g.symbol("x")).unwrap();
     assert_eq!(real(0.1), "0.1*x");
     assert_eq!(real(-1e-300), "-1e-300*x");
     assert_eq!(real(1.0 / 3.0), "0.3333333333333333*x");

@@ -264,7 +264,7 @@ fn a_folder_named_as_such_is_not_a_file() {
 
 #[cfg(unix)]
 mod unix {
-    use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+    use std::os::unix::fs::{MetadataExt, PermissionsExt, chown, symlink};
 
     use super::*;
 
@@ -321,6 +321,18 @@ mod unix {
         let circle = folder.path("circle");
         symlink("circle", &circle).unwrap();
         assert!(write(&circle, NEW).is_err());
+    }
+
+    #[test]
+    fn the_owner_stays() {
+        let folder = Folder::new("owner");
+        let path = folder.put("arm.rs", OWN);
+        // Only the superuser can give a file to somebody else; for others it stays their own.
+        let _ = chown(&path, Some(1234), Some(1234));
+        let owner = || fs::metadata(&path).map(|found| (found.uid(), found.gid())).unwrap();
+        let before = owner();
+        assert_eq!(write(&path, NEW).unwrap(), 1);
+        assert_eq!(owner(), before);
     }
 
     #[test]

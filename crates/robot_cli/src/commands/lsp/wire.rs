@@ -148,4 +148,22 @@ mod tests {
         );
         assert!(all(&[b'a'; 1 << 20])[0].as_ref().unwrap_err().contains("not complete"));
     }
+
+    /// An input that fails.
+    struct Broken;
+
+    impl Read for Broken {
+        fn read(&mut self, _: &mut [u8]) -> std::io::Result<usize> {
+            Err(std::io::Error::other("the cable is cut"))
+        }
+    }
+
+    #[test]
+    fn an_input_that_fails_has_its_reason() {
+        let header = &b"Content-Length: 2\r\n\r\n"[..];
+        for mut stream in [Box::new(Broken) as Box<dyn Read>, Box::new(header.chain(Broken))] {
+            let found = read(&mut std::io::BufReader::new(&mut stream));
+            assert_eq!(found, Err("it cannot be read: the cable is cut".to_owned()));
+        }
+    }
 }

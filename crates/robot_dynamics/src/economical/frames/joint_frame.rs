@@ -75,7 +75,7 @@ fn joint_angle<'g>(link: &ChainLink<'g>) -> (Expr<'g>, Expr<'g>) {
             };
             let offset = match quarter {
                 Some(quarters) => graph.pi() * quarters / 2,
-                None => graph.number(Number::Real(s.to_f64().atan2(c.to_f64()))),
+                None => graph.number(Number::real(s.to_f64().atan2(c.to_f64()))),
             };
             let angle = position + offset;
             (angle.sin(), angle.cos())

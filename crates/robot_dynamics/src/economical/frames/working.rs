@@ -319,7 +319,7 @@ mod tests {
     #[test]
     fn nothing_is_divided_by_what_is_small_or_not_a_number() {
         let graph = Graph::new();
-        let number = |value: f64| graph.number(Number::Real(value));
+        let number = |value: f64| graph.number(Number::real(value));
         let quotient = |numerator: f64, denominator: f64| {
             safe_quotient(number(numerator), number(denominator))
                 .map(|quotient| quotient.evaluate(|_| f64::NAN))
@@ -334,7 +334,7 @@ mod tests {
     #[test]
     fn a_direction_has_a_length() {
         let graph = Graph::new();
-        let number = |value: f64| graph.number(Number::Real(value));
+        let number = |value: f64| graph.number(Number::real(value));
         let found = direction([graph.integer(8), graph.integer(-6), graph.one()]);
         let found =
             found.map(|(sine, cosine)| [sine, cosine].map(|one| one.evaluate(|_| f64::NAN)));

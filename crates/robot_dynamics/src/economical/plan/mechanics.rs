@@ -94,7 +94,7 @@ fn line(expr: Expr<'_>, numbers: &BTreeMap<Id, usize>) -> String {
     let at = |operand: Expr<'_>| numbers[&operand.id()];
     match expr.view() {
         View::Number(Number::Rational(value)) => value.to_string(),
-        View::Number(Number::Real(value)) => format!("real {:016x}", value.to_bits()),
+        View::Number(Number::Real(real)) => format!("real {:016x}", real.value().to_bits()),
         View::Pi => "pi".to_owned(),
         View::Symbol(symbol) => format!("symbol {}", symbol.index()),
         View::Add(a, b) => format!("{} + {}", at(a), at(b)),

@@ -213,5 +213,5 @@ pub(crate) fn constant_root(constant: Expr<'_>) -> Expr<'_> {
     if root.as_number().is_some() {
         return root;
     }
-    constant.graph().number(Number::Real(root.evaluate(|_| f64::NAN)))
+    constant.graph().number(Number::real(root.evaluate(|_| f64::NAN)))
 }

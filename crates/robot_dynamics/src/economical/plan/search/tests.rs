@@ -79,7 +79,7 @@ fn a_cheap_plan_with_wrong_values_is_not_taken() {
                     if !recursion.plan().links.iter().any(is_wrong) {
                         return Objective::new(torques);
                     }
-                    let factor = mechanism.graph.number(Number::Real(spoil));
+                    let factor = mechanism.graph.number(Number::real(spoil));
                     let checked = torques.iter().map(|torque| *torque * factor).collect();
                     Objective { counted: vec![], checked }
                 });
