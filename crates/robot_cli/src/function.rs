@@ -17,7 +17,7 @@ pub(crate) fn check_once(option: &str, names: &[String]) -> Result<(), Failure> 
     if wrong.is_empty() { Ok(()) } else { Err(Failure::Usage(wrong)) }
 }
 
-/// Does the same for words of a fixed list.
+/// Does the same as [`check_once`] for values of a fixed list.
 pub(crate) fn check_values_once<T: ValueEnum>(option: &str, values: &[T]) -> Result<(), Failure> {
     let names = values.iter().filter_map(T::to_possible_value);
     let names: Vec<String> = names.map(|value| value.get_name().to_owned()).collect();

@@ -361,7 +361,7 @@ pub struct Frame {
     pub name: String,
     /// The index of the link that carries the frame; `None` for the base.
     pub link: Option<usize>,
-    /// The pose of the frame relative to that link's frame.
+    /// The placement of the frame relative to that link's frame.
     pub placement: Placement,
     /// The wrench that the frame exerts on its surroundings, if it is a tip.
     pub wrench: Option<Wrench>,

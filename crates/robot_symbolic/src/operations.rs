@@ -59,7 +59,7 @@ struct Mark {
     last_count: u64,
     /// Whether the node depends on symbols that are not free.
     varies: bool,
-    /// Whether the node must be computed whenever these symbols change.
+    /// Whether the node must be computed again when symbols that are not free change.
     needed: bool,
     /// The number of its uses by needed nodes and roots.
     uses: u32,

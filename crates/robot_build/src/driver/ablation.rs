@@ -29,7 +29,7 @@ type Change = fn(&mut Plan);
 /// Removes a pass from the options.
 type PassChange = fn(&mut robot_codegen::Options);
 
-/// The options of a [`Plan`] by name, with the change to their value in [`LinkPlan::BASIC`] or to the file's frames.
+/// The choices of a [`Plan`] by name, with the change to their value in [`LinkPlan::BASIC`] or to the file's frames.
 const PLAN_OPTIONS: [(&str, Change); 10] = [
     ("origin", |plan| each(plan, |link| link.origin = Origin::File)),
     ("turn", |plan| each(plan, |link| link.turn = Turn::File)),

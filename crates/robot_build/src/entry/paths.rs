@@ -127,7 +127,7 @@ pub fn missing(path: &Path) -> String {
 /// The same message for a file whose actual path was derived from the given one.
 fn missing_at(path: &Path, given: &Path) -> String {
     if let Ok(target) = path.read_link() {
-        return format!("it is a link to {}, which does not exist", shown(&target));
+        return format!("it is a symbolic link to {}, which does not exist", shown(&target));
     }
     let place =
         if path == given { String::new() } else { format!(" (looked for {})", shown(path)) };
@@ -199,7 +199,7 @@ mod tests {
         #[cfg(unix)]
         {
             std::os::unix::fs::symlink("gone.toml", at("link.toml")).unwrap();
-            let link = "it is a link to gone.toml, which does not exist";
+            let link = "it is a symbolic link to gone.toml, which does not exist";
             assert_eq!(missing(&at("link.toml")), link);
         }
         std::fs::remove_dir_all(&folder).unwrap();

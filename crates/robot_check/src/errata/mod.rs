@@ -258,7 +258,7 @@ fn expand<'p, 'g>(
 fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {
     let message = "the printed equations up to this one are too long, multiplied out";
     let error = Diagnostic::error(code::LIMIT, message).at(&equation.span, "");
-    let help = "is this an equation of this robot? leave out the longest, or compare each in a file of its own";
+    let help = "check that the equations are of this robot; leave out the longest, or compare each in a file of its own";
     Box::new(error.help(help))
 }
 
@@ -308,7 +308,7 @@ fn too_different(one: &Compared<'_, '_>, wrong: usize) -> Diagnostic {
     let message =
         format!("{wrong} of {print} printed terms are not among the {derived} derived terms");
     let error = Diagnostic::error(code::LIMIT, message).at(&one.equation.span, "");
-    error.help("is this an equation of this robot?")
+    error.help("check that the equation is one of this robot, in the same frames")
 }
 
 /// What evidence is found with.

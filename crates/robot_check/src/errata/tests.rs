@@ -197,7 +197,7 @@ fn terms_that_are_not_torques_are_reported() {
 fn latex_is_compared_as_text_is() {
     let robot = robot("trttr1");
     let text = r"\begin{align}
-  F_{l_y}^5 &= F_{l_y}^6 + M_5 cq_2 \dot{q}_1 + M_5 \ddot q_2 (q_4 + l_4 + l_5) \\ % a slip: one dot
+  F_{l_y}^5 &= F_{l_y}^6 + M_5 cq_2 \dot{q}_1 + M_5 \ddot q_2 (q_4 + l_4 + l_5) \\ % a mistake: one dot
   &\quad + 2 M_5 \dot q_4 \dot q_2 \tag{31} \\
   \bar{M}_c^{5} &= \left[\begin{array}{c}
     - J_x^{*5} (s_5 \ddot q_2 + \dot q_5 c_5 \dot q_2) - c_5 \dot q_2 \dot q_5 (J_y^{*5} - J_z^{*5}) \\
@@ -285,7 +285,7 @@ fn equations_without_end_are_refused() {
     assert_eq!(compared(&planar, &many).map(|found| found.terms), Ok(20_000));
     let strange: String = (0..200_000).map(|index| format!("+ x{index}")).collect();
     let shown = compared(&planar, &format!("Q1 = {strange}")).unwrap_err().to_string();
-    assert!(shown.contains("is this an equation of this robot"), "{shown}");
+    assert!(shown.contains("check that the equation is one of this robot"), "{shown}");
     for part in [
         "\\begin{split}",
         "\\tag{",

@@ -204,7 +204,7 @@ fn a_document_defines_the_symbols_that_occur() {
     assert!(shown.contains(r"{\LARGE An arm\par}"), "{shown}");
     let symbols = between(&shown, r"\section{Symbols}", r"\section{");
     for defined in [
-        r"\(q_1\) & displacement of joint 1, m",
+        r"\(q_1\) & position of joint 1, m",
         r"\(\ddot{q}_i\) & second time derivative of \(q_i\)",
         r"\(M_1\) & mass of link 1 & \(45 \mathrm{\ } \mathrm{kg}\)",
         r"\(H_{ij}\) & entry of the mass matrix",

@@ -253,12 +253,13 @@ impl SymbolTable {
         self.trigonometry != Trigonometry::Named && matches!(letter, "s" | "c")
     }
 
-    /// Whether a symbol is the letter with a number as its first index, in text or in print.
+    /// Whether there are symbols of [`symbols_with_letter`](Self::symbols_with_letter).
     fn is_letter_of_symbol(&self, letter: &str) -> bool {
         self.symbols_with_letter(letter).next().is_some()
     }
 
-    /// The names of the symbols that are the letter with a number as their first index, in text or in print.
+    /// The names of the symbols that are the letter with a number in text, or the letter with a number as lower index or
+    /// with any upper index in print.
     pub(crate) fn symbols_with_letter<'s>(
         &'s self,
         letter: &'s str,

@@ -21,7 +21,7 @@ pub(super) fn is_cut(value: &Rational, text: &str) -> bool {
     is_long(text) && Rational::from_decimal(&six(value.to_f64())).as_ref() != Some(value)
 }
 
-/// Rounds a number to six significant digits.
+/// Rounds a number to six significant digits, but not before the decimal point.
 pub(super) fn rounded(number: f64) -> Math {
     signed(&six(number))
 }

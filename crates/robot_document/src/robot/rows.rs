@@ -15,7 +15,7 @@ use crate::math::Math;
 /// A link and the joint that moves it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinkRow<'r> {
-    /// The link, with its name, axis, pose and bodies.
+    /// The link, with its name, axis, placement and bodies.
     pub link: &'r Link,
     /// The name of the parent link.
     pub parent: &'r str,
@@ -30,7 +30,7 @@ pub struct LinkRow<'r> {
 /// A named frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameRow<'r> {
-    /// The frame, with its name and pose.
+    /// The frame, with its name and placement.
     pub frame: &'r Frame,
     /// The name of the link that it is fixed to.
     pub link: &'r str,

@@ -93,7 +93,7 @@ fn coordinates(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) 
         if occurring.has(&name) {
             let position = match coordinate.kind {
                 JointKind::Revolute => "angle",
-                JointKind::Prismatic => "displacement",
+                JointKind::Prismatic => "position",
             };
             let unit = JointVariable::Position.unit(coordinate.kind);
             let meaning = format!("{position} of joint {}, {unit}", coordinate.joint);

@@ -57,7 +57,7 @@ pub(super) struct DraftLink {
 /// The joint between a link and its parent.
 #[derive(Clone)]
 pub(super) struct DraftJoint {
-    /// `None` for a fixed link.
+    /// The kind of the joint; `None` for a fixed joint.
     pub(super) kind: Option<JointKind>,
     pub(super) name: Named,
     pub(super) axis: [Formula; 3],

@@ -150,9 +150,10 @@ impl Wanted {
             return reader.wrong_type(entry.value, expected);
         };
         if keys.len() > MAX_BUNDLES {
-            let message = format!("{} bundles; at most {MAX_BUNDLES}", keys.len());
+            let message =
+                format!("at most {MAX_BUNDLES} bundles are allowed; found {}", keys.len());
             let diagnostic = Diagnostic::error(code::LIMIT, message).at(&entry.key, "this table");
-            return reader.report(diagnostic.help("combine more functions in one bundle"));
+            return reader.report(diagnostic.help("put the functions of several bundles into one"));
         }
         let mut names = Registry::new("bundle");
         for (key, value) in keys {

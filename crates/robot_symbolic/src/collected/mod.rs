@@ -94,7 +94,7 @@ impl<'g> Collector<'g, '_> {
             }
             Some(Proved::Same) => terms,
             // A sum in the numerator has canceled the same sum in a denominator.
-            Some(Proved::Shorter(cancelled)) => self.collect(&cancelled, rank, brackets),
+            Some(Proved::Shorter(canceled)) => self.collect(&canceled, rank, brackets),
             unproved => {
                 debug_assert!(
                     unproved.is_none(),
@@ -173,7 +173,7 @@ fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
             matches!(atom.view(), View::Add(..) | View::Sub(..)).then(|| (place, of(atom)))
         });
         let divisors: Vec<(usize, Option<Polynomial<'g>>)> = divisors.collect();
-        let mut cancelled: Vec<(usize, usize)> = vec![];
+        let mut canceled: Vec<(usize, usize)> = vec![];
         for (place, (factor, exponent)) in term.factors.iter_mut().enumerate() {
             let ArrangedFactor::Sum(inner) = factor else { continue };
             cancel(inner, graph);
@@ -182,9 +182,9 @@ fn cancel<'g>(terms: &mut [ArrangedTerm<'g>], graph: &'g Graph) {
             }
             let sum = of(arranged_value(inner, graph));
             let same = divisors.iter().find(|(_, divisor)| sum.is_some() && *divisor == sum);
-            cancelled.extend(same.map(|(divisor, _)| (place, *divisor)));
+            canceled.extend(same.map(|(divisor, _)| (place, *divisor)));
         }
-        for (sum, divisor) in cancelled {
+        for (sum, divisor) in canceled {
             let [Some((_, above)), Some((_, below))] =
                 [sum, divisor].map(|at| term.factors.get(at))
             else {

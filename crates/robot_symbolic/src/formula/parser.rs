@@ -313,7 +313,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// The error for an exponent that is not an integer, or beyond the limit; integers of many digits have no `value`.
+    /// The error for an exponent that is not an integer or is beyond the limit; integers of many digits have no `value`.
     fn wrong_exponent(&self, value: Option<i64>, span: Range<usize>) -> ParseError {
         let text = self.quote(&span);
         let is_digit = |c: char| c == '-' || c == '…' || c.is_ascii_digit();
@@ -322,8 +322,13 @@ impl Parser<'_> {
                 .help("write a root as `sqrt(x)`");
         }
         let shown = value.map_or(text, |value| value.to_string());
+        let remedy = if shown.starts_with('-') {
+            "write a quotient of powers, such as `1/(x^64*x^36)`"
+        } else {
+            "write the power as a product of powers, such as `x^64*x^36`"
+        };
         ParseError::new(span, format!("the exponent {shown} is beyond ±{MAX_EXPONENT}"))
-            .help("write the power as a product of powers, such as `x^64*x^36`")
+            .help(remedy)
     }
 
     /// The text of a span, without its middle if it is long.

@@ -192,8 +192,8 @@ impl Options {
         }
         if let Some(last) = self.bundles.get(MAX_BUNDLES) {
             let reason = format!(
-                "at most {MAX_BUNDLES} bundles are allowed; combine more \
-                functions in one bundle"
+                "at most {MAX_BUNDLES} bundles are allowed; put the functions \
+                of several bundles into one"
             );
             errors.push(Error::Bundle { bundle: last.name.clone(), reason });
         }

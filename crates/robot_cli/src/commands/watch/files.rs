@@ -6,20 +6,20 @@ use std::time::Duration;
 
 use robot_build::{Options, RobotFile};
 
-use super::state::Look;
+use super::state::Reading;
 
-/// The time between two looks at the files.
+/// The time between two readings of the files.
 ///
 /// Texts are compared, not modification times, which are too coarse on some systems for two saves in quick
-/// succession. The path is opened again for each look, because editors save by replacing the old file with
+/// succession. The path is opened again for each reading, because editors save by replacing the old file with
 /// another.
 const PAUSE: Duration = Duration::from_millis(20);
-/// The number of equal looks in a row after which a text counts as saved, because editors write in pieces.
+/// The number of equal readings in a row after which a text counts as saved, because editors write in pieces.
 const SETTLED: usize = 2;
 /// The same number if the file is missing or empty, as it is between two steps of a save, on a busy disk for some time.
 const SETTLED_AWAY: usize = 50;
 
-/// An iterator over looks at a file that show a new content, until `is_over` is set.
+/// An iterator over readings at a file that show a new content, until `is_over` is set.
 pub(super) struct Files<'a> {
     path: &'a Path,
     /// The options for reading the file, which are needed to read its pinned plan.
@@ -35,11 +35,11 @@ impl<'a> Files<'a> {
 }
 
 impl Iterator for Files<'_> {
-    type Item = Look;
+    type Item = Reading;
 
-    fn next(&mut self) -> Option<Look> {
+    fn next(&mut self) -> Option<Reading> {
         while !self.is_over.load(Ordering::Relaxed) {
-            let settled = self.settling.after(look(self.path, &self.options));
+            let settled = self.settling.after(reading(self.path, &self.options));
             if settled.is_some() {
                 return settled;
             }
@@ -49,47 +49,47 @@ impl Iterator for Files<'_> {
     }
 }
 
-/// Selects the looks that are new and stable.
+/// Selects the readings that are new and stable.
 #[derive(Default)]
 pub(super) struct Settling {
-    /// The last look that was selected.
-    last: Option<Look>,
+    /// The last reading that was selected.
+    last: Option<Reading>,
     /// The present candidate, and how often it was seen in a row.
-    seen: Option<(Look, usize)>,
+    seen: Option<(Reading, usize)>,
 }
 
 impl Settling {
-    /// Returns the look if it is new and was seen often enough.
-    pub(super) fn after(&mut self, look: Look) -> Option<Look> {
+    /// Returns the reading if it is new and was seen often enough.
+    pub(super) fn after(&mut self, reading: Reading) -> Option<Reading> {
         let times = match self.seen.take() {
-            Some((earlier, times)) if earlier == look => times + 1,
+            Some((earlier, times)) if earlier == reading => times + 1,
             _ => 1,
         };
-        if self.last.as_ref() == Some(&look) {
+        if self.last.as_ref() == Some(&reading) {
             return None;
         }
-        if times < needed(&look) {
-            self.seen = Some((look, times));
+        if times < needed(&reading) {
+            self.seen = Some((reading, times));
             return None;
         }
-        self.last = Some(look.clone());
-        Some(look)
+        self.last = Some(reading.clone());
+        Some(reading)
     }
 }
 
-fn needed(look: &Look) -> usize {
-    match &look.source {
+fn needed(reading: &Reading) -> usize {
+    match &reading.source {
         Ok(source) if !source.text.trim().is_empty() => SETTLED,
         _ => SETTLED_AWAY,
     }
 }
 
 /// Reads the present contents of the files.
-fn look(path: &Path, options: &Options) -> Look {
+fn reading(path: &Path, options: &Options) -> Reading {
     let file = RobotFile::read(path);
     let plan = match &file {
         Ok(file) => file.with_pin(options).map(|options| options.plan),
         Err(_) => Ok(None),
     };
-    Look { source: file.map(|file| file.source), plan }
+    Reading { source: file.map(|file| file.source), plan }
 }

@@ -21,7 +21,7 @@ use crate::screen::is_colored;
 use crate::values::whole;
 use files::Files;
 use page::Page;
-use state::{Look, Settings, Shown, State};
+use state::{Reading, Settings, Shown, State};
 
 #[derive(Args)]
 #[command(after_help = "Example:
@@ -72,14 +72,14 @@ impl Arguments {
         self.robot.check_base_frames(&[], terminal)?;
         let saves = self.saves.unwrap_or(usize::MAX);
         let options = self.robot.reading.options();
-        let looks = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
+        let readings = Files::new(self.robot.path(), options, &OVER).take(saves.saturating_add(1));
         let style = if terminal.colors { Style::Terminal } else { Style::Plain };
         let reading = self.robot.reading;
         // Output to a file or a pipe must not depend on the time.
         let clock = terminal.screen.map(|_| &clock as &(dyn Fn() -> String + Sync));
         let snap = self.robot.snap();
         let settings = Settings { snap, reading, terms: self.terms, style, clock };
-        follow(looks, &settings, page, terminal)
+        follow(readings, &settings, page, terminal)
     }
 }
 
@@ -94,18 +94,18 @@ fn clock() -> impl Fn() -> String {
     }
 }
 
-/// Prints, for each look at the files, what has changed since the last one, and rewrites the page if there is one.
+/// Prints, for each reading of the files, what has changed since the last one, and rewrites the page if there is one.
 fn follow(
-    looks: impl Iterator<Item = Look>,
+    readings: impl Iterator<Item = Reading>,
     settings: &Settings<'_>,
     mut page: Option<Page>,
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
     let mut state = State::default();
     let mut has_page = true;
-    let followed = looks.into_iter().try_for_each(|look| {
+    let followed = readings.into_iter().try_for_each(|reading| {
         let shown;
-        (state, shown) = watched("deriving", terminal, || state.after(&look, settings));
+        (state, shown) = watched("deriving", terminal, || state.after(&reading, settings));
         let Shown { title, problems, changes } = shown;
         let [title, changes] = [title, changes].map(|text| match is_colored(terminal.screen) {
             true => show::colored(&text),
@@ -114,7 +114,7 @@ fn follow(
         write!(terminal.output, "{title}").and_then(|()| terminal.output.flush())?;
         write!(terminal.errors, "{problems}").and_then(|()| terminal.errors.flush())?;
         write!(terminal.output, "{changes}").and_then(|()| terminal.output.flush())?;
-        match (&mut page, state.is_good().then_some(&look.source)) {
+        match (&mut page, state.is_good().then_some(&reading.source)) {
             (Some(page), Some(Ok(source))) => {
                 let options = state.options(settings);
                 let made = watched("writing", terminal, || Page::made(source, &options));

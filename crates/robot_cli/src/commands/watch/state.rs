@@ -1,4 +1,4 @@
-//! The state of a watched robot, and its change with each look at the file. This code does not access the system.
+//! The state of a watched robot, and its change with each reading of the files. This code does not access the system.
 
 use std::fmt::Write as _;
 
@@ -15,7 +15,7 @@ use crate::reading::ReadingArguments;
 
 /// The contents of the files at one time.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Look {
+pub(super) struct Reading {
     /// The robot file, or the reason why it cannot be read.
     pub(super) source: Result<Source, Errors>,
     /// Its pinned plan, or the reason why this is not valid.
@@ -36,18 +36,18 @@ pub(super) struct Settings<'a> {
     pub(super) clock: Option<&'a (dyn Fn() -> String + Sync)>,
 }
 
-/// The state after a look.
+/// The state after a reading.
 #[derive(Default)]
 pub(super) struct State {
-    /// The number of earlier looks.
+    /// The number of earlier readings.
     number: usize,
-    /// The last look with a valid robot.
+    /// The last reading with a valid robot.
     valid: Option<ValidRobot>,
     /// The present errors; `None` if the file describes a robot.
     wrong: Option<Vec<Problem>>,
 }
 
-/// The robot of a look whose file was valid.
+/// The robot of a reading whose file was valid.
 #[derive(Clone)]
 struct ValidRobot {
     number: usize,
@@ -66,7 +66,7 @@ struct Problem {
     text: String,
 }
 
-/// The output of a look.
+/// The output of a reading.
 pub(super) struct Shown {
     /// The title, which gives the number of the save.
     pub(super) title: String,
@@ -88,11 +88,11 @@ impl State {
         Options { snap: settings.snap, plan, ..settings.reading.options() }
     }
 
-    /// Returns the state after a look, and the output.
-    pub(super) fn after(&self, look: &Look, settings: &Settings<'_>) -> (State, Shown) {
+    /// Returns the state after a reading, and the output.
+    pub(super) fn after(&self, reading: &Reading, settings: &Settings<'_>) -> (State, Shown) {
         let number = self.number;
-        let read = look.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
-        match read.and_then(|source| valid(number, source, &look.plan, settings)) {
+        let read = reading.source.as_ref().map_err(|errors| of_errors(errors, settings.style));
+        match read.and_then(|source| valid(number, source, &reading.plan, settings)) {
             Ok(valid) => {
                 let shown = self.after_valid(&valid, settings);
                 (State { number: number + 1, valid: Some(valid), wrong: None }, shown)
@@ -223,7 +223,7 @@ fn resolved_lines(before: Vec<&Problem>, now: &[Problem]) -> String {
     before.into_iter().filter(is_resolved).map(|one| format!("gone: {}\n", first(one))).collect()
 }
 
-/// The name of a look: `save 3`.
+/// The name of a reading of the file: `save 3`, or `the start`.
 fn name(number: usize) -> String {
     match number {
         0 => "the start".to_owned(),
@@ -231,7 +231,7 @@ fn name(number: usize) -> String {
     }
 }
 
-/// The title of a look: empty for the start, otherwise a blank line and `save 3, 14:02:31, from save 2:`.
+/// The title of a reading: empty for the start, otherwise a blank line and `save 3, 14:02:31, from save 2:`.
 fn title(number: usize, from: Option<usize>, settings: &Settings<'_>) -> String {
     if number == 0 {
         return String::new();

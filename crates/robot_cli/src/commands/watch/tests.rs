@@ -26,9 +26,9 @@ fn broken() -> String {
     changed("mass = \"m2\"", "mass = \"m3\"")
 }
 
-fn look(text: &str) -> Look {
+fn reading(text: &str) -> Reading {
     let source = Source { name: "arm.toml".to_owned(), text: text.to_owned() };
-    Look { source: Ok(source), plan: Ok(None) }
+    Reading { source: Ok(source), plan: Ok(None) }
 }
 
 const SETTINGS: Settings<'_> = Settings {
@@ -39,14 +39,14 @@ const SETTINGS: Settings<'_> = Settings {
     clock: None,
 };
 
-/// Follows looks; returns whether the watch ended well, and its outputs on both streams.
-fn followed(looks: impl IntoIterator<Item = Look>) -> (bool, String, String) {
-    followed_with(looks, None)
+/// Follows readings; returns whether the watch ended well, and its outputs on both streams.
+fn followed(readings: impl IntoIterator<Item = Reading>) -> (bool, String, String) {
+    followed_with(readings, None)
 }
 
 /// Does the same, with a page.
 fn followed_with(
-    looks: impl IntoIterator<Item = Look>,
+    readings: impl IntoIterator<Item = Reading>,
     page: Option<Page>,
 ) -> (bool, String, String) {
     let (mut output, mut errors) = (vec![], vec![]);
@@ -58,7 +58,7 @@ fn followed_with(
         progress: false,
         screen: None,
     };
-    let ended = follow(looks.into_iter(), &SETTINGS, page, &mut terminal);
+    let ended = follow(readings.into_iter(), &SETTINGS, page, &mut terminal);
     let [output, errors] = [output, errors].map(|bytes| String::from_utf8(bytes).unwrap());
     (ended.is_ok(), output, errors)
 }
@@ -66,7 +66,7 @@ fn followed_with(
 #[test]
 fn values_terms_and_operations_are_shown() {
     let still = changed("gravity = [0, \"-g\", 0]", "gravity = [0, 0, 0]");
-    let (is_good, output, errors) = followed([ARM, &heavier(), &still].map(look));
+    let (is_good, output, errors) = followed([ARM, &heavier(), &still].map(reading));
     assert!(is_good);
     let mut parts = output.split("\nsave ");
     assert_eq!(parts.next(), Some("planar_2r: 2 coordinates, 9 parameters; watching\n"));
@@ -90,7 +90,7 @@ fn values_terms_and_operations_are_shown() {
 #[test]
 fn a_broken_file_keeps_the_last_robot() {
     let moved = format!("# a remark\n\n{}", broken());
-    let (is_good, output, errors) = followed([ARM, &broken(), &moved].map(look));
+    let (is_good, output, errors) = followed([ARM, &broken(), &moved].map(reading));
     assert!(!is_good);
     assert_eq!(
         output
@@ -102,7 +102,7 @@ fn a_broken_file_keeps_the_last_robot() {
     assert_eq!(errors.matches("error[R0303]").count(), 2, "{errors}");
     assert!(errors.contains("arm.toml:") && !output.contains("gone"), "{output}");
 
-    let (is_good, output, _) = followed([ARM, &broken(), &heavier()].map(look));
+    let (is_good, output, _) = followed([ARM, &broken(), &heavier()].map(reading));
     assert!(is_good);
     let mended = output.split("\nsave 2, from the start:\n").nth(1).unwrap();
     assert!(mended.starts_with("gone: error[R0303]: "), "{mended}");
@@ -111,20 +111,20 @@ fn a_broken_file_keeps_the_last_robot() {
 
 #[test]
 fn a_file_that_is_broken_from_the_start_is_waited_for() {
-    let (is_good, output, errors) = followed([&broken(), ARM].map(look));
+    let (is_good, output, errors) = followed([&broken(), ARM].map(reading));
     assert!(is_good && errors.contains("error[R0303]"));
     assert!(output.starts_with(
         "the file has errors; waiting for a save without errors\n\nsave 1:\ngone: error"
     ));
     assert!(output.ends_with("planar_2r: 2 coordinates, 9 parameters; watching\n"), "{output}");
-    assert!(!followed([look(&broken())]).0);
+    assert!(!followed([reading(&broken())]).0);
 }
 
 #[test]
 fn warnings_come_and_go() {
     let unused = changed("[parameters]", "[parameters]\nspare = { value = 1.0, unit = \"m\" }");
-    let looks = [ARM, &unused, &unused.replace("1.0", "2.0"), ARM].map(look);
-    let (_, output, errors) = followed(looks);
+    let readings = [ARM, &unused, &unused.replace("1.0", "2.0"), ARM].map(reading);
+    let (_, output, errors) = followed(readings);
     assert_eq!(errors.matches("warning[R0601]").count(), 1, "{errors}");
     assert_eq!(output.matches("gone: warning[R0601]").count(), 1, "{output}");
     assert!(output.contains("\nsave 3, from save 2:\ngone: warning"), "{output}");
@@ -132,27 +132,27 @@ fn warnings_come_and_go() {
 
 #[test]
 fn remarks_change_nothing() {
-    let (_, output, errors) = followed([ARM, &format!("{ARM}# a remark\n")].map(look));
+    let (_, output, errors) = followed([ARM, &format!("{ARM}# a remark\n")].map(reading));
     assert!(output.ends_with("\nsave 1, from the start:\nno changes in the robot\n"));
     assert_eq!(errors, "");
 }
 
 #[test]
 fn a_stale_plan_is_not_a_change_of_the_robot() {
-    let robot = robot_build::read(look(ARM).source.as_ref().unwrap()).unwrap().robot;
+    let robot = robot_build::read(reading(ARM).source.as_ref().unwrap()).unwrap().robot;
     let found = search(&robot, &MechanismOptions::ROUNDED, Measure::Operations).unwrap();
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("arm.toml");
     std::fs::write(&path, ARM).unwrap();
     std::fs::write(pin_path(&path), pin_text(&robot, &found)).unwrap();
-    let look = || Files::new(&path, Options::default(), &AtomicBool::new(false)).next().unwrap();
-    let pinned = look();
+    let reading = || Files::new(&path, Options::default(), &AtomicBool::new(false)).next().unwrap();
+    let pinned = reading();
     assert_eq!(pinned.plan.as_ref().unwrap().as_ref(), Some(&found.plan));
     // A changed value of a parameter does not change the mechanics.
     std::fs::write(&path, heavier()).unwrap();
-    assert_eq!(look().plan, pinned.plan);
+    assert_eq!(reading().plan, pinned.plan);
     std::fs::write(&path, changed("zz = \"I2\"", "xx = 0.01, zz = \"I2\"")).unwrap();
-    let stale = look();
+    let stale = reading();
     assert!(stale.plan.is_err());
     let (is_good, output, errors) = followed([pinned.clone(), stale, pinned]);
     assert!(is_good && !output.contains("operations per call"), "{output}");
@@ -168,18 +168,19 @@ fn operations_are_counted_under_the_plans_of_both_or_of_none() {
     let plan = |links_plan| Some(Plan::uniform(links, links_plan));
     let [basic, usual] = [&LinkPlan::BASIC, &LinkPlan::DEFAULT].map(plan);
     let remarked = format!("{TRTTR1}# a remark\n");
-    let look = |text: &str, plan: &Option<Plan>| Look { plan: Ok(plan.clone()), ..look(text) };
+    let reading =
+        |text: &str, plan: &Option<Plan>| Reading { plan: Ok(plan.clone()), ..reading(text) };
     for (before, now, differs) in [
-        (look(TRTTR1, &basic), look(&remarked, &usual), true),
-        (look(TRTTR1, &basic), look(&remarked, &basic), false),
-        (look(TRTTR1, &basic), look(&remarked, &None), false),
-        (look(TRTTR1, &None), look(&remarked, &basic), false),
-        (look(TRTTR1, &None), look(&remarked, &None), false),
-        (look(TRTTR1, &basic), look(TRTTR1, &usual), true),
-        (look(TRTTR1, &basic), look(TRTTR1, &None), true),
+        (reading(TRTTR1, &basic), reading(&remarked, &usual), true),
+        (reading(TRTTR1, &basic), reading(&remarked, &basic), false),
+        (reading(TRTTR1, &basic), reading(&remarked, &None), false),
+        (reading(TRTTR1, &None), reading(&remarked, &basic), false),
+        (reading(TRTTR1, &None), reading(&remarked, &None), false),
+        (reading(TRTTR1, &basic), reading(TRTTR1, &usual), true),
+        (reading(TRTTR1, &basic), reading(TRTTR1, &None), true),
     ] {
-        let case =
-            [&before, &now].map(|look| format!("{:?}", look.plan.as_ref().map(Option::is_some)));
+        let case = [&before, &now]
+            .map(|reading| format!("{:?}", reading.plan.as_ref().map(Option::is_some)));
         let (_, output, errors) = followed([before, now]);
         assert_eq!(errors, "");
         assert_eq!(output.contains("operations per call\n"), differs, "{case:?}: {output}");
@@ -209,8 +210,8 @@ impl Watched {
     }
 }
 
-fn text(look: Option<Look>) -> Option<String> {
-    look.unwrap().source.ok().map(|source| source.text)
+fn text(reading: Option<Reading>) -> Option<String> {
+    reading.unwrap().source.ok().map(|source| source.text)
 }
 
 #[test]
@@ -253,22 +254,25 @@ fn saves_are_seen_however_editors_save() {
 #[test]
 fn a_save_in_pieces_is_seen_whole() {
     let away = RobotFile::read(std::path::Path::new("none.toml")).unwrap_err();
-    let away = || Look { source: Err(away.clone()), plan: Ok(None) };
+    let away = || Reading { source: Err(away.clone()), plan: Ok(None) };
     let mut settling = files::Settling::default();
-    let mut shown = |look: Look| text(Some(settling.after(look)?)).or(Some("away".to_owned()));
-    assert_eq!((shown(look(ARM)), shown(look(ARM)).as_deref()), (None, Some(ARM)));
+    let mut shown =
+        |reading: Reading| text(Some(settling.after(reading)?)).or(Some("away".to_owned()));
+    assert_eq!((shown(reading(ARM)), shown(reading(ARM)).as_deref()), (None, Some(ARM)));
     // The file is unchanged, then empty, missing, incomplete and complete.
     let half = ARM.get(..ARM.len() / 2).unwrap();
-    for piece in [look(ARM), look(""), look(""), away(), away(), look(half), look(&heavier())] {
+    for piece in
+        [reading(ARM), reading(""), reading(""), away(), away(), reading(half), reading(&heavier())]
+    {
         assert_eq!(shown(piece), None);
     }
-    assert_eq!(shown(look(&heavier())), Some(heavier()));
+    assert_eq!(shown(reading(&heavier())), Some(heavier()));
     // A file that stays missing is reported once.
     let messages: Vec<String> = (0..100).filter_map(|_| shown(away())).collect();
     assert_eq!(messages, ["away"]);
     // A return to the content that was shown last is not new.
-    assert_eq!((shown(look(ARM)), shown(away()), shown(look(ARM))), (None, None, None));
-    assert_eq!(shown(look(ARM)).as_deref(), Some(ARM));
+    assert_eq!((shown(reading(ARM)), shown(away()), shown(reading(ARM))), (None, None, None));
+    assert_eq!(shown(reading(ARM)).as_deref(), Some(ARM));
 }
 
 /// A folder, the path of a page in it, and that of its picture.
@@ -283,11 +287,11 @@ fn the_end_removes_the_own_picture_alone() {
     let (_folder, path, picture) = page_in_folder();
     let end = |before: &dyn Fn()| {
         let page = Page::open(path.clone(), Writer::new().force(true)).unwrap();
-        let looks = std::iter::once(look(ARM)).chain(std::iter::from_fn(|| {
+        let readings = std::iter::once(reading(ARM)).chain(std::iter::from_fn(|| {
             before();
             None
         }));
-        followed_with(looks, Some(page))
+        followed_with(readings, Some(page))
     };
     assert!(end(&|| assert!(picture.exists())).0 && !picture.exists());
     // It is not an error if the picture was removed, for example by another watch of the same page.
@@ -310,7 +314,7 @@ fn an_edited_page_stays() {
     let (_folder, path, _) = page_in_folder();
     let open = || Page::open(path.clone(), Writer::new());
     for _ in 0..2 {
-        assert!(followed_with([look(ARM)], Some(open().unwrap())).0);
+        assert!(followed_with([reading(ARM)], Some(open().unwrap())).0);
     }
     let edited = std::fs::read_to_string(&path).unwrap().replacen("<body", "<body ", 1);
     std::fs::write(&path, &edited).unwrap();
@@ -323,12 +327,12 @@ fn an_edited_page_stays() {
 fn a_page_that_is_edited_meanwhile_stays() {
     let (_folder, path, picture) = page_in_folder();
     let edited = || std::fs::read_to_string(&path).unwrap().replacen("<body", "<body ", 1);
-    let looks = std::iter::once(look(ARM)).chain(std::iter::from_fn(|| {
+    let readings = std::iter::once(reading(ARM)).chain(std::iter::from_fn(|| {
         std::fs::write(&path, edited()).unwrap();
         None
     }));
     let (is_good, _, errors) =
-        followed_with(looks, Some(Page::open(path.clone(), Writer::new()).unwrap()));
+        followed_with(readings, Some(Page::open(path.clone(), Writer::new()).unwrap()));
     assert!(!is_good, "{errors}");
     assert!(std::fs::read_to_string(&path).unwrap().contains("<body ") && !picture.exists());
 }
@@ -344,7 +348,7 @@ fn a_long_robot_has_a_page_too() {
     };
     let long = ARM.to_owned() + &(1..=24).map(link).collect::<String>();
     let page = Page::open(path.clone(), Writer::new()).unwrap();
-    let (is_good, _, errors) = followed_with([look(ARM), look(&long)], Some(page));
+    let (is_good, _, errors) = followed_with([reading(ARM), reading(&long)], Some(page));
     assert!(is_good, "{errors}");
     let last = std::fs::read_to_string(&path).unwrap();
     assert!(last.contains("the robot has 26 coordinates") && !picture.exists());
@@ -357,7 +361,7 @@ fn a_pin_is_read_with_what_is_taken_of_the_file() {
         "mass = \"m2\"\ncenter_of_mass = [\"r2\", 0, 0]\ninertia = { xx = 1, yy = 1, zz = 9 }",
     );
     let options = Options { allow_unphysical: true, ..Options::default() };
-    let source = look(&light).source.unwrap();
+    let source = reading(&light).source.unwrap();
     let robot = robot_build::read_with(&source, &options).unwrap().robot;
     let found = search(&robot, &MechanismOptions::ROUNDED, Measure::Operations).unwrap();
     let folder = TempDir::new().unwrap();
@@ -377,10 +381,10 @@ fn a_problem_that_is_gone_is_a_line() {
     std::fs::write(&path, ARM).unwrap();
     std::fs::write(pin_path(&path), "no plan").unwrap();
     let over = AtomicBool::new(false);
-    let look = || Files::new(&path, Options::default(), &over).next().unwrap();
-    let bad = look();
+    let reading = || Files::new(&path, Options::default(), &over).next().unwrap();
+    let bad = reading();
     std::fs::remove_file(pin_path(&path)).unwrap();
-    let (_, output, errors) = followed([bad, look()]);
+    let (_, output, errors) = followed([bad, reading()]);
     assert!(errors.contains("line 1 is not that of a plan"), "{errors}");
     let end = output.split("gone: ").nth(1).unwrap();
     assert_eq!(end.lines().nth(1), Some("no changes in the robot"), "{end}");

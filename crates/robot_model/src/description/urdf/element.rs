@@ -272,7 +272,7 @@ fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> D
     match near {
         Some(near) => Diagnostic::error(code::UNKNOWN_KEY, message)
             .at(place, format!("did you mean `{near}`?"))
-            .because("a misspelled name would silently be left out of the robot"),
+            .because("a misspelled element or attribute would silently be left out of the robot"),
         None if strict => {
             Diagnostic::error(code::UNKNOWN_KEY, message).at(place, "has no meaning here")
         }

@@ -101,7 +101,8 @@ fn parts<'a>(
         (root.nodes("link").collect(), root.nodes("joint").collect());
     let most = links.len().max(joints.len());
     if most > MAX_LINKS {
-        let message = format!("{most} links or joints; at most {MAX_LINKS}");
+        let message =
+            format!("at most {MAX_LINKS} links and {MAX_LINKS} joints are allowed; found {most}");
         let diagnostic = Diagnostic::error(code::LIMIT, message).at(&root.tag(), "");
         reader.report(diagnostic.help("describe one robot per file"));
         return None;

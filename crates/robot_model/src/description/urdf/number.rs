@@ -38,12 +38,15 @@ pub(super) fn numbers<const N: usize>(
     if let Ok(numbers) = found.try_into() {
         return Some(numbers);
     }
-    let expected = if N == 1 { "one number".to_owned() } else { format!("{N} numbers") };
-    let message = format!("{what} is {expected}; found {count}");
+    let (expected, between) = match N {
+        1 => ("one number".to_owned(), ""),
+        _ => (format!("{N} numbers"), ", with spaces between"),
+    };
+    let message = format!("expected {expected} for {what}; found {count}");
     reader.report(
         Diagnostic::error(code::WRONG_COUNT, message)
             .at(&attribute.span, "")
-            .help(format!("write \"{example}\", with spaces between")),
+            .help(format!("write \"{example}\"{between}")),
     );
     None
 }
