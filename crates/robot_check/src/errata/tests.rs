@@ -285,7 +285,7 @@ fn equations_without_end_are_refused() {
     assert_eq!(compared(&planar, &many).map(|found| found.terms), Ok(20_000));
     let strange: String = (0..200_000).map(|index| format!("+ x{index}")).collect();
     let shown = compared(&planar, &format!("Q1 = {strange}")).unwrap_err().to_string();
-    assert!(shown.contains("check that the equation is one of this robot"), "{shown}");
+    assert!(shown.contains("check that the equations are of this robot"), "{shown}");
     for part in [
         "\\begin{split}",
         "\\tag{",

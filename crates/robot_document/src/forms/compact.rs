@@ -1,9 +1,9 @@
 //! The compact form, in which expressions that occur several times have names.
 
-use robot_dynamics::quantity::Symbol;
+use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_value};
-use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, View, walk};
+use robot_symbolic::{AngleSums, Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
@@ -32,25 +32,45 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;
     }
+    let symbols = writer.symbols.clone();
+    let (groups, unused) = written(writer, &quantities, &values, FxHashSet::default())?;
+    if unused.is_empty() {
+        return Ok(groups);
+    }
+    // Parts that cancel have names that nothing uses in the end.
+    writer.symbols = symbols;
+    Ok(written(writer, &quantities, &values, unused)?.0)
+}
+
+/// Writes the quantities, whose values are `values`, with names for common parts except those `omitted`. Returns the
+/// groups and the common parts that nothing uses.
+fn written<'g>(
+    writer: &mut Writer<'_, 'g>,
+    quantities: &[Quantity<'g>],
+    values: &[Expr<'g>],
+    omitted: FxHashSet<Id>,
+) -> Result<(Vec<Group>, FxHashSet<Id>), Error> {
     let target = Graph::new();
-    let mut list = Definitions::new(&target, &values, writer.options.digits);
+    let mut list = Definitions::new(&target, values, writer.options.digits);
     list.is_economical = true;
-    list.name_torques(writer, &quantities);
+    list.omitted = omitted;
+    list.name_torques(writer, quantities);
     let mut groups = list.define(writer)?;
     let mut equations: Vec<Equation> = vec![];
-    for quantity in &quantities {
+    for quantity in quantities {
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
         equations.push(match list.torque_equation(quantity.symbol) {
             Some(equation) => equation,
             None => tidy(writer, name, left, list.named.rewritten(quantity.value))?,
         });
     }
-    let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
+    let arrays = vectors::of_quantities(quantities, &equations, writer.options.paper);
     let symbols: Vec<Symbol> = quantities.iter().map(|quantity| quantity.symbol).collect();
     let equations = list.remaining(&symbols, equations);
     let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
     groups.push(Group { arrays, ..group });
-    Ok(groups)
+    let unused = list.unused(&groups);
+    Ok((groups, unused))
 }
 
 /// Defines the common parts of `roots`: first combinations of parameters, then expressions of the state. A root that is
@@ -121,7 +141,7 @@ fn with_short_parameters<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec
 }
 
 /// The expressions that depend on the state.
-pub(super) fn moving(roots: &[Expr<'_>]) -> FxHashSet<robot_symbolic::Id> {
+pub(super) fn moving(roots: &[Expr<'_>]) -> FxHashSet<Id> {
     let mut moving = FxHashSet::default();
     for expr in walk::reachable(roots) {
         let moves = match expr.as_symbol() {

@@ -26,8 +26,14 @@ pub(super) struct Definitions<'g, 'h> {
     roots: Vec<Expr<'g>>,
     worthy: Vec<Worthy<'g>>,
     moving: FxHashSet<Id>,
+    /// Expressions whose definitions nothing uses in the end, as [`Definitions::unused`] finds them; they are not printed.
+    pub(super) omitted: FxHashSet<Id>,
     /// The names of the expressions that are defined, by their values in the graph of the names.
     names: FxHashMap<Id, Expr<'h>>,
+    /// The defined expressions, by their names.
+    sources: FxHashMap<String, Id>,
+    /// The values of names that stand for one product.
+    products: FxHashMap<String, Expr<'h>>,
     /// Parts that possibly need no name.
     pending: Vec<Expr<'g>>,
     /// The joint torques that are parts of others.
@@ -94,7 +100,10 @@ impl<'g, 'h> Definitions<'g, 'h> {
             roots: roots.to_vec(),
             worthy: worth_naming(roots, digits),
             moving: moving(roots),
+            omitted: FxHashSet::default(),
             names: FxHashMap::default(),
+            sources: FxHashMap::default(),
+            products: FxHashMap::default(),
             pending: vec![],
             named_torques: vec![],
             defined: vec![],
@@ -263,6 +272,10 @@ impl<'g, 'h> Definitions<'g, 'h> {
                 return Ok(());
             }
         }
+        if let Some(shorter) = self.without_products(writer, value, &terms) {
+            value = arranged_value(&shorter, self.named.graph);
+            terms = shorter;
+        }
         let written = arranged_value(&terms, self.named.graph);
         let same = self.names.get(&written.id()).copied();
         if let Some(known) = same.or_else(|| known(&terms, self.named.graph)) {
@@ -281,6 +294,13 @@ impl<'g, 'h> Definitions<'g, 'h> {
             self.named.name(value, &name);
             return Ok(());
         }
+        if self.omitted.contains(&expr.id()) {
+            // Names of parameters contain no spaces.
+            let name = format!("{} omitted {}", section.letter, self.names.len());
+            self.named.name(expr, &name);
+            self.names.insert(written.id(), self.named.graph.symbol(&name));
+            return Ok(());
+        }
         section.count += 1;
         let name = shapes::indexed_name(section.letter, &[section.count]);
         let letter = section.letter.chars().next().unwrap_or('x');
@@ -289,7 +309,54 @@ impl<'g, 'h> Definitions<'g, 'h> {
         section.equations.push(writer.of_terms(name.clone(), left, &terms)?);
         self.named.name(expr, &name);
         self.names.insert(written.id(), self.named.graph.symbol(&name));
+        if let [_] = terms.as_slice() {
+            self.products.insert(name.clone(), written);
+        }
+        self.sources.insert(name, expr.id());
         Ok(())
+    }
+
+    /// Writes names of products as products if this makes an expression shorter by more than a fifth, because terms
+    /// cancel: with x = 3 (a − b), 3 (a − b) c − x c is 0.
+    fn without_products(
+        &self,
+        writer: &Writer<'_, '_>,
+        value: Expr<'h>,
+        terms: &[ArrangedTerm<'h>],
+    ) -> Option<Vec<ArrangedTerm<'h>>> {
+        let graph = self.named.graph;
+        let names = walk::symbols(&[value]).into_iter().map(|symbol| graph.symbol_name(symbol));
+        let (mut value, mut shortest) = (value, None);
+        let mut least = length(terms);
+        for name in names.filter(|name| self.products.contains_key(name)) {
+            let of_name = |other: &str| match self.products.get(other) {
+                Some(product) if other == name => *product,
+                _ => graph.symbol(other),
+            };
+            let Some(written) = walk::rebuild(&[value], graph, of_name).pop() else { continue };
+            let terms = short_terms(writer, written);
+            if 5 * length(&terms) < 4 * least {
+                least = length(&terms);
+                value = written;
+                shortest = Some(terms);
+            }
+        }
+        shortest
+    }
+
+    /// The expressions whose names occur neither in the equations nor in a definition that they need.
+    pub(super) fn unused(&self, groups: &[Group]) -> FxHashSet<Id> {
+        let mut needed: FxHashSet<&str> = FxHashSet::default();
+        let mut unused = FxHashSet::default();
+        for equation in groups.iter().rev().flat_map(|group| group.equations.iter().rev()) {
+            match self.sources.get(&equation.name) {
+                Some(source) if !needed.contains(equation.name.as_str()) => {
+                    unused.insert(*source);
+                }
+                _ => needed.extend(equation.right.symbols()),
+            }
+        }
+        unused
     }
 
     /// Defines a joint torque under its own name.

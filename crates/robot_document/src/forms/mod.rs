@@ -26,6 +26,7 @@ mod roots;
 mod shapes;
 mod vectors;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use robot_dynamics::functions::Derivation;
@@ -46,7 +47,7 @@ use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_tex
 use crate::math::Math;
 pub(crate) use grouped::titles;
 pub use letters::{InvalidLetters, Letters};
-pub(crate) use numbers::with_values;
+pub(crate) use numbers::{has_long_root, with_values};
 pub use options::{EquationOptions, Form};
 pub use published::{Differences, TermOrder};
 
@@ -349,8 +350,9 @@ impl<'g> Writer<'_, 'g> {
         left: Math,
         value: &Polynomial<'_>,
     ) -> Result<Equation, Error> {
+        let value = self.with_decimals(value);
         let text = value.to_text_by(|atom| self.order.rank(atom))?;
-        let right = self.symbols.polynomial(value, &self.order)?;
+        let right = self.symbols.polynomial(&value, &self.order)?;
         Ok(Equation { name, text, left, right })
     }
 
@@ -368,16 +370,25 @@ impl<'g> Writer<'_, 'g> {
     /// angles that make it shortest.
     ///
     /// In the form [`Form::Collected`], the terms of inertia and gravity, of friction, and of the wrenches of the tips
-    /// are collected separately. Long numbers with roots become decimals if that is shorter and
-    /// [`EquationOptions::rounds_roots`] is set.
+    /// are collected separately. Long numbers with roots become decimals if that is shorter or the
+    /// numbers below the roots are long, and [`EquationOptions::rounds_roots`] is set.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
         let exact = self.collected_exactly(value);
+        match self.with_decimals(value) {
+            Cow::Owned(decimal) => {
+                let decimal = self.collected_exactly(&decimal);
+                let is_shorter = length(&decimal) < length(&exact);
+                if is_shorter || has_long_root(value) { decimal } else { exact }
+            }
+            Cow::Borrowed(_) => exact,
+        }
+    }
+
+    /// The polynomial with decimals for long numbers with functions if [`EquationOptions::rounds_roots`] is set.
+    fn with_decimals<'p, 'h>(&self, value: &'p Polynomial<'h>) -> Cow<'p, Polynomial<'h>> {
         let decimal =
             self.options.rounds_roots.then(|| numbers::without_functions(value)).flatten();
-        match decimal.map(|value| self.collected_exactly(&value)) {
-            Some(decimal) if length(&decimal) < length(&exact) => decimal,
-            _ => exact,
-        }
+        decimal.map_or(Cow::Borrowed(value), Cow::Owned)
     }
 
     fn collected_exactly(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {

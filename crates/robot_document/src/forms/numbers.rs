@@ -1,4 +1,5 @@
-//! Long numbers with roots or sines, such as `0.007735484874 - 0.00365 √2`, which are printed as one decimal.
+//! Long numbers with roots or sines, such as `0.007735484874 - 0.00365 √2` or `0.0005 √715731`, which are printed as one
+//! decimal.
 
 use std::collections::BTreeMap;
 
@@ -13,6 +14,10 @@ use super::Writer;
 /// The largest number of digits of a number that stays in a sum with roots, as in `1 + √2`. People do not write longer
 /// ones.
 const MOST_DIGITS: usize = 6;
+
+/// The least number below a root that makes the root a decimal. Axes that were rounded or measured have such lengths;
+/// those that people write, such as (1, -2, 3), have short ones.
+const LONG_ROOT: i64 = 10_000;
 
 /// The largest relative difference of an expanded constant from one that is computed as it stands.
 const LOST: f64 = 1e-13;
@@ -29,6 +34,8 @@ struct Constant {
     sums: usize,
     /// The largest number of digits of a number in it.
     digits: usize,
+    /// Whether it contains a root of a long number.
+    has_long_root: bool,
 }
 
 impl Constant {
@@ -36,7 +43,8 @@ impl Constant {
     fn is_decimal(&self) -> bool {
         let is_long = self.digits > MOST_DIGITS || self.sums > 1 || self.angles > 1;
         let is_product = self.sums == 0 && self.angles < 2;
-        self.has_function && is_long && !is_product && self.value.value().is_finite()
+        let is_decimal = self.has_long_root || self.has_function && is_long && !is_product;
+        is_decimal && self.value.value().is_finite()
     }
 }
 
@@ -99,7 +107,9 @@ pub(super) fn round_links<'g>(writer: &Writer<'_, 'g>, mechanism: &mut Mechanism
 fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant> {
     if let View::Number(number) = expr.view() {
         let (value, digits) = (Real::from(number.to_f64()), digits(&number));
-        return Some(Constant { value, has_function: false, angles: 0, sums: 0, digits });
+        let [angles, sums] = [0; 2];
+        let [has_function, has_long_root] = [false; 2];
+        return Some(Constant { value, has_function, angles, sums, digits, has_long_root });
     }
     let operands: Option<Vec<Constant>> =
         expr.operands().iter().map(|operand| known.get(&operand.id()).copied()).collect();
@@ -125,7 +135,23 @@ fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant>
         angles: total(|one| one.angles).saturating_add(usize::from(is_angle)),
         sums: total(|one| one.sums).saturating_add(usize::from(is_sum)),
         digits: operands.iter().map(|one| one.digits).max().unwrap_or_default(),
+        has_long_root: is_long_root(expr) || operands.iter().any(|one| one.has_long_root),
     })
+}
+
+/// Whether an expression is the root of a number that nobody would write below a root.
+fn is_long_root(expr: Expr<'_>) -> bool {
+    let View::Call(Function::Sqrt, argument) = expr.view() else { return false };
+    let is_long = |number: Number| {
+        let small = number.as_rational().and_then(Rational::to_small);
+        small.is_none_or(|(above, below)| above.abs().max(below) >= LONG_ROOT)
+    };
+    argument.as_number().is_some_and(is_long)
+}
+
+/// Whether a polynomial contains the root of a number that nobody would write below a root.
+pub(crate) fn has_long_root(value: &Polynomial<'_>) -> bool {
+    value.atoms().into_iter().any(is_long_root)
 }
 
 /// Whether a number in a polynomial has more digits than people write.
@@ -145,7 +171,7 @@ pub(crate) fn decimal(value: f64) -> Option<Number> {
 }
 
 /// Writes functions of numbers as decimals in all terms if some coefficient of a product of symbols is a sum of such
-/// functions and long numbers; `None` if there is none.
+/// functions and long numbers, or contains the root of a long number; `None` if there is none.
 pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial<'g>> {
     let graph = value.graph();
     let is_of_number = |atom: Id| {
@@ -154,23 +180,28 @@ pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial
     };
     let mut coefficients: BTreeMap<Vec<(Id, i32)>, Constant> = BTreeMap::new();
     for (monomial, number) in value.terms() {
-        let (mut has_function, mut angles, mut key) = (false, 0, vec![]);
+        let (mut has_function, mut angles, mut has_long_root, mut key) = (false, 0, false, vec![]);
         for factor in monomial.factors() {
             match is_of_number(factor.atom()) {
                 true => {
                     has_function = true;
-                    let view = graph.expr(factor.atom()).view();
-                    angles += usize::from(!matches!(view, View::Call(Function::Sqrt, _)));
+                    let atom = graph.expr(factor.atom());
+                    has_long_root |= is_long_root(atom);
+                    if !matches!(atom.view(), View::Call(Function::Sqrt, _)) {
+                        angles += factor.exponent().unsigned_abs() as usize;
+                    }
                 }
                 false => key.push((factor.atom(), factor.exponent())),
             }
         }
         let digits = digits(number);
-        let new = Constant { value: Real::from(0.0), has_function, angles, sums: 0, digits };
+        let value = Real::from(0.0);
+        let new = Constant { value, has_function, angles, sums: 0, digits, has_long_root };
         coefficients
             .entry(key)
             .and_modify(|known| {
                 known.has_function |= has_function;
+                known.has_long_root |= has_long_root;
                 known.angles += angles;
                 known.sums += 1;
                 known.digits = known.digits.max(digits);
@@ -256,11 +287,29 @@ mod tests {
             "0.007735484874*sin(q1) + sqrt(2)*l1",
             "(0.007735484874 + l1*sqrt(2))*sin(q1)",
             "1.962*cos(0.3)*cos(q2)",
+            "0.5*sqrt(9998)*sin(q1)",
         ] {
             let graph = Graph::new();
             let parsed = graph.parse(text).unwrap();
             assert_eq!(with_decimals(&[parsed], &graph), [parsed], "{text}");
         }
+    }
+
+    #[test]
+    fn roots_of_long_numbers_are_decimals() {
+        // The first component of the unit vector along (0.211, 0.817, -0.061).
+        let unit = "211/sqrt(715731)";
+        let value = 211.0 / 715_731.0_f64.sqrt();
+        let shown = decimals(&format!("0.5*({unit})*m1*sin(q1)"));
+        let number: f64 = shown.strip_suffix("*m1*sin(q1)").unwrap().parse().unwrap();
+        assert!((number - 0.5 * value).abs() < 1e-16, "{shown}");
+        let graph = Graph::new();
+        let long = graph.parse(&format!("({unit})*m1*sin(q1) + 2*l1")).unwrap();
+        let polynomial = Polynomial::of(long, &PolynomialOptions::default()).unwrap();
+        assert!(has_long_root(&polynomial));
+        let written = without_functions(&polynomial).unwrap();
+        assert!(!has_long_root(&written));
+        assert!((written.evaluate(|_| 1.0) - value * 1.0_f64.sin() - 2.0).abs() < 1e-15);
     }
 
     #[test]

@@ -134,7 +134,7 @@ fn united_friction<'g>(
         return Ok(writer.graph.symbol(&name));
     }
     let formulas = Formulas { robot: writer.robot, symbols: &writer.symbols, order: &writer.order };
-    let Written { text, math: right } = formulas.of_polynomial(value)?;
+    let Written { text, math: right } = formulas.of_polynomial(&writer.with_decimals(value))?;
     let name = format!("FC_{}", link + 1);
     writer.define_parameter(&name, base::word("FC", link))?;
     let left = writer.symbols.look(&name);
@@ -237,7 +237,7 @@ fn parameter<'g>(
         return Ok(writer.graph.symbol(&name));
     }
     let formulas = Formulas { robot: writer.robot, symbols: &writer.symbols, order: &writer.order };
-    let value = formulas.of_polynomial(value)?;
+    let value = formulas.of_polynomial(&writer.with_decimals(value))?;
     // If all terms are symbols of the file, the formula would only repeat the value.
     let is_defined = |(place, _): &(usize, Expr<'g>)| {
         let written = standard.get(*place).and_then(Option::as_ref);

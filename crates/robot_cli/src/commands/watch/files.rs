@@ -19,7 +19,7 @@ const SETTLED: usize = 2;
 /// The same number if the file is missing or empty, as it is between two steps of a save, on a busy disk for some time.
 const SETTLED_AWAY: usize = 50;
 
-/// An iterator over readings at a file that show a new content, until `is_over` is set.
+/// An iterator over readings of a file that show a new content, until `is_over` is set.
 pub(super) struct Files<'a> {
     path: &'a Path,
     /// The options for reading the file, which are needed to read its pinned plan.
