@@ -169,9 +169,17 @@ pub(crate) fn write(
     writer.write(outputs)?;
     for output in outputs.iter().filter(|output| !same.contains(&output.path.as_path())) {
         let size = size(output.bytes.len());
-        writeln!(errors, "wrote {} ({size})", shown(&output.path))?;
+        writeln!(errors, "wrote {} ({size})", named(&output.path))?;
     }
     Ok(())
+}
+
+/// The name of an output; that of a symbolic link with its target, which is the file that is replaced.
+pub(crate) fn named(path: &Path) -> String {
+    match path.read_link().ok().filter(|_| path.is_file()) {
+        Some(target) => format!("{}, a symbolic link to {}", shown(path), shown(&target)),
+        None => shown(path),
+    }
 }
 
 /// Prints a size in a suitable unit.

@@ -3,10 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
-use robot_build::{Pending, shown};
+use robot_build::Pending;
 use robot_simulation::Table;
 
-use crate::delivery::size;
+use crate::delivery::{named, size};
 use crate::failure::Failure;
 
 /// The length up to which text is held back, so that nothing is printed if the work fails early.
@@ -73,7 +73,7 @@ impl<'t> Outgoing<'t> {
         if let Destination::File(file, path) = self.destination
             && let Some(length) = file.put()?
         {
-            writeln!(self.errors, "wrote {} ({})", shown(path), size(length as usize))?;
+            writeln!(self.errors, "wrote {} ({})", named(path), size(length as usize))?;
         }
         Ok(())
     }

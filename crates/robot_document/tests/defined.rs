@@ -133,6 +133,98 @@ fn every_symbol_is_defined_and_looks_the_same() {
     }
 }
 
+/// A horizontal arm with a payload on its last link.
+const CARRYING: &str = r#"
+format = 1
+[robot]
+name = "carrying"
+gravity = [0, 0, "-g"]
+[parameters]
+g = { value = 9.81, unit = "m/s^2" }
+a1 = { value = 0.4, unit = "m" }
+e = { value = 0.02, unit = "m" }
+m1 = { value = 6.0, unit = "kg" }
+m2 = { value = 0.6, unit = "kg" }
+J1 = { value = 0.12, unit = "kg m^2" }
+J2 = { value = 0.002, unit = "kg m^2" }
+[[link]]
+name = "1"
+joint = { type = "revolute", axis = "z" }
+mass = "m1"
+center_of_mass = [0, 0, 0]
+inertia = { zz = "J1", unchecked = true }
+[[link]]
+name = "2"
+joint = { type = "revolute", axis = "z" }
+origin = { xyz = ["a1", 0, 0] }
+mass = "m2"
+center_of_mass = ["e", 0, -0.02]
+inertia = { zz = "J2", unchecked = true }
+[payload]
+parent = "2"
+"#;
+
+/// Parts of an inertia tensor that does not act have no names.
+#[test]
+fn every_name_of_the_compact_form_is_used() {
+    let carrying = read_toml("carrying.toml", CARRYING).unwrap().robot;
+    let mut names = 0;
+    for robot in robots().iter().chain([&carrying]) {
+        let options = EquationOptions { form: Form::Compact, ..EquationOptions::default() };
+        let printed = equations(robot, &options).unwrap();
+        let all = || printed.groups.iter().flat_map(|group| &group.equations);
+        let used: BTreeSet<&str> = all().flat_map(|equation| equation.right.symbols()).collect();
+        for definition in printed.definitions() {
+            names += 1;
+            assert!(used.contains(&*definition.name), "{}: {}", robot.name, definition.name);
+        }
+    }
+    assert!(names > 50, "{names}");
+}
+
+/// Two links with skew axes; the principal moments of the second about two axes are the same.
+const SKEW: &str = r#"
+format = 1
+[robot]
+name = "skew"
+[[link]]
+name = "1"
+joint = { type = "revolute", axis = [0.211, 0.817, -0.061] }
+mass = 2
+center_of_mass = [0.1, 0.2, 0.3]
+inertia = { xx = 0.01, yy = 0.02, zz = 0.02 }
+[[link]]
+name = "2"
+joint = { type = "revolute", axis = [0.7071067811865476, 0, 0.7071067811865475] }
+origin = { xyz = [0.3, 0, 0], rpy = ["pi/6", 0, 0] }
+mass = 1
+center_of_mass = [0.08, 0, 0.01]
+inertia = { xx = 0.002, yy = 0.003, zz = 0.003 }
+"#;
+
+/// The lengths of these axes are roots of long numbers.
+#[test]
+fn roots_of_long_numbers_are_not_printed() {
+    let robot = read_toml("skew.toml", SKEW).unwrap().robot;
+    for form in Form::ALL {
+        let options = EquationOptions {
+            form,
+            rounds_roots: true,
+            digits: Some(10),
+            ..EquationOptions::default()
+        };
+        let printed = equations(&robot, &options).unwrap();
+        let texts = printed.groups.iter().flat_map(|group| &group.equations).map(|one| &one.text);
+        for text in texts {
+            for root in text.split("sqrt(").skip(1) {
+                let number = root.split(')').next().unwrap();
+                assert!(number.len() < 5, "{form:?}: {text}");
+            }
+        }
+        assert_no_rounding_errors(&printed);
+    }
+}
+
 #[test]
 fn every_symbol_is_defined_with_each_option() {
     for robot in robots().iter().filter(|robot| robot.degrees_of_freedom() < 6) {

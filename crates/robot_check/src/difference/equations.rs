@@ -123,7 +123,7 @@ fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
     Ok(differing
         .map(|(powers, coefficients)| Term {
             powers,
-            coefficients: coefficients.map(|one| one.as_ref().map(coefficient)),
+            coefficients: coefficients.map(|one| one.as_ref().map(print::coefficient_text)),
         })
         .collect())
 }
@@ -143,14 +143,6 @@ fn powers(factors: &[(Expr<'_>, i32)]) -> String {
     match factors {
         [] => "1".to_owned(),
         factors => factors.iter().map(power).collect::<Vec<_>>().join("*"),
-    }
-}
-
-/// The text of a coefficient, such as `2` or `-1/3`.
-fn coefficient(number: &Number) -> String {
-    match number.as_rational() {
-        Some(rational) => print::exact_text(rational),
-        None => number.to_f64().to_string(),
     }
 }
 

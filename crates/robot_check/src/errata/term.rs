@@ -254,10 +254,7 @@ impl<'g> Term<'g> {
 
     /// The text of the coefficient, such as `2` or `-1/3`.
     pub(super) fn coefficient_text(&self) -> String {
-        match self.coefficient.as_rational() {
-            Some(rational) => print::exact_text(rational),
-            None => self.coefficient.to_f64().to_string(),
-        }
+        print::coefficient_text(&self.coefficient)
     }
 
     /// The term in a list that resembles this one most.

@@ -215,7 +215,20 @@ fn short(number: &str, digits: Option<usize>) -> String {
         (Some(value), None) if significant > DOUBLE => plain(value),
         _ => mantissa.to_owned(),
     };
-    if exponent.is_empty() { text } else { format!("{text}e{exponent}") }
+    match exponent {
+        "" => text,
+        exponent => normal(&text, exponent),
+    }
+}
+
+/// A number with an exponent; a mantissa that was rounded up to 10 becomes 1.
+fn normal(mantissa: &str, exponent: &str) -> String {
+    let value = exponent.parse::<i64>().ok().filter(|_| mantissa == "10");
+    match value.map(|value| value + 1) {
+        None => format!("{mantissa}e{exponent}"),
+        Some(value @ -4..=0) => plain(10_f64.powi(value as i32)),
+        Some(value) => format!("1e{value}"),
+    }
 }
 
 /// The number of digits of a decimal, without leading zeros.
@@ -468,6 +481,7 @@ mod tests {
         let long = "745523852833173678489/559146513121000000000000*q1 + 2/3*q2";
         assert_eq!(tidied_text(long, None), "0.0013333246927927124*q1 + 2/3*q2");
         assert_eq!(tidied_text("F_l5.x = 1.23456e-7*a", Some(3)), "F_l5.x = 1.23e-7*a");
+        assert_eq!(tidied_text("9.9999999e-6*a - 9.99999999e-5", Some(4)), "1e-5*a - 0.0001");
         let noisy = read("1.1550000000000002 q").unwrap();
         assert_eq!(formula(&tidied(&noisy, Some(10))).replace(' ', ""), "1.155q");
         assert_eq!(formula(&tidied(&noisy, None)).replace(' ', ""), "1.1550000000000002q");

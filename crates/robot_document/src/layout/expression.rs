@@ -255,13 +255,9 @@ fn magnitude(number: &Number) -> (Level, Vec<Math>) {
         Magnitude::Quotient(parts) => {
             (Level::Product, vec![Math::Fraction(Box::new(parts.map(Math::Number)))])
         }
+        // `tidied` makes it a product with a power of ten, once it is rounded.
         Magnitude::Scientific([digits, exponent]) => {
-            let exponent = match exponent.strip_prefix('-') {
-                Some(digits) => Math::Row(vec![Math::Sign('-'), Math::Number(digits.to_owned())]),
-                None => Math::Number(exponent),
-            };
-            let power = Math::integer(10).with_upper(exponent);
-            (Level::Product, vec![Math::Number(digits), Math::Sign('·'), power])
+            (Level::Product, vec![Math::Number(format!("{digits}e{exponent}"))])
         }
         Magnitude::NotANumber => (Level::Product, vec![Math::Word("NaN".to_owned())]),
     }

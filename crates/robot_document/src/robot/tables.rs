@@ -1,7 +1,7 @@
 //! The tables of links, masses and frames.
 
-use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
-use robot_model::robot::{Inertia, Move, Placement, Robot};
+use robot_dynamics::mechanism::{Mechanism, MechanismLink, MechanismOptions};
+use robot_model::robot::{Inertia, Move, Payload, Placement, Robot};
 use robot_symbolic::{
     AngleSums, Expr, Formula, Graph, Polynomial, PolynomialOptions, Rational, walk,
 };
@@ -123,6 +123,12 @@ pub(super) fn link_cells(robot: &Robot, index: usize) -> Vec<Cell> {
     if are_numbered(robot) { vec![number] } else { vec![number, vec![Inline::text(name)]] }
 }
 
+/// The cells that identify the payload in a table of links.
+fn payload_cells(robot: &Robot) -> Vec<Cell> {
+    let name = vec![Inline::text("payload")];
+    if are_numbered(robot) { vec![name] } else { vec![vec![], name] }
+}
+
 /// The headings of these cells.
 pub(super) fn link_heads(robot: &Robot) -> Vec<Cell> {
     if are_numbered(robot) {
@@ -204,20 +210,39 @@ impl Values<'_> {
     }
 }
 
-/// The mass, center of mass and inertia tensor of each link, in the link's axes; columns of zeros are omitted.
-fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
-    let graph = Graph::new();
-    let options = MechanismOptions::EXACT.with_snap(None, robot);
-    let mechanism = Mechanism::new(robot, &graph, &options);
-    let names: Vec<&str> = ["Mass", "x", "y", "z"].into_iter().chain(Inertia::NAMES).collect();
+/// The masses, centers of mass and inertia tensors of the links without the payload, in the links' axes, and last those
+/// of the payload in the axes of its own frame.
+fn of_bodies<'g>(robot: &Robot, graph: &'g Graph) -> Vec<Vec<Expr<'g>>> {
+    let mut robot = robot.clone();
+    let payload = robot.payload.take();
+    if let Some(payload) = &payload {
+        let mass = Formula::symbol(&payload.mass);
+        for link in &mut robot.links {
+            link.bodies.retain(|body| body.mass != mass);
+        }
+    }
+    let options = MechanismOptions::EXACT.with_snap(None, &robot);
+    let mechanism = Mechanism::new(&robot, graph, &options);
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)];
-    let mut values = vec![];
-    for link in &mechanism.links {
+    let of_link = |link: &MechanismLink<'g>| {
         let mut row = vec![link.mass];
         row.extend(link.center_of_mass.0);
         row.extend(places.map(|(row, column)| link.inertia.0[row][column]));
-        values.push(row);
-    }
+        row
+    };
+    let of_payload = payload.map(|Payload { mass, center_of_mass, inertia }| {
+        let names = std::iter::once(mass).chain(center_of_mass).chain(inertia);
+        names.map(|name| graph.symbol(&name)).collect()
+    });
+    mechanism.links.iter().map(of_link).chain(of_payload).collect()
+}
+
+/// The mass, center of mass and inertia tensor of each link, in the link's axes, and of the payload; columns of zeros are
+/// omitted.
+fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
+    let graph = Graph::new();
+    let names: Vec<&str> = ["Mass", "x", "y", "z"].into_iter().chain(Inertia::NAMES).collect();
+    let values = of_bodies(robot, &graph);
     let shown = |column: &usize| {
         *column < 1
             || values.iter().any(|row| row.get(*column).is_some_and(|value| !value.is_zero()))
@@ -226,7 +251,10 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
     let mut rows = vec![];
     let mut formulas = Values { symbols, order: Order::new(robot), are_rounded: false };
     for (index, values) in values.iter().enumerate() {
-        let mut row = link_cells(robot, index);
+        let mut row = match index < robot.links.len() {
+            true => link_cells(robot, index),
+            false => payload_cells(robot),
+        };
         for value in columns.iter().filter_map(|column| values.get(*column)) {
             row.push(vec![Inline::Math(formulas.cell(*value)?)]);
         }
@@ -247,12 +275,19 @@ fn masses(robot: &Robot, symbols: &SymbolTable) -> Result<Table, Error> {
         let without = range.filter(|column| !columns.contains(column));
         without.filter_map(|column| names.get(column).copied()).collect::<Vec<_>>()
     };
-    let is_merged = robot.links.iter().any(|link| link.bodies.len() > 1);
-    let merged = if is_merged { " A link includes the bodies that are fixed to it." } else { "" };
+    let count: usize = robot.links.iter().map(|link| link.bodies.len()).sum();
+    let merged = match count > values.len() {
+        true => " A link includes the bodies that are fixed to it.",
+        false => "",
+    };
+    let carried = match robot.payload {
+        Some(_) => " Those of the payload are in the axes of the frame that carries it.",
+        None => "",
+    };
     let rounded = if formulas.are_rounded { " Values are rounded." } else { "" };
     let caption = format!(
         "Masses, kg; centers of mass, m; moments of inertia about the center of mass in the axes of the link frame, \
-         kg m².{rounded}{merged}{}",
+         kg m².{carried}{rounded}{merged}{}",
         words::zeros(&omitted(1..4), &omitted(4..names.len()))
     );
     Ok(Table { caption, head, rows, keys })

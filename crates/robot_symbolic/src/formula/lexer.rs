@@ -165,6 +165,7 @@ impl<'t> Lexer<'t> {
             '²' | '³' => (unknown(character), "write a power as `x^2`"),
             '√' => (unknown(character), "write a root as `sqrt(x)`"),
             '[' | ']' | '{' | '}' => (unknown(character), "use parentheses, `(` and `)`"),
+            ';' => (unknown(character), "an expression is one value; give several one by one"),
             '=' | '<' | '>' | '!' => {
                 (unknown(character), "an expression is a value, not a relation")
             }

@@ -7,6 +7,9 @@ use crate::rational::Rational;
 /// The largest number of decimal places; fractions with more are printed as quotients.
 const MAX_PLACES: usize = 40;
 
+/// The largest number of decimal places before which the first digit of a coefficient stands without a power of ten.
+const PLAIN_PLACES: usize = 4;
+
 /// Writes the exact value: `7`, or `-0.35` if the denominator divides a power of ten, otherwise `2/3`.
 #[must_use]
 pub fn exact_text(value: &Rational) -> String {
@@ -17,6 +20,26 @@ pub fn exact_text(value: &Rational) -> String {
     decimal_places(value)
         .and_then(|(digits, places)| place_point(&digits.to_digits(), places))
         .unwrap_or_else(|| format!("{numerator}/{denominator}"))
+}
+
+/// Writes a coefficient of a term: like [`exact_text`], but decimals below 0.0001 with a power of ten, such as
+/// `-1.5e-12`. A floating-point number is the shortest decimal that rounds to it.
+#[must_use]
+pub fn coefficient_text(number: &Number) -> String {
+    let Some(value) = number.as_rational() else { return format!("{:?}", number.to_f64()) };
+    let text = exact_text(value);
+    let (sign, decimals) = match text.strip_prefix('-') {
+        Some(rest) => ("-", rest),
+        None => ("", text.as_str()),
+    };
+    let Some(decimals) = decimals.strip_prefix("0.") else { return text };
+    let digits = decimals.trim_start_matches('0');
+    let exponent = decimals.len() - digits.len() + 1;
+    match digits.split_at_checked(1).filter(|_| exponent > PLAIN_PLACES) {
+        Some((first, "")) => format!("{sign}{first}e-{exponent}"),
+        Some((first, rest)) => format!("{sign}{first}.{rest}e-{exponent}"),
+        None => text,
+    }
 }
 
 /// The absolute value of a number, in the form that a printer needs.
@@ -105,6 +128,27 @@ mod tests {
         assert_eq!(text(-1, 3000), "-1/3000");
         assert_eq!(text(1, 1_000_000_000), "0.000000001");
         assert_eq!(text(12345, 100), "123.45");
+    }
+
+    #[test]
+    fn small_coefficients_have_powers_of_ten() {
+        for (decimal, expected) in [
+            ("0.0001", "0.0001"),
+            ("-0.00012", "-0.00012"),
+            ("0.00001", "1e-5"),
+            ("-0.000099", "-9.9e-5"),
+            ("0.000000000000000000000001", "1e-24"),
+            ("-12.5", "-12.5"),
+            ("0", "0"),
+        ] {
+            let number = Number::Rational(Rational::from_decimal(decimal).unwrap());
+            assert_eq!(coefficient_text(&number), expected);
+        }
+        assert_eq!(
+            coefficient_text(&Number::Rational(Rational::new(-1, 3000).unwrap())),
+            "-1/3000"
+        );
+        assert_eq!(coefficient_text(&Number::real(-2.5e-12)), "-2.5e-12");
     }
 
     #[test]

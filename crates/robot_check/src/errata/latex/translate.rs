@@ -395,7 +395,12 @@ pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
         "" => "the formula is incomplete".to_owned(),
         _ => format!("`{shown}` is not supported here"),
     };
-    ParseError::new(span, message).help(
-        "write symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, parentheses, subscripts and powers",
-    )
+    ParseError::new(span, message).help(match text.starts_with(',') {
+        true => {
+            "write out what a function such as h(q, \\dot q) stands for: equations of matrices and vectors are not compared"
+        }
+        false => {
+            "write symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, parentheses, subscripts and powers"
+        }
+    })
 }

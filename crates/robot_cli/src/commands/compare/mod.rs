@@ -72,7 +72,8 @@ impl Arguments {
     }
 
     fn comparison(&self, terminal: &mut Terminal<'_>) -> Result<(Robot, Comparison), Failure> {
-        let robot = self.robot.read(terminal)?.robot;
+        // Published equations are compared with those that `equations` prints.
+        let robot = self.robot.printed(terminal)?;
         self.robot.check_base_frames(&[], terminal)?;
         let printed = RobotFile::read(&self.printed)?.source;
         let notation = self.notation.map(|notation| match notation {

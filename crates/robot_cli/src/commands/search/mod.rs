@@ -15,7 +15,7 @@ use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::robot::Robot;
 
 use crate::Terminal;
-use crate::delivery::ForceArgument;
+use crate::delivery::{ForceArgument, named};
 use crate::failure::Failure;
 use crate::progress::watched;
 use crate::robot::RobotArgument;
@@ -100,7 +100,7 @@ impl Arguments {
         show(&robot, &found, &times, terminal)?;
         writeln!(terminal.output, "\n{}", text::snapping(&snapping))?;
         if !self.dry_run {
-            writeln!(terminal.output, "\npinned in {}", shown(&path))?;
+            writeln!(terminal.output, "\npinned in {}", named(&path))?;
         }
         Ok(())
     }
