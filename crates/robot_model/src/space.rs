@@ -105,6 +105,11 @@ mod tests {
     }
 
     #[test]
+    fn cross_products_are_orthogonal_to_both_factors() {
+        near(cross(&[1.0, 2.0, 3.0], &[-2.0, 5.0, 7.0]), [-1.0, -13.0, 9.0]);
+    }
+
+    #[test]
     fn directions_are_of_length_one_whatever_the_length() {
         for scale in [1e-300, 1.0, 1e300] {
             near(direction(&[3.0 * scale, 0.0, -4.0 * scale]), [0.6, 0.0, -0.8]);

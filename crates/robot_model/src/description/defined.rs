@@ -135,6 +135,18 @@ mod tests {
     use super::*;
 
     #[test]
+    fn errors_of_functions_are_those_of_their_slopes() {
+        let rounded = |value: f64, error: f64| Rounded { value, error };
+        let root = rounded(16.0, 1e-3).of_function(Function::Sqrt).unwrap();
+        assert_eq!(root.value, 4.0);
+        assert!((root.error - 2.5e-4).abs() < 1e-12, "{}", root.error);
+        let nothing = rounded(-1e-18, 1e-16).of_function(Function::Sqrt).unwrap();
+        assert_eq!((nothing.value, nothing.error), (0.0, 1e-8));
+        assert!(rounded(3.0, ANGLE).of_function(Function::Sin).is_ok());
+        assert!(rounded(3.0, 2.0 * ANGLE).of_function(Function::Sin).is_err());
+    }
+
+    #[test]
     fn poles_are_distinguished_from_values() {
         let options = Options::default();
         let mut reader = Reader::new("", &options);

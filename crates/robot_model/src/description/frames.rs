@@ -43,7 +43,7 @@ pub(super) fn tables<'a>(
         _ => vec![entry.value],
     };
     if values.len() > MAX_LINKS {
-        let message = format!("{} entries; at most {MAX_LINKS}", values.len());
+        let message = format!("at most {MAX_LINKS} entries are allowed; found {}", values.len());
         let diagnostic = Diagnostic::error(code::LIMIT, message).at(&entry.key, "this list");
         reader.report(diagnostic.help("describe one robot per file"));
         return Vec::new();

@@ -28,7 +28,8 @@ pub(super) fn read(
         return (parameters, places);
     };
     if keys.len() > MAX_PARAMETERS {
-        let message = format!("{} parameters; at most {MAX_PARAMETERS}", keys.len());
+        let message =
+            format!("at most {MAX_PARAMETERS} parameters are allowed; found {}", keys.len());
         reader.report(
             Diagnostic::error(code::LIMIT, message)
                 .at(&entry.key, "this table")

@@ -36,7 +36,7 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
     }
     let moving = links.iter().filter(|link| link.joint.kind.is_some()).count();
     if moving > MAX_JOINTS {
-        let message = format!("the robot has {moving} joints; at most {MAX_JOINTS}");
+        let message = format!("at most {MAX_JOINTS} moving joints are allowed; found {moving}");
         let span = order.last().and_then(|last| links.get(*last)).map(|link| &link.name.span);
         let diagnostic = Diagnostic::error(code::LIMIT, message);
         let diagnostic = diagnostic.at(span.unwrap_or(&(0..0)), "the last one");

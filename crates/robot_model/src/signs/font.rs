@@ -67,3 +67,16 @@ impl Font {
         self.row().2.and_then(|first| char::from_u32(first + place)).unwrap_or(letter)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Font;
+
+    #[test]
+    fn letters_have_their_places_in_unicode() {
+        let bold = "AZaz".chars().map(|letter| Font::Bold.character(letter));
+        assert_eq!(bold.collect::<String>(), "\u{1d400}\u{1d419}\u{1d41a}\u{1d433}");
+        assert_eq!(Font::Bold.character('1'), '1');
+        assert_eq!(Font::Upright.character('A'), 'A');
+    }
+}

@@ -316,6 +316,10 @@ mod tests {
             "r\\dot{q}_1",
             "\\mathrm{r+1}",
             "v_(1.5)",
+            // Only capitals have a calligraphic form.
+            "\\mathcal{a}",
+            "\\mathcal{{a}}",
+            "\\mathcal{A{b}}",
         ] {
             assert!(check_latex(text).is_err(), "{text}");
         }

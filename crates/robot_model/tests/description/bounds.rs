@@ -1,5 +1,7 @@
 //! The bounds of values: what is exactly at one is read, and what is beyond it is refused for what it is.
 
+use robot_model::description::MAX_PARAMETERS;
+
 use crate::{arm, errors, read};
 
 /// A joint, with values of every kind.
@@ -53,6 +55,15 @@ fn hold(text: &str, is_right: bool, message: &str) {
         assert_eq!(found.len(), 1, "{message}\n{found}");
         let shown = &found.iter().next().unwrap().message;
         assert!(shown.starts_with(message), "{shown}\n{message}");
+    }
+}
+
+#[test]
+fn the_most_parameters_are_read() {
+    for (count, is_right) in [(MAX_PARAMETERS, true), (MAX_PARAMETERS + 1, false)] {
+        let parameters: String = (0..count).map(|index| format!("p{index} = 1\n")).collect();
+        let text = format!("{}[parameters]\n{parameters}", with("", ""));
+        hold(&text, is_right, &format!("at most {MAX_PARAMETERS} parameters are allowed"));
     }
 }
 

@@ -5,6 +5,7 @@
 mod bounds;
 mod broken;
 mod dh;
+mod functions;
 mod hostile;
 #[path = "../hostility/mod.rs"]
 mod hostility;

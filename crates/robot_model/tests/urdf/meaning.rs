@@ -72,9 +72,12 @@ fn joints_have_their_kinds() {
 
 #[test]
 fn floating_and_planar_joints_are_refused() {
-    for (kind, words) in
-        [("floating", "fixed base"), ("planar", "prismatic"), ("revolve", "revolute")]
-    {
+    for (kind, words) in [
+        ("floating", "fixed base"),
+        ("planar", "prismatic"),
+        ("ball", "three revolute"),
+        ("revolve", "revolute"),
+    ] {
         let text = one_link(BODY, "").replace("\"revolute\"", &format!("\"{kind}\""));
         let found = errors(&text);
         assert_eq!(codes(&found), [code::UNKNOWN_WORD], "{found}");
@@ -206,6 +209,7 @@ fn a_moment_alone_is_enough_about_a_vertical_axis_on_the_base() {
     for (attributes, axis) in [
         ("ixx=\"0.35\" iyy=\"0\" izz=\"0\"", "1 0 0"),
         ("ixx=\"0.1\" iyy=\"0\" izz=\"0.35\"", "0 0 1"),
+        ("ixx=\"0.000001\" iyy=\"0\" izz=\"0.35\"", "0 0 1"),
     ] {
         let text = one_link(&body(attributes), &format!("<axis xyz=\"{axis}\"/>"));
         assert_eq!(codes(&errors(&text))[0], code::MASS, "{attributes}");
