@@ -3,7 +3,7 @@
 use robot_model::description::{Budget, Code, Limit, MAX_BUNDLES, check_bundle_name};
 use robot_model::diagnostic::code;
 use robot_model::functions::{self, FrameRef, FunctionKind, Functions};
-use robot_model::robot::{BaseFrames, JointKind, Move, Robot};
+use robot_model::robot::{BaseFrames, JointKind, Move, Robot, Wrench};
 use robot_model::variable::{JointVariable, Variable};
 use robot_numeric::Mechanism;
 use robot_numeric::random::Random;
@@ -424,7 +424,7 @@ fn a_name_that_was_made_is_not_that_of_another_link() {
 fn symbols_of_a_robot_are_its_variables() {
     let more = "[parameters]\ng = 9.81\n".to_owned() + &revolute("1", "");
     let robot = read(&arm(&format!("{more}\n[tip]\nparent = \"1\"\n"))).robot;
-    let components = robot.frames[0].wrench.iter().flat_map(|wrench| wrench.components());
+    let components = robot.frames[0].wrench.iter().flat_map(Wrench::components);
     let found: Vec<Option<Variable>> = components.map(|name| robot.variable(name)).collect();
     let wrench: Vec<Option<Variable>> =
         (0..6).map(|entry| Some(Variable::Wrench(0, entry))).collect();
