@@ -61,7 +61,13 @@ impl Terms<'_> {
         if belongs_above {
             pieces.clear();
         }
-        pieces.push(Math::Fraction(Box::new([Math::row(numerator), Math::row(below)])));
+        // The bar separates a sum from the denominator.
+        let numerator = match <[Math; 1]>::try_from(numerator) {
+            Ok([Math::Fenced(Fence::Parentheses, sum)]) => *sum,
+            Ok([piece]) => piece,
+            Err(pieces) => Math::row(pieces),
+        };
+        pieces.push(Math::Fraction(Box::new([numerator, Math::row(below)])));
         Ok(pieces)
     }
 

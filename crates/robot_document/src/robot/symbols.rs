@@ -132,14 +132,16 @@ fn wrenches(robot: &Robot, symbols: &SymbolTable, occurring: &Occurring<'_>) -> 
     let mut rows = vec![];
     for (frame, wrench) in robot.tips() {
         for (names, what, unit) in
-            [(&wrench.force, "force", "N"), (&wrench.moment, "moment", "N m")]
+            [(&wrench.force, "force along", "N"), (&wrench.moment, "moment about", "N m")]
         {
             for (name, axis) in names.iter().zip(["x", "y", "z"]) {
                 if occurring.has(name) {
-                    let meaning = format!(
-                        "{what} along {axis} that {} exerts on its surroundings, {unit}",
-                        frame.name
-                    );
+                    let tip = match frame.name.as_str() {
+                        "tip" => "the tip".to_owned(),
+                        name => format!("the tip {name}"),
+                    };
+                    let meaning =
+                        format!("{what} {axis} that {tip} exerts on its surroundings, {unit}");
                     let symbol = vec![Inline::Math(symbols.look(name))];
                     rows.push(vec![symbol, vec![Inline::Text(meaning)], vec![]]);
                 }

@@ -2,8 +2,9 @@
 
 use robot_dynamics::mechanism::{Mechanism, MechanismLink, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Payload, Placement, Robot};
+use robot_symbolic::print::{exact_text, to_text};
 use robot_symbolic::{
-    AngleSums, Expr, Formula, Graph, Polynomial, PolynomialOptions, Rational, walk,
+    AngleSums, Expr, Formula, Graph, Number, Polynomial, PolynomialOptions, Rational, walk,
 };
 
 use super::{dh, drives, heading, numbers, paragraph};
@@ -194,8 +195,9 @@ struct Values<'t> {
 impl Values<'_> {
     /// A value; long constants are rounded to six digits.
     fn cell(&mut self, value: Expr<'_>) -> Result<Math, Error> {
-        let long = robot_symbolic::print::to_text(value).is_ok_and(|text| numbers::is_long(&text));
-        if long && walk::symbols(&[value]).is_empty() {
+        let text = to_text(value);
+        let is_long = text.is_ok_and(|text| numbers::is_long(&text)) || is_quotient(value);
+        if is_long && walk::symbols(&[value]).is_empty() {
             self.are_rounded = true;
             return Ok(numbers::rounded(value.evaluate(|_| f64::NAN)));
         }
@@ -208,6 +210,16 @@ impl Values<'_> {
         self.are_rounded |= has_longer(&exact, numbers::DIGITS);
         Ok(tidied(&exact, Some(numbers::DIGITS)))
     }
+}
+
+/// The largest denominator of a number that people write as a fraction.
+const DENOMINATOR: i64 = 12;
+
+/// Whether a number is a quotient that nobody would write, such as 7/45, and no decimal.
+fn is_quotient(value: Expr<'_>) -> bool {
+    let Some(Number::Rational(number)) = value.as_number() else { return false };
+    let is_large = number.to_small().is_none_or(|(_, below)| below > DENOMINATOR);
+    is_large && exact_text(&number).contains('/')
 }
 
 /// The masses, centers of mass and inertia tensors of the links without the payload, in the links' axes, and last those

@@ -147,7 +147,7 @@ const BROKEN: &[(&str, Range<usize>, &str, &str)] = &[
     ("a − b", 2..5, "`−` has no meaning", "keyboard"),
     ("x\u{0}", 1..2, "has no meaning", "ASCII"),
     ("}fn x(){}", 0..1, "`}` has no meaning", "parentheses"),
-    ("x; y", 1..2, "`;` has no meaning", "ASCII"),
+    ("x; y", 1..2, "`;` has no meaning", "one by one"),
 ];
 
 #[test]
