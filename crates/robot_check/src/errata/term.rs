@@ -99,6 +99,7 @@ pub(super) fn noted_like<'g>(derived: Vec<Term<'g>>, printed: &[Term<'g>]) -> Ve
             noted.push(term);
         }
     }
+    noted.retain(|term| !term.coefficient.is_zero());
     noted
 }
 

@@ -3,6 +3,7 @@
 
 use serde_json::Value;
 
+use crate::printing::rounded;
 use crate::{complaint, output, robot, run};
 
 /// The path of a file in the folder of the project.
@@ -92,6 +93,25 @@ fn of_own(file: &str, options: &[&str]) -> String {
     let path = crate::folder(&format!("compare-{}", options.concat())).join("equations");
     std::fs::write(&path, output(&[&["equations", file], options].concat(), "")).unwrap();
     output(&["compare", file, path.to_str().unwrap()], "").lines().last().unwrap().to_owned()
+}
+
+/// Published equations are compared with what `equations` prints for the same tolerance.
+#[test]
+fn rounded_right_angles_are_compared_as_they_are_printed() {
+    let file = rounded("rounded_compared");
+    let path = format!("{file}.txt");
+    for (format, printed, compared, code) in [
+        ("text", &[][..], &[][..], 0),
+        ("latex", &[], &[], 0),
+        ("text", &["--snap", "0"], &["--snap", "0"], 0),
+        ("text", &["--snap", "0"], &[], 1),
+    ] {
+        let arguments = ["equations", &file, "--form", "expanded", "--format", format];
+        std::fs::write(&path, run(&[&arguments, printed].concat()).output).unwrap();
+        let shown = run(&[&["compare", &file, &path], compared].concat());
+        assert_eq!(shown.code, code, "{format} {printed:?} {compared:?}: {}", shown.output);
+        assert_eq!(shown.output.contains(": no differences"), code == 0, "{}", shown.output);
+    }
 }
 
 #[test]

@@ -34,7 +34,8 @@ const ROUNDED_ANGLES: &str = r#"<robot name="rounded">
 </robot>
 "#;
 
-fn rounded(test: &str) -> String {
+/// The path of a file with this arm.
+pub(crate) fn rounded(test: &str) -> String {
     let path = folder(test).join("rounded.urdf");
     std::fs::write(&path, ROUNDED_ANGLES).unwrap();
     path.to_str().unwrap().to_owned()

@@ -5,9 +5,9 @@ use robot_symbolic::collected::length;
 use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, walk};
 
-use super::compact::definitions;
+use super::compact::{definitions, without_unused};
 use super::definitions::Root;
-use super::naming::named_length;
+use super::naming::{Named, named_length};
 use super::{
     Equation, Group, Writer, aliases, arranged, joint_torque, letters, numbers, references, shapes,
 };
@@ -260,11 +260,25 @@ pub(super) fn definitions_of<'g>(
         long.filter(|((_, shown), by_symbols)| !by_symbols && matches!(shown, Shown::Long { .. }));
     let long: Vec<Root<'g>> =
         long.map(|(((coefficient, value), _), _)| coefficient.root(*value)).collect();
-    let target = Graph::new();
-    let (mut groups, named) = definitions(writer, long, &target)?;
+    without_unused(writer, |writer, omitted| {
+        let target = Graph::new();
+        let (groups, list) = definitions(writer, long.clone(), &target, omitted)?;
+        let groups = with_coefficients(writer, groups, &list.named, (sections, shown, &values))?;
+        let unused = list.unused(&groups);
+        Ok((groups, unused))
+    })
+}
+
+/// Adds the coefficients, whose values are `values`, to the definitions of names in `groups`.
+fn with_coefficients<'g>(
+    writer: &Writer<'_, 'g>,
+    mut groups: Vec<Group>,
+    named: &Named<'_>,
+    (sections, shown, values): (&[Section<'g>], &[Vec<Shown<'g>>], &[Expr<'g>]),
+) -> Result<Vec<Group>, Error> {
     let defined = groups.iter().flat_map(|group| &group.equations);
     let defined: Vec<String> = defined.map(|equation| equation.name.clone()).collect();
-    let mut values = values.into_iter();
+    let mut values = values.iter().copied();
     for (section, shown) in sections.iter().zip(shown) {
         let mut equations = vec![];
         for ((coefficient, shown), value) in section.coefficients.iter().zip(shown).zip(&mut values)

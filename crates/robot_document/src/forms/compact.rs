@@ -6,8 +6,8 @@ use robot_symbolic::print::{ArrangedTerm, arranged_value};
 use robot_symbolic::{AngleSums, Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
-use super::definitions::{Definitions, Root};
-use super::naming::{Named, is_leaf};
+use super::definitions::{Definitions, Root, is_omitted};
+use super::naming::is_leaf;
 use super::{
     Equation, Group, Writer, angle_sums, arranged, canceled, numbers, of_joint_torque, vectors,
 };
@@ -32,14 +32,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;
     }
-    let symbols = writer.symbols.clone();
-    let (groups, unused) = written(writer, &quantities, &values, FxHashSet::default())?;
-    if unused.is_empty() {
-        return Ok(groups);
-    }
-    // Parts that cancel have names that nothing uses in the end.
-    writer.symbols = symbols;
-    Ok(written(writer, &quantities, &values, unused)?.0)
+    without_unused(writer, |writer, omitted| written(writer, &quantities, &values, omitted))
 }
 
 /// Writes the quantities, whose values are `values`, with names for common parts except those `omitted`. Returns the
@@ -73,18 +66,42 @@ fn written<'g>(
     Ok((groups, unused))
 }
 
-/// Defines the common parts of `roots`: first combinations of parameters, then expressions of the state. A root that is
-/// part of others is defined among them under its own name, which the writer must already know.
-pub(super) fn definitions<'h>(
+/// Defines the common parts of `roots`, except those `omitted`: first combinations of parameters, then expressions of the
+/// state. A root that is part of others is defined among them under its own name, which the writer must already know.
+pub(super) fn definitions<'g, 'h>(
     writer: &mut Writer<'_, '_>,
-    roots: Vec<Root<'_>>,
+    roots: Vec<Root<'g>>,
     target: &'h Graph,
-) -> Result<(Vec<Group>, Named<'h>), Error> {
+    omitted: FxHashSet<Id>,
+) -> Result<(Vec<Group>, Definitions<'g, 'h>), Error> {
     let values: Vec<Expr<'_>> = roots.iter().map(|root| root.value).collect();
     let mut list = Definitions::new(target, &values, writer.options.digits);
+    list.omitted = omitted;
     list.entries = roots;
     let groups = list.define(writer)?;
-    Ok((groups, list.named))
+    Ok((groups, list))
+}
+
+/// Returns the groups that `write` writes, without the names that nothing uses in the end, such as those of parts that
+/// cancel. `write` omits the parts that it is given, and also returns those that nothing uses.
+pub(super) fn without_unused<'r, 'g>(
+    writer: &mut Writer<'r, 'g>,
+    write: impl Fn(&mut Writer<'r, 'g>, FxHashSet<Id>) -> Result<(Vec<Group>, FxHashSet<Id>), Error>,
+) -> Result<Vec<Group>, Error> {
+    let symbols = writer.symbols.clone();
+    let (groups, unused) = write(writer, FxHashSet::default())?;
+    if unused.is_empty() {
+        return Ok(groups);
+    }
+    let symbols = std::mem::replace(&mut writer.symbols, symbols);
+    let (shorter, _) = write(writer, unused)?;
+    let mut equations = shorter.iter().flat_map(|group| &group.equations);
+    if equations.any(|equation| equation.right.symbols().into_iter().any(is_omitted)) {
+        // Another order of names has led to other parts.
+        writer.symbols = symbols;
+        return Ok(groups);
+    }
+    Ok(shorter)
 }
 
 /// The largest number of terms of a sum that is multiplied out to be collected.

@@ -45,6 +45,7 @@ pub(super) struct Definitions<'g, 'h> {
 }
 
 /// An expression with the name under which it is defined.
+#[derive(Clone)]
 pub(super) struct Root<'g> {
     pub(super) name: String,
     pub(super) look: Math,
@@ -295,8 +296,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             return Ok(());
         }
         if self.omitted.contains(&expr.id()) {
-            // Names of parameters contain no spaces.
-            let name = format!("{} omitted {}", section.letter, self.names.len());
+            let name = format!("{OMITTED}{}", self.names.len());
             self.named.name(expr, &name);
             self.names.insert(written.id(), self.named.graph.symbol(&name));
             return Ok(());
@@ -401,6 +401,14 @@ pub(super) fn positive(mut expr: Expr<'_>) -> Expr<'_> {
         expr = inside;
     }
     expr
+}
+
+/// The start of the names of omitted expressions; those of other symbols contain no spaces.
+const OMITTED: &str = "omitted ";
+
+/// Whether a name is that of an omitted expression, which is not printed.
+pub(super) fn is_omitted(name: &str) -> bool {
+    name.starts_with(OMITTED)
 }
 
 /// The largest number of terms with which an expression is expanded to see whether its named parts cancel.

@@ -5,11 +5,11 @@ use robot_dynamics::newton_euler::newton_euler;
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, Graph, Polynomial, PolynomialOptions, View};
+use robot_symbolic::{Expr, Graph, Id, Polynomial, PolynomialOptions, View};
 use rustc_hash::FxHashSet;
 
-use super::compact::{definitions, tidy};
-use super::definitions::{Root, positive};
+use super::compact::{definitions, tidy, without_unused};
+use super::definitions::{Definitions, Root, positive};
 use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
@@ -17,13 +17,26 @@ use super::{Cell, Equation, Group, Writer, joint_torque, numbers, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
+/// The title of the values of links that are more than a number or a symbol.
+const LINKS: &str = "Parameters of the links";
+
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
+    without_unused(writer, written)
+}
+
+/// Writes the equations with names for common parts except those `omitted`. Returns the groups and the common parts that
+/// nothing uses.
+fn written(
+    writer: &mut Writer<'_, '_>,
+    omitted: FxHashSet<Id>,
+) -> Result<(Vec<Group>, FxHashSet<Id>), Error> {
     let effects = Effects { wrench: true, friction: writer.options.friction };
     let mut mechanism = writer.derivation().mechanism;
     numbers::round_links(writer, &mut mechanism);
     let iterations = newton_euler(&mechanism, effects);
     let target = Graph::new();
-    let (mut groups, mut named) = link_values(writer, &mechanism, &target)?;
+    let (mut groups, mut list) = link_values(writer, &mechanism, &target, omitted)?;
+    let named = &mut list.named;
     let mut printed = FxHashSet::default();
     for (index, motion) in iterations.motions.iter().enumerate() {
         let number = index + 1;
@@ -37,7 +50,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             ("F", paper(Kind::Force), motion.force),
             ("M_c", paper(Kind::Moment), motion.moment),
         ] {
-            group.add(writer, &mut named, (name, look, number), vector, &mut printed)?;
+            group.add(writer, named, (name, look, number), vector, &mut printed)?;
         }
         groups.push(group.0);
     }
@@ -48,23 +61,43 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
             [("F_l", Kind::LinkForce, wrench.force), ("M_l", Kind::LinkMoment, wrench.moment)]
         {
             let look = Look::Paper(kind);
-            group.add(writer, &mut named, (name, look, number), vector, &mut printed)?;
+            group.add(writer, named, (name, look, number), vector, &mut printed)?;
         }
         groups.push(group.0);
     }
-    groups.push(joint_torques(writer, &iterations.joint_torques, &named)?);
-    Ok(groups)
+    groups.push(joint_torques(writer, &iterations.joint_torques, named)?);
+    leave_unused(&mut groups);
+    let unused = list.unused(&groups);
+    Ok((groups, unused))
+}
+
+/// Removes the values of links that no equation needs, such as moments of inertia about axes that do not turn.
+fn leave_unused(groups: &mut [Group]) {
+    let Some((links, others)) = groups.split_first_mut() else { return };
+    let used = others.iter().flat_map(|group| &group.equations);
+    let mut used: FxHashSet<String> =
+        used.flat_map(|equation| equation.right.symbols()).map(str::to_owned).collect();
+    let mut kept: Vec<Equation> = vec![];
+    for equation in std::mem::take(&mut links.equations).into_iter().rev() {
+        if used.contains(&equation.name) {
+            used.extend(equation.right.symbols().into_iter().map(str::to_owned));
+            kept.push(equation);
+        }
+    }
+    kept.reverse();
+    links.equations = kept;
 }
 
 /// Defines the masses, centers of mass and inertia tensors of the links whose values are more than a number or a
 /// symbol.
-fn link_values<'h>(
+fn link_values<'g, 'h>(
     writer: &mut Writer<'_, '_>,
-    mechanism: &Mechanism<'_>,
+    mechanism: &Mechanism<'g>,
     target: &'h Graph,
-) -> Result<(Vec<Group>, Named<'h>), Error> {
+    omitted: FxHashSet<Id>,
+) -> Result<(Vec<Group>, Definitions<'g, 'h>), Error> {
     let letter = writer.symbols.free_letter(&candidates::LINK_MASS);
-    let mut link_values: Vec<(String, Math, Expr<'_>)> = vec![];
+    let mut link_values: Vec<(String, Math, Expr<'g>)> = vec![];
     for (link, number) in mechanism.links.iter().zip(1..) {
         let shape = shapes::indexed(letter.chars().next().unwrap_or('m'), &[number]);
         link_values.push((shapes::indexed_name(letter, &[number]), shape, link.mass));
@@ -89,7 +122,8 @@ fn link_values<'h>(
     // Numbers do not depend on each other.
     let is_plain = link_values.iter().all(|(_, _, value)| is_leaf(*value));
     let order: Vec<String> = link_values.iter().map(|(name, _, _)| name.clone()).collect();
-    let (groups, mut named) = definitions(writer, roots, target)?;
+    let (groups, mut list) = definitions(writer, roots, target, omitted)?;
+    let named = &mut list.named;
     let mut all: Vec<Equation> = groups.into_iter().flat_map(|group| group.equations).collect();
     for (name, left, expr) in link_values {
         if all.iter().all(|equation| equation.name != name) {
@@ -101,7 +135,7 @@ fn link_values<'h>(
     if is_plain {
         all.sort_by_key(|equation| order.iter().position(|name| *name == equation.name));
     }
-    Ok((vec![Group::of_definitions("Parameters of the links", all)], named))
+    Ok((vec![Group::of_definitions(LINKS, all)], list))
 }
 
 /// The layout of a vector's components.

@@ -239,8 +239,9 @@ fn significant(mantissa: &str) -> usize {
 /// Rounds a value to this many significant digits.
 fn significantly(value: f64, digits: usize) -> String {
     let scientific = format!("{value:.*e}", digits.saturating_sub(1));
-    let rounded = Rational::from_decimal(&scientific);
-    rounded.map_or_else(|| plain(value), |rounded| exact_text(&rounded))
+    let rounded = Rational::from_decimal(&scientific).map(|rounded| exact_text(&rounded));
+    // A number with too many decimal places is written as a quotient.
+    rounded.filter(|text| !text.contains('/')).unwrap_or(scientific)
 }
 
 /// Rounds a piece if it is a number; indices never get here.
@@ -481,6 +482,8 @@ mod tests {
         let long = "745523852833173678489/559146513121000000000000*q1 + 2/3*q2";
         assert_eq!(tidied_text(long, None), "0.0013333246927927124*q1 + 2/3*q2");
         assert_eq!(tidied_text("F_l5.x = 1.23456e-7*a", Some(3)), "F_l5.x = 1.23e-7*a");
+        let tiny = format!("0.{}17766633744571327*a", "0".repeat(41));
+        assert_eq!(tidied_text(&tiny, Some(4)), "1.777e-42*a");
         assert_eq!(tidied_text("9.9999999e-6*a - 9.99999999e-5", Some(4)), "1e-5*a - 0.0001");
         let noisy = read("1.1550000000000002 q").unwrap();
         assert_eq!(formula(&tidied(&noisy, Some(10))).replace(' ', ""), "1.155q");

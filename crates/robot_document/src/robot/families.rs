@@ -178,6 +178,7 @@ fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Op
         ("Expressions of the state", _) => "expression that occurs several times",
         ("Parameters of the links", "r") => "component of the center of mass of link i, m",
         ("Parameters of the links", "J") => "entry of the inertia tensor of link i, kg m²",
+        ("Parameters of the links", "k" | "p" | "h" | "K" | "X") => "combination of parameters",
         ("Parameters of the links", _) => "mass of link i, kg",
         (_, "omega") => "component of the angular velocity of link i, rad/s",
         (_, "epsilon") => "component of the angular acceleration of link i, rad/s²",

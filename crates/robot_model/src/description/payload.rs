@@ -100,21 +100,21 @@ fn names() -> Payload {
 /// The parameters in the order of [`names`].
 fn payload_parameters() -> Vec<Parameter> {
     let Payload { mass, center_of_mass, inertia } = names();
-    let parameter = |name: String, letter: &str, unit: &str, doc: &str| Parameter {
+    let parameter = |name: String, letter: &str, upper: &str, unit: &str, doc: &str| Parameter {
         name,
         value: Some(Rational::ZERO),
         unit: Unit::parse(unit).ok(),
-        latex: Some(format!("{letter}_{{\\mathrm{{P}}}}")),
+        latex: Some(format!("{letter}_{{\\mathrm{{P}}}}{upper}")),
         doc: Some(doc.to_owned()),
     };
-    let mut payload_parameters = vec![parameter(mass, "m", "kg", "mass of the payload")];
+    let mut payload_parameters = vec![parameter(mass, "m", "", "kg", "mass of the payload")];
     for (name, axis) in center_of_mass.into_iter().zip(["x", "y", "z"]) {
         let doc = format!("{axis} component of the payload's center of mass");
-        payload_parameters.push(parameter(name, axis, "m", &doc));
+        payload_parameters.push(parameter(name, axis, "", "m", &doc));
     }
     for (name, axes) in inertia.into_iter().zip(Inertia::NAMES) {
         let doc = "entry of the payload's inertia tensor about its center of mass";
-        payload_parameters.push(parameter(name, &format!("J^{{{axes}}}"), "kg m^2", doc));
+        payload_parameters.push(parameter(name, "J", &format!("^{{{axes}}}"), "kg m^2", doc));
     }
     payload_parameters
 }

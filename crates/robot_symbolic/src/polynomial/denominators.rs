@@ -4,7 +4,7 @@ use super::PolynomialError;
 use super::accumulator::{Term, Terms};
 use super::expand::Expander;
 use super::monomial::{Factor, Monomial};
-use crate::graph::{Id, Node};
+use crate::graph::{Function, Id, Node};
 use crate::number::Number;
 
 /// The largest number of steps; each lowers the power of a leading term in all terms.
@@ -24,6 +24,7 @@ impl Expander<'_> {
     /// lexicographic order, so that the steps end; and for sums of which each has a symbol of its own, such as the masses
     /// of bodies that are added one after another, the result does not depend on the order of steps.
     pub(super) fn without_denominators(&mut self, terms: Terms) -> Result<Terms, PolynomialError> {
+        let terms = self.without_squared_roots(terms)?;
         let denominators = self.denominators(&terms);
         if denominators.is_empty() {
             return Ok(terms);
@@ -46,6 +47,36 @@ impl Expander<'_> {
             reduced = self.collected(&sum)?;
         }
         Ok(if reduced.len() < terms.len() { reduced } else { terms })
+    }
+
+    /// Replaces squares of roots of sums in denominators: 1/√(1 + x²)² = 1/(1 + x²).
+    fn without_squared_roots(&mut self, terms: Terms) -> Result<Terms, PolynomialError> {
+        let is_squared = |factor: &&Factor| {
+            let is_root = matches!(self.graph.node(factor.atom()), Node::Call(Function::Sqrt, _));
+            is_root && factor.is_reducible() && factor.exponent() <= -2
+        };
+        let squared = |(monomial, _): &Term| monomial.factors().iter().find(is_squared).copied();
+        if terms.iter().all(|term| squared(term).is_none()) {
+            return Ok(terms);
+        }
+        let roots: Vec<Option<Factor>> = terms.iter().map(squared).collect();
+        let mut sum = vec![];
+        for ((monomial, number), root) in terms.into_iter().zip(roots) {
+            let Some(root) = root else {
+                sum.push((monomial, number));
+                continue;
+            };
+            let halves = root.exponent().unsigned_abs() / 2;
+            let even = Monomial::from_factor(root.with_exponent(2 * halves.cast_signed()));
+            // The factor is left out, or its first power stays in the denominator.
+            let (rest, _) = monomial.product(&even).ok_or(PolynomialError::ExponentTooLarge)?;
+            let square = self.graph.square(root.atom()).0.to_vec();
+            let inverse = self.reciprocal(&square)?;
+            let inverse = self.power(&inverse, halves)?;
+            sum.extend(self.product(&vec![(rest, number)], &inverse)?);
+        }
+        let sum = self.collected(&sum)?;
+        self.without_squared_roots(sum)
     }
 
     /// The denominators that are sums of products of symbols, in order of their ids.

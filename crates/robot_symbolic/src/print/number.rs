@@ -23,11 +23,18 @@ pub fn exact_text(value: &Rational) -> String {
 }
 
 /// Writes a coefficient of a term: like [`exact_text`], but decimals below 0.0001 with a power of ten, such as
-/// `-1.5e-12`. A floating-point number is the shortest decimal that rounds to it.
+/// `-1.5e-12`, and long quotients as decimals. A floating-point number is the shortest decimal that rounds to it.
 #[must_use]
 pub fn coefficient_text(number: &Number) -> String {
-    let Some(value) = number.as_rational() else { return format!("{:?}", number.to_f64()) };
+    let Some(value) = number.as_rational() else {
+        let value = number.to_f64();
+        let is_small = value != 0.0 && value.abs() < 1e-4;
+        return if is_small { format!("{value:e}") } else { value.to_string() };
+    };
     let text = exact_text(value);
+    if text.contains('/') && value.to_small().is_none() {
+        return coefficient_text(&Number::real(value.to_f64()));
+    }
     let (sign, decimals) = match text.strip_prefix('-') {
         Some(rest) => ("-", rest),
         None => ("", text.as_str()),
@@ -148,7 +155,14 @@ mod tests {
             coefficient_text(&Number::Rational(Rational::new(-1, 3000).unwrap())),
             "-1/3000"
         );
-        assert_eq!(coefficient_text(&Number::real(-2.5e-12)), "-2.5e-12");
+        let number = |text: &str| Number::Rational(Rational::from_decimal(text).unwrap());
+        let long = &number("1.5e-60") * &number("3").recip();
+        assert_eq!(coefficient_text(&long), "5e-61");
+        for (value, expected) in
+            [(-2.5e-12, "-2.5e-12"), (0.0001, "0.0001"), (2.0, "2"), (0.0, "0")]
+        {
+            assert_eq!(coefficient_text(&Number::real(value)), expected);
+        }
     }
 
     #[test]
