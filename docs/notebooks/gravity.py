@@ -59,9 +59,9 @@ arm = robots.load("small.toml")
 arm
 
 # %% [markdown]
-# ## The law
+# ## The control law
 #
-# The controller needs only the gravity terms. For a microcontroller they are a few products;
+# The controller needs only the gravity terms. On a microcontroller they take only a few operations;
 # `arm.source("c", function="gravity")` prints them as C.
 
 # %%
@@ -74,7 +74,7 @@ for name, formula in equations.definitions.items():
 # Gravity has no moment about the vertical axis, so there is no g₁. The terms contain the parameters of the payload,
 # which are 0 unless a call sets them.
 #
-# In Python the law is one call. This is the configuration in which the arm is stretched out horizontally:
+# In Python the control law is one call. This is the configuration in which the arm is stretched out horizontally:
 
 # %%
 out = np.array([0.0, 0.0, 0.0])
