@@ -16,15 +16,17 @@ enum Part {
 }
 
 /// Half a unit of the last printed digit of a formula's decimal, as a fraction of the decimal: the largest relative
-/// error of the formula's coefficients. It is `None` unless the formula has exactly one decimal and is a multiple of it:
-/// integers, and quotients of integers, are exact.
+/// error of the formula's coefficients. It is `None` unless the formula is a multiple of exactly one decimal: integers, and
+/// quotients of integers, are exact, and so are decimals in sums, such as a denominator.
 pub(super) fn of_formula(formula: &Formula) -> Option<Number> {
     let text = formula.text();
-    let [place] = &decimals(text)[..] else { return None };
+    let is_factor = |place: &Range<usize>| is_multiple(text, place) == Some(true);
+    let factors: Vec<Range<usize>> = decimals(text).into_iter().filter(is_factor).collect();
+    let [place] = &factors[..] else { return None };
     let decimal = text.get(place.clone())?;
     let value = Rational::from_decimal(decimal).filter(|value| !value.is_zero())?;
     let half = Number::Rational(half_unit(decimal)?);
-    is_multiple(text, place)?.then(|| &half * &Number::Rational(value).recip())
+    Some(&half * &Number::Rational(value).recip())
 }
 
 /// The largest relative error of a derived coefficient that is computed with floating-point numbers.

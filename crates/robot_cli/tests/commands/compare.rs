@@ -139,6 +139,9 @@ fn constants_of_oblique_frames_are_read() {
     )
     .replace("mass = 1", "mass = \"m\"");
     let oblique = text("p", "joint = { type = \"revolute\", axis = [1, 0, \"p\"] }");
+    // The denominator is p² + 1.25.
+    let with_decimal = text("p", "joint = { type = \"revolute\", axis = [1, 0.5, \"p\"] }")
+        .replace("= [1, 0, 0]", "= [1, 0.3333333333333, 0.7]");
     let path = crate::folder("compare-oblique").join("arm.toml");
     let file = path.to_str().unwrap();
     for (robot, options) in [
@@ -147,6 +150,7 @@ fn constants_of_oblique_frames_are_read() {
         (&turned, &["--form", "collected", "--digits", "17"]),
         (&oblique, &[]),
         (&oblique, &["--form", "collected"]),
+        (&with_decimal, &[]),
     ] {
         std::fs::write(&path, robot).unwrap();
         let shown = of_own(file, options);
