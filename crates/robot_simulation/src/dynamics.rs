@@ -70,8 +70,8 @@ pub trait TorqueLaw {
     /// Returns the n joint torques τ (N m or N) at the time t (s).
     fn torques(&self, t: f64, state: &State) -> Vec<f64>;
 
-    /// The times (s), in ascending order, at which the joint torques or their slopes jump. The integrator ends a step at each
-    /// of them, so no step contains such a time.
+    /// The times (s), in ascending order, at which the joint torques or their slopes jump. The integrator ends a step at
+    /// each of them, so no step contains such a time.
     fn corners(&self) -> &[f64] {
         &[]
     }

@@ -7,12 +7,13 @@ use robot_symbolic::{Formula, Number, Rational};
 
 use super::printed::operand_length;
 
-/// What a part of a formula is if one of its numbers stands for a rounded one.
+/// The decimals that are factors of a part of a formula.
 enum Part {
-    /// It does not contain the rounded number.
+    /// None: a decimal in a sum, for example, is exact.
     Exact,
-    /// It is a multiple of the rounded number.
-    Multiple,
+    /// The one with this index.
+    Factor(usize),
+    Several,
 }
 
 /// Half a unit of the last printed digit of a formula's decimal, as a fraction of the decimal: the largest relative
@@ -20,10 +21,7 @@ enum Part {
 /// quotients of integers, are exact, and so are decimals in sums, such as a denominator.
 pub(super) fn of_formula(formula: &Formula) -> Option<Number> {
     let text = formula.text();
-    let is_factor = |place: &Range<usize>| is_multiple(text, place) == Some(true);
-    let factors: Vec<Range<usize>> = decimals(text).into_iter().filter(is_factor).collect();
-    let [place] = &factors[..] else { return None };
-    let decimal = text.get(place.clone())?;
+    let decimal = text.get(only_factor(text, decimals(text))?)?;
     let value = Rational::from_decimal(decimal).filter(|value| !value.is_zero())?;
     let half = Number::Rational(half_unit(decimal)?);
     Some(&half * &Number::Rational(value).recip())
@@ -86,32 +84,38 @@ fn half_unit(decimal: &str) -> Option<Rational> {
     Rational::from_decimal(&format!("5e{last}"))
 }
 
-/// Whether a formula is a multiple of its number at `place`, for which it is read with a symbol instead.
-fn is_multiple(text: &str, place: &Range<usize>) -> Option<bool> {
+/// The decimal of which a formula is a multiple; `None` if there is none, or several. It is found by reading the formula
+/// once, with a symbol instead of each of its `places`.
+fn only_factor(text: &str, mut places: Vec<Range<usize>>) -> Option<Range<usize>> {
     let mut symbol = "decimal".to_owned();
     while text.contains(&symbol) {
         symbol.push('_');
     }
-    let (before, after) = (text.get(..place.start)?, text.get(place.end..)?);
-    let formula = Formula::parse_with_dots(&format!("{before}{symbol}{after}")).ok()?;
-    let whole = formula.fold(|step| match step {
-        Step::Symbol(name, _) if name == symbol => Some(Part::Multiple),
-        Step::Number(_) | Step::Pi | Step::Symbol(..) => Some(Part::Exact),
-        Step::Mul(Part::Multiple, Part::Exact)
-        | Step::Mul(Part::Exact, Part::Multiple)
-        | Step::Div(Part::Multiple, Part::Exact)
-        | Step::Neg(Part::Multiple) => Some(Part::Multiple),
-        Step::Add(Part::Exact, Part::Exact)
-        | Step::Sub(Part::Exact, Part::Exact)
-        | Step::Mul(Part::Exact, Part::Exact)
-        | Step::Div(Part::Exact, Part::Exact)
-        | Step::Neg(Part::Exact)
-        | Step::Power(Part::Exact, _)
-        | Step::Call(_, Part::Exact)
-        | Step::Tan(Part::Exact) => Some(Part::Exact),
-        _ => None,
+    let (mut named, mut end) = (String::new(), 0);
+    for (index, place) in places.iter().enumerate() {
+        named += text.get(end..place.start)?;
+        named += &format!("{symbol}{index}");
+        end = place.end;
+    }
+    named += text.get(end..)?;
+    let whole = Formula::parse_with_dots(&named).ok()?.fold(|step| {
+        Some(match step {
+            Step::Symbol(name, _) => {
+                let index = name.strip_prefix(&symbol).and_then(|index| index.parse().ok());
+                index.map_or(Part::Exact, Part::Factor)
+            }
+            Step::Mul(Part::Exact, part)
+            | Step::Mul(part, Part::Exact)
+            | Step::Div(part, _)
+            | Step::Neg(part) => part,
+            Step::Mul(..) => Part::Several,
+            _ => Part::Exact,
+        })
     })?;
-    Some(matches!(whole, Part::Multiple))
+    match whole {
+        Part::Factor(index) if index < places.len() => Some(places.swap_remove(index)),
+        Part::Factor(_) | Part::Exact | Part::Several => None,
+    }
 }
 
 #[cfg(test)]
@@ -134,9 +138,20 @@ mod tests {
             ("m1*1.5e-3*x2", of(5, 150)),
             ("2e-3*m1", of(5, 20)),
             ("decimal*0.5*decimal_", of(5, 50)),
+            // Decimals in sums are exact.
+            ("0.5*m1/(0.25 + p1^2)", of(5, 50)),
+            ("0.5*(0.25*m1 + 1.5)", of(5, 50)),
         ] {
             assert_eq!(share(text), expected, "{text}");
         }
+    }
+
+    /// The formula is read once, and not once for each decimal.
+    #[test]
+    fn many_decimals_take_no_longer_than_few() {
+        let sum = ["0.1*m1"; 4_000].join(" + ");
+        assert_eq!(share(&format!("({sum})*q1")), None);
+        assert_eq!(share(&format!("0.5*({sum})")), share("0.5*m1"));
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub(super) mod candidates {
     /// Coefficients of the base parameters.
     pub(in crate::forms) const REGRESSOR: [&str; 4] = ["Y", "W", "A", "X"];
     /// Masses of links that are more than a number or a symbol.
-    pub(in crate::forms) const LINK_MASS: [&str; 4] = ["m", "M", "A", "B"];
+    pub(crate) const LINK_MASS: [&str; 4] = ["m", "M", "A", "B"];
     /// Combinations of parameters, and expressions of the state.
     pub(in crate::forms) const OF_PARAMETERS: [&str; 7] = ["k", "p", "h", "A", "B", "K", "X"];
     pub(in crate::forms) const OF_STATE: [&str; 7] = ["x", "u", "y", "z", "w", "Y", "Z"];

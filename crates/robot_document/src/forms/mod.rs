@@ -46,6 +46,7 @@ use crate::error::Error;
 use crate::layout::{BRACKETS, Order, SymbolTable, has_longer, tidied, tidied_text};
 use crate::math::Math;
 pub(crate) use grouped::titles;
+pub(crate) use letters::candidates::LINK_MASS;
 pub use letters::{InvalidLetters, Letters};
 pub(crate) use numbers::{has_long_root, with_values};
 pub use options::{EquationOptions, Form};

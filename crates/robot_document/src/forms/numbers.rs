@@ -107,9 +107,14 @@ pub(super) fn round_links<'g>(writer: &Writer<'_, 'g>, mechanism: &mut Mechanism
 fn constant(expr: Expr<'_>, known: &FxHashMap<Id, Constant>) -> Option<Constant> {
     if let View::Number(number) = expr.view() {
         let (value, digits) = (Real::from(number.to_f64()), digits(&number));
-        let [angles, sums] = [0; 2];
-        let [has_function, has_long_root] = [false; 2];
-        return Some(Constant { value, has_function, angles, sums, digits, has_long_root });
+        return Some(Constant {
+            value,
+            has_function: false,
+            angles: 0,
+            sums: 0,
+            digits,
+            has_long_root: false,
+        });
     }
     let operands: Option<Vec<Constant>> =
         expr.operands().iter().map(|operand| known.get(&operand.id()).copied()).collect();

@@ -1,7 +1,7 @@
 //! The recursive form: the paper's iterations link by link, with each quantity in terms of earlier ones.
 
 use robot_dynamics::mechanism::Mechanism;
-use robot_dynamics::newton_euler::newton_euler;
+use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
@@ -17,25 +17,24 @@ use super::{Cell, Equation, Group, Writer, joint_torque, numbers, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
-/// The title of the values of links that are more than a number or a symbol.
-const LINKS: &str = "Parameters of the links";
-
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
-    without_unused(writer, written)
-}
-
-/// Writes the equations with names for common parts except those `omitted`. Returns the groups and the common parts that
-/// nothing uses.
-fn written(
-    writer: &mut Writer<'_, '_>,
-    omitted: FxHashSet<Id>,
-) -> Result<(Vec<Group>, FxHashSet<Id>), Error> {
     let effects = Effects { wrench: true, friction: writer.options.friction };
     let mut mechanism = writer.derivation().mechanism;
     numbers::round_links(writer, &mut mechanism);
     let iterations = newton_euler(&mechanism, effects);
+    without_unused(writer, |writer, omitted| written(writer, &mechanism, &iterations, omitted))
+}
+
+/// Writes the iterations with names for common parts except those `omitted`. Returns the groups and the common parts that
+/// nothing uses.
+fn written<'g>(
+    writer: &mut Writer<'_, 'g>,
+    mechanism: &Mechanism<'g>,
+    iterations: &NewtonEuler<'g>,
+    omitted: FxHashSet<Id>,
+) -> Result<(Vec<Group>, FxHashSet<Id>), Error> {
     let target = Graph::new();
-    let (mut groups, mut list) = link_values(writer, &mechanism, &target, omitted)?;
+    let (mut groups, mut list) = link_values(writer, mechanism, &target, omitted)?;
     let named = &mut list.named;
     let mut printed = FxHashSet::default();
     for (index, motion) in iterations.motions.iter().enumerate() {
@@ -135,7 +134,7 @@ fn link_values<'g, 'h>(
     if is_plain {
         all.sort_by_key(|equation| order.iter().position(|name| *name == equation.name));
     }
-    Ok((vec![Group::of_definitions(LINKS, all)], list))
+    Ok((vec![Group::of_definitions("Parameters of the links", all)], list))
 }
 
 /// The layout of a vector's components.

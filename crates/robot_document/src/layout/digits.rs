@@ -1,7 +1,7 @@
 //! Numbers for readers: fractions that people write, decimals instead of long fractions, and rounding.
 
 use robot_symbolic::Rational;
-use robot_symbolic::print::exact_text;
+use robot_symbolic::print::{exact_text, scientific};
 
 use super::math::{Math, Script};
 
@@ -17,8 +17,6 @@ const DOUBLE: usize = 17;
 const DENOMINATORS: [u64; 2] = [2, 4];
 /// The largest denominator of fractions of π and of roots, and the largest numerator of other fractions.
 const LARGEST: u64 = 12;
-/// The number of zeros after the point from which a decimal is printed with a power of ten.
-const ZEROS: usize = 4;
 
 /// Writes the numbers of a formula as people do: `√2/2` for `0.5 √2`, and `1/2` in sums and products if all decimals of
 /// the formula are such fractions. With `digits`, numbers are rounded to that many significant digits first.
@@ -54,12 +52,7 @@ fn power_of_ten(text: &str) -> Option<(String, String)> {
     if let Some((mantissa, exponent)) = text.split_once('e') {
         return Some((mantissa.to_owned(), exponent.to_owned()));
     }
-    let decimals = text.strip_prefix("0.")?;
-    let digits = decimals.trim_start_matches('0');
-    let zeros = decimals.len() - digits.len();
-    let (first, others) = digits.split_at_checked(1).filter(|_| zeros >= ZEROS)?;
-    let point = if others.is_empty() { "" } else { "." };
-    Some((format!("{first}{point}{others}"), format!("-{}", zeros + 1)))
+    scientific(text)
 }
 
 /// Whether a formula has decimals of more than `digits` significant digits.

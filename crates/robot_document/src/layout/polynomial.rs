@@ -62,10 +62,9 @@ impl Terms<'_> {
             pieces.clear();
         }
         // The bar separates a sum from the denominator.
-        let numerator = match <[Math; 1]>::try_from(numerator) {
-            Ok([Math::Fenced(Fence::Parentheses, sum)]) => *sum,
-            Ok([piece]) => piece,
-            Err(pieces) => Math::row(pieces),
+        let numerator = match Math::row(numerator) {
+            Math::Fenced(Fence::Parentheses, sum) => *sum,
+            other => other,
         };
         pieces.push(Math::Fraction(Box::new([numerator, Math::row(below)])));
         Ok(pieces)

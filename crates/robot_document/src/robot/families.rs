@@ -4,7 +4,7 @@
 use robot_dynamics::quantity::Kind;
 
 use crate::document::{Cell, Inline};
-use crate::forms::{Equation, Equations, Form, Group, Letters, Relation, paper, titles};
+use crate::forms::{Equation, Equations, Form, Group, LINK_MASS, Letters, Relation, paper, titles};
 use crate::math::{Math, Script};
 
 /// Symbols of one kind.
@@ -178,8 +178,8 @@ fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Op
         ("Expressions of the state", _) => "expression that occurs several times",
         ("Parameters of the links", "r") => "component of the center of mass of link i, m",
         ("Parameters of the links", "J") => "entry of the inertia tensor of link i, kg m²",
-        ("Parameters of the links", "k" | "p" | "h" | "K" | "X") => "combination of parameters",
-        ("Parameters of the links", _) => "mass of link i, kg",
+        ("Parameters of the links", letter) if LINK_MASS.contains(&letter) => "mass of link i, kg",
+        ("Parameters of the links", _) => "combination of parameters",
         (_, "omega") => "component of the angular velocity of link i, rad/s",
         (_, "epsilon") => "component of the angular acceleration of link i, rad/s²",
         (_, "a") => "component of the acceleration of the origin of frame i, m/s²",

@@ -51,18 +51,18 @@ impl Expander<'_> {
 
     /// Replaces squares of roots of sums in denominators: 1/√(1 + x²)² = 1/(1 + x²).
     fn without_squared_roots(&mut self, terms: Terms) -> Result<Terms, PolynomialError> {
+        let graph = self.graph;
         let is_squared = |factor: &&Factor| {
-            let is_root = matches!(self.graph.node(factor.atom()), Node::Call(Function::Sqrt, _));
-            is_root && factor.is_reducible() && factor.exponent() <= -2
+            let is_root = || matches!(graph.node(factor.atom()), Node::Call(Function::Sqrt, _));
+            factor.exponent() <= -2 && factor.is_reducible() && is_root()
         };
-        let squared = |(monomial, _): &Term| monomial.factors().iter().find(is_squared).copied();
-        if terms.iter().all(|term| squared(term).is_none()) {
+        let squared = |monomial: &Monomial| monomial.factors().iter().find(is_squared).copied();
+        if terms.iter().all(|(monomial, _)| squared(monomial).is_none()) {
             return Ok(terms);
         }
-        let roots: Vec<Option<Factor>> = terms.iter().map(squared).collect();
         let mut sum = vec![];
-        for ((monomial, number), root) in terms.into_iter().zip(roots) {
-            let Some(root) = root else {
+        for (monomial, number) in terms {
+            let Some(root) = squared(&monomial) else {
                 sum.push((monomial, number));
                 continue;
             };

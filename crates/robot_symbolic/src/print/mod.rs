@@ -19,7 +19,7 @@ use rustc_hash::FxHashMap;
 use crate::expr::{Expr, View};
 use crate::walk;
 
-pub use number::{Magnitude, coefficient_text, exact_text};
+pub use number::{Magnitude, coefficient_text, exact_text, scientific};
 pub use polynomial::{
     ArrangedFactor, ArrangedTerm, arranged_text, arranged_value, atoms, default_rank,
 };

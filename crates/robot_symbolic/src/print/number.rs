@@ -7,8 +7,8 @@ use crate::rational::Rational;
 /// The largest number of decimal places; fractions with more are printed as quotients.
 const MAX_PLACES: usize = 40;
 
-/// The largest number of decimal places before which the first digit of a coefficient stands without a power of ten.
-const PLAIN_PLACES: usize = 4;
+/// The number of zeros after the point from which a decimal is printed with a power of ten.
+const ZEROS: usize = 4;
 
 /// Writes the exact value: `7`, or `-0.35` if the denominator divides a power of ten, otherwise `2/3`.
 #[must_use]
@@ -35,18 +35,26 @@ pub fn coefficient_text(number: &Number) -> String {
     if text.contains('/') && value.to_small().is_none() {
         return coefficient_text(&Number::real(value.to_f64()));
     }
-    let (sign, decimals) = match text.strip_prefix('-') {
+    let (sign, decimal) = match text.strip_prefix('-') {
         Some(rest) => ("-", rest),
         None => ("", text.as_str()),
     };
-    let Some(decimals) = decimals.strip_prefix("0.") else { return text };
-    let digits = decimals.trim_start_matches('0');
-    let exponent = decimals.len() - digits.len() + 1;
-    match digits.split_at_checked(1).filter(|_| exponent > PLAIN_PLACES) {
-        Some((first, "")) => format!("{sign}{first}e-{exponent}"),
-        Some((first, rest)) => format!("{sign}{first}.{rest}e-{exponent}"),
+    match scientific(decimal) {
+        Some((mantissa, exponent)) => format!("{sign}{mantissa}e{exponent}"),
         None => text,
     }
+}
+
+/// Splits a decimal below 0.0001, without a sign, into a mantissa and the exponent of ten, such as `1.5` and `-12`;
+/// `None` for other texts.
+#[must_use]
+pub fn scientific(decimal: &str) -> Option<(String, String)> {
+    let decimals = decimal.strip_prefix("0.")?;
+    let digits = decimals.trim_start_matches('0');
+    let zeros = decimals.len() - digits.len();
+    let (first, others) = digits.split_at_checked(1).filter(|_| zeros >= ZEROS)?;
+    let point = if others.is_empty() { "" } else { "." };
+    Some((format!("{first}{point}{others}"), format!("-{}", zeros + 1)))
 }
 
 /// The absolute value of a number, in the form that a printer needs.
