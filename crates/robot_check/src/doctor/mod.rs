@@ -10,6 +10,7 @@ mod axes;
 mod copies;
 mod extent;
 mod facts;
+mod letters;
 mod motion;
 mod origin;
 mod units;
@@ -71,6 +72,7 @@ fn mistakes(described: &Described) -> Vec<Diagnostic> {
     angles::check(&facts, &mut found);
     axes::check(&facts, &mut found);
     motion::check(&facts, &mut found);
+    letters::check(&facts, &mut found);
     found
 }
 

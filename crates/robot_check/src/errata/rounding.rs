@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use robot_document::DIGITS;
 use robot_symbolic::formula::Step;
 use robot_symbolic::{Formula, Number, Rational};
 
@@ -49,6 +50,14 @@ pub(super) fn stands_for(printed: &Number, derived: &Number, error: &Number) -> 
     let nearest = Rational::from_f64(derived.to_f64()).map(Number::Rational);
     is_within(printed, derived, error)
         || nearest.is_some_and(|nearest| is_within(printed, &nearest, error))
+}
+
+/// Whether a printed coefficient is an integer, and a derived one is this integer to the digits that equations have by
+/// default. It differs further behind if a component of a joint axis is nearly zero.
+pub(super) fn is_rounded_to_integer(printed: &Number, derived: &Number) -> bool {
+    let is_integer = printed.as_rational().and_then(Rational::to_integer).is_some();
+    let rounded = format!("{:.*e}", DIGITS - 1, derived.to_f64());
+    is_integer && rounded.parse().is_ok_and(|rounded: f64| rounded == printed.to_f64())
 }
 
 /// Whether two numbers differ by at most `width`.
@@ -172,6 +181,17 @@ mod tests {
         ] {
             assert_eq!(share(text), None, "{text}");
         }
+    }
+
+    #[test]
+    fn an_integer_stands_for_what_it_is_to_ten_digits() {
+        let number = |text: &str| Number::Rational(Rational::from_decimal(text).unwrap());
+        let of = |printed: &str, derived: &str| {
+            is_rounded_to_integer(&number(printed), &number(derived))
+        };
+        assert!(of("-1", "-0.99999999999") && of("2", "2.0000000004") && of("3", "3"));
+        assert!(!of("-1", "0.99999999999") && !of("2", "2.0000000006") && !of("0", "1e-12"));
+        assert!(!of("0.5", "0.50000000000001"));
     }
 
     #[test]

@@ -124,7 +124,9 @@ impl Sum {
             [error] => rounding::stands_for(&self.coefficient, derived, error),
             _ => rounding::is_computed(&self.coefficient, derived),
         };
-        rounded || self.coefficient == *derived
+        rounded
+            || self.coefficient == *derived
+            || rounding::is_rounded_to_integer(&self.coefficient, derived)
     }
 }
 
@@ -235,7 +237,9 @@ impl<'g> Term<'g> {
     /// Whether the term's coefficient is a given one, at least to the digits printed.
     pub(super) fn stands_for(&self, coefficient: &Number) -> bool {
         let within = |error| rounding::stands_for(&self.coefficient, coefficient, error);
-        self.coefficient == *coefficient || self.rounding.as_ref().is_some_and(within)
+        self.coefficient == *coefficient
+            || self.rounding.as_ref().is_some_and(within)
+            || rounding::is_rounded_to_integer(&self.coefficient, coefficient)
     }
 
     /// The atoms and exponents of the term.

@@ -3,8 +3,10 @@
 //! A line can start at a `+` or `-`, or within a product at a factor, after a `·`, both also within parentheses. Each
 //! line and each break has a cost; the lines with the lowest total cost are used. A break costs more within a product,
 //! and within parentheses the more, the shorter their sum is. A product that takes several lines preferably starts on a
-//! line of its own, and its further lines are indented more.
+//! line of its own, and its further lines are indented more. The numerator of a fraction that is too wide for a line is
+//! written beside it.
 
+mod fractions;
 mod sequence;
 
 use sequence::Sequence;
@@ -27,8 +29,21 @@ pub struct TooWide {
 ///
 /// If a piece that cannot be broken does not fit on a line.
 pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Math>, TooWide> {
-    Sequence::new(math, rest).lines(Limits { first, rest, number: 0.0 })
+    lines_of(math, Limits { first, rest, number: 0.0 })
 }
+
+/// The lines of a formula; the numerators of fractions are written beside them only if it has no lines otherwise.
+fn lines_of(math: &Math, limits: Limits) -> Result<Vec<Math>, TooWide> {
+    let whole = |math: &Math| Sequence::new(math, limits.rest).lines(limits);
+    whole(math).or_else(|wide| {
+        let narrowest = limits.first.min(limits.rest - limits.number);
+        let split = fractions::split(math, narrowest * WIDEST_FRACTION).ok_or(wide)?;
+        whole(&split)
+    })
+}
+
+/// The largest width of a fraction that is kept whole in a formula that is too wide otherwise, as a part of a line.
+const WIDEST_FRACTION: f64 = 0.5;
 
 /// The width of the numbers of equations up to the largest one, in parentheses, with the distance from the equations,
 /// in pt.
@@ -57,8 +72,7 @@ pub(crate) fn right_side(
         return Ok(vec![Math::default()]);
     }
     let limits = Limits { first: available - EQUALS, rest: available - INDENT, number };
-    let lines = Sequence::new(&equation.right, limits.rest).lines(limits);
-    lines.map_err(|wide| Error::Narrow {
+    lines_of(&equation.right, limits).map_err(|wide| Error::Narrow {
         name: equation.name.clone(),
         needed: Centimeters::from_points(wide.needed),
         available: Centimeters::from_points(limits.rest - number),
@@ -279,6 +293,18 @@ mod tests {
         }
         // The lines also leave no more space than necessary.
         assert!(several > 100 && tight < 1.0, "{several} {tight}");
+    }
+
+    /// Otherwise a long numerator has no line.
+    #[test]
+    fn the_numerator_of_a_wide_fraction_is_written_beside_it() {
+        let sum = r"\frac{p\left(a_1 + a_2 + a_3\right)}{r}";
+        assert_eq!(lines(sum, 90.0, 90.0), [sum]);
+        assert_eq!(lines(sum, 60.0, 60.0), [r"\frac{1}{r} p( a_1 + a_2", "+a_3 )"]);
+        let terms = r"\frac{a_1 + a_2 + a_3}{r} + b";
+        assert_eq!(lines(terms, 60.0, 60.0), [r"\frac{1}{r} ( a_1 + a_2", "+a_3 ) + b"]);
+        let number = r"\frac{3 a_1 a_2 a_3 a_4}{r}";
+        assert_eq!(lines(number, 35.0, 45.0), [r"\frac{3}{r} a_1 a_2", r"\cdot a_3 a_4"]);
     }
 
     #[test]
