@@ -35,6 +35,8 @@ const BESIDE: usize = 4;
 const BETWEEN: [Cell; 1] = [vec![]];
 /// The largest number of lines of a table that is never broken across pages.
 const LINES: f64 = 28.0;
+/// The same in a column that can start with the tallest figure.
+const LINES_BELOW: f64 = 8.0;
 /// The largest number of lines of a group of a longer table.
 const GROUP: f64 = 6.0;
 /// The smallest width of a column with broken cells, in pt, unless there is no other way.
@@ -71,17 +73,32 @@ pub(super) fn tables(document: &Document, column: f64, page: f64, gap: f64) -> V
         Block::Table(table) => Some(table),
         _ => None,
     });
-    let placed = |(place, table)| Placed { number: place + 1, ..placed(table, column, page, gap) };
+    let has_figure = document.blocks.iter().any(|block| matches!(block, Block::Figure(_)));
+    let lines = if page > column && has_figure { LINES_BELOW } else { LINES };
+    let page = Space { width: page, gap, lines: LINES };
+    let column = Space { width: column, gap, lines };
+    let placed = |(place, table)| Placed { number: place + 1, ..placed(table, column, page) };
     tables.enumerate().map(placed).collect()
 }
 
-/// Splits a table into parts for columns of `column` points on a page of `page` points. A table whose own columns would
-/// be divided among parts spans the page if it then has fewer.
-fn placed(table: &Table, column: f64, page: f64, gap: f64) -> Placed {
-    let narrow = parts(table, column, gap);
+/// The space for a table.
+#[derive(Clone, Copy)]
+struct Space {
+    /// The width of lines, in pt.
+    width: f64,
+    /// The width that each column needs for its distance, in pt.
+    gap: f64,
+    /// The largest number of lines of a table that is never broken across pages.
+    lines: f64,
+}
+
+/// Splits a table into parts for a column of a page. A table whose own columns would be divided among parts spans the
+/// page if it then has fewer.
+fn placed(table: &Table, column: Space, page: Space) -> Placed {
+    let narrow = parts(table, column);
     let is_divided = narrow.iter().any(|part| part.table.head.len() < table.head.len());
-    if page > column && is_divided {
-        let wide = parts(table, page, gap);
+    if page.width > column.width && is_divided {
+        let wide = parts(table, page);
         if wide.len() < narrow.len() {
             return Placed { number: 1, parts: wide, spans: true };
         }
@@ -89,14 +106,15 @@ fn placed(table: &Table, column: f64, page: f64, gap: f64) -> Placed {
     Placed { number: 1, parts: narrow, spans: false }
 }
 
-/// Splits a table into parts for lines of `available` points, of which each column needs `gap` for its distance.
-fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
+/// Splits a table into parts for a space.
+fn parts(table: &Table, space: Space) -> Vec<Part> {
+    let Space { width: available, gap, lines } = space;
     let columns = |table: &Table| 0..table.head.len();
     for count in (3..=(table.rows.len() / LONG).min(BESIDE)).rev() {
         let folded = folded(table, count, &BETWEEN);
         let found = Measure::new(&folded, gap).natural(columns(&folded), available);
         if let Some((0, widths)) = found {
-            return vec![grouped(folded, widths, 0)];
+            return vec![grouped(folded, widths, 0, lines)];
         }
     }
     let long = (table.rows.len() >= LONG).then(|| folded(table, 2, &BETWEEN));
@@ -105,7 +123,7 @@ fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
     for folded in long.iter().chain(&tight) {
         let found = Measure::new(folded, gap).natural(columns(folded), available);
         if let Some((size, widths)) = found {
-            return vec![grouped(folded.clone(), widths, size)];
+            return vec![grouped(folded.clone(), widths, size, lines)];
         }
     }
     let measure = Measure::new(table, gap);
@@ -114,10 +132,8 @@ fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
         (1..SIZES.len()).find_map(|size| measure.broken(&all, available, size, NARROW))
     });
     if let Some((size, widths)) = whole {
-        let whole = grouped(table.clone(), widths, size);
-        return vec![
-            long.and_then(|long| shorter(long, available, gap, whole.lines)).unwrap_or(whole),
-        ];
+        let whole = grouped(table.clone(), widths, size, lines);
+        return vec![long.and_then(|long| shorter(long, space, whole.lines)).unwrap_or(whole)];
     }
     let mut parts: Vec<Part> = vec![];
     for columns in measure.split(available) {
@@ -126,18 +142,18 @@ fn parts(table: &Table, available: f64, gap: f64) -> Vec<Part> {
             .natural(columns.iter().copied(), available)
             .or_else(|| measure.broken(&columns, available, last, 0.0))
             .unwrap_or_else(|| measure.forced(&columns, available));
-        let part = grouped(chosen(table, &columns), widths, size);
+        let part = grouped(chosen(table, &columns), widths, size, lines);
         parts.push(Part { is_continued: !parts.is_empty(), ..part });
     }
     parts
 }
 
-/// The folded table with cells of several lines, if it takes less than two thirds of `lines` lines.
-fn shorter(folded: Table, available: f64, gap: f64, lines: f64) -> Option<Part> {
+/// The folded table with cells of several lines, if it takes less than two thirds of `whole` lines.
+fn shorter(folded: Table, space: Space, whole: f64) -> Option<Part> {
     let all: Vec<usize> = (0..folded.head.len()).collect();
-    let (size, widths) = Measure::new(&folded, gap).broken(&all, available, 1, NARROW)?;
-    let part = grouped(folded, widths, size);
-    (part.lines < 2.0 / 3.0 * lines).then_some(part)
+    let (size, widths) = Measure::new(&folded, space.gap).broken(&all, space.width, 1, NARROW)?;
+    let part = grouped(folded, widths, size, space.lines);
+    (part.lines < 2.0 / 3.0 * whole).then_some(part)
 }
 
 /// The natural widths of the columns in the normal size, and the widths of their widest words.
@@ -262,8 +278,8 @@ fn chosen(table: &Table, columns: &[usize]) -> Table {
     }
 }
 
-/// Divides the rows of a long table into groups.
-fn grouped(table: Table, mut widths: Vec<Option<f64>>, size: usize) -> Part {
+/// Divides the rows of a table of more than `longest` lines into groups.
+fn grouped(table: Table, mut widths: Vec<Option<f64>>, size: usize, longest: f64) -> Part {
     let scale = SIZES.get(size).map_or(1.0, |(_, scale)| *scale);
     let lines = |row: &Vec<Cell>| {
         let cells = row.iter().zip(&widths).filter_map(|(cell, width)| Some((cell, (*width)?)));
@@ -277,7 +293,7 @@ fn grouped(table: Table, mut widths: Vec<Option<f64>>, size: usize) -> Part {
     for height in heights {
         sum += height;
         match groups.last_mut() {
-            Some(count) if all <= LINES || sum <= GROUP => *count += 1,
+            Some(count) if all <= longest || sum <= GROUP => *count += 1,
             _ => {
                 groups.push(1);
                 sum = height;
@@ -329,6 +345,10 @@ fn inline_width(inline: &Inline) -> f64 {
 mod tests {
     use super::*;
 
+    fn space(width: f64) -> Space {
+        Space { width, gap: 10.0, lines: LINES }
+    }
+
     fn table(columns: usize, rows: usize, cell: &str) -> Table {
         let row = vec![vec![Inline::text(cell)]; columns];
         let (head, rows) = (row.clone(), vec![row; rows]);
@@ -337,7 +357,7 @@ mod tests {
 
     #[test]
     fn wide_tables_are_split_and_keep_their_first_column() {
-        let wide = parts(&table(9, 2, "onelongword"), 200.0, 10.0);
+        let wide = parts(&table(9, 2, "onelongword"), space(200.0));
         assert!(wide.len() > 2);
         for part in &wide {
             let width: f64 = part.table.head.iter().map(|cell| natural_width(cell) * 0.84).sum();
@@ -351,7 +371,7 @@ mod tests {
     #[test]
     fn wide_tables_span_the_page_if_they_are_cut_less_often() {
         let spans = |columns, rows, page| {
-            let placed = placed(&table(columns, rows, "onelongword"), 200.0, page, 10.0);
+            let placed = placed(&table(columns, rows, "onelongword"), space(200.0), space(page));
             (placed.spans, placed.parts.len())
         };
         assert_eq!(spans(3, 2, 600.0), (false, 1));
@@ -364,7 +384,7 @@ mod tests {
     #[test]
     fn long_text_takes_several_lines() {
         let sentence = ["word"; 30].join(" ");
-        let found = parts(&table(2, 2, &sentence), 200.0, 10.0);
+        let found = parts(&table(2, 2, &sentence), space(200.0));
         let [part] = found.as_slice() else { panic!("{} parts", found.len()) };
         let widths: Vec<f64> = part.widths.iter().flatten().copied().collect();
         assert!(widths.len() == 2 && widths.iter().sum::<f64>() <= 180.0, "{widths:?}");
@@ -373,7 +393,7 @@ mod tests {
     #[test]
     fn names_and_values_stand_in_as_many_parts_as_fit() {
         let columns = |available| -> Vec<(usize, usize)> {
-            let found = parts(&table(2, 60, "abcd"), available, 10.0);
+            let found = parts(&table(2, 60, "abcd"), space(available));
             found.iter().map(|part| (part.table.head.len(), part.table.rows.len())).collect()
         };
         let expected: [Vec<(usize, usize)>; 3] = [vec![(11, 15)], vec![(8, 20)], vec![(4, 30)]];
@@ -382,13 +402,28 @@ mod tests {
 
     #[test]
     fn long_narrow_tables_stand_side_by_side_and_long_ones_go_on() {
-        let found = parts(&table(2, 21, "a"), 200.0, 10.0);
+        let found = parts(&table(2, 21, "a"), space(200.0));
         let [part] = found.as_slice() else { panic!("{} parts", found.len()) };
         assert_eq!((part.table.head.len(), part.table.rows.len()), (5, 11));
         assert!(part.table.rows.iter().all(|row| row.len() == 5));
-        let groups = |rows| parts(&table(3, rows, "abcdefghij"), 200.0, 10.0).remove(0).groups;
+        let groups = |rows| parts(&table(3, rows, "abcdefghij"), space(200.0)).remove(0).groups;
         assert_eq!(groups(28), [28]);
         assert_eq!(groups(32), [6, 6, 6, 6, 6, 2]);
         assert_eq!(groups(31), [6, 6, 6, 6, 7]);
+    }
+
+    /// A column that starts with a figure has room for few rows.
+    #[test]
+    fn below_a_figure_in_columns_also_shorter_tables_go_on() {
+        let bounds = [[0.0; 2]; 2];
+        let figure = crate::figure::Figure { caption: String::new(), bounds, shapes: vec![] };
+        let groups = |blocks: Vec<Block>, page| {
+            let document = Document { title: String::new(), blocks };
+            tables(&document, 200.0, page, 10.0).remove(0).parts.remove(0).groups
+        };
+        let table = || Block::Table(table(3, 12, "abcdefghij"));
+        assert_eq!(groups(vec![Block::Figure(figure.clone()), table()], 500.0), [6, 6]);
+        assert_eq!(groups(vec![Block::Figure(figure), table()], 200.0), [12]);
+        assert_eq!(groups(vec![table()], 500.0), [12]);
     }
 }
