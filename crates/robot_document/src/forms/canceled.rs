@@ -1,7 +1,9 @@
 //! Sums in which terms cancel, also in their shared parts.
 
-use robot_symbolic::{Expr, Graph, Id, Number, Polynomial, PolynomialOptions, View, walk};
+use robot_symbolic::{Expr, Graph, Id, Number, PolynomialOptions, View, walk};
 use rustc_hash::FxHashMap;
+
+use super::residues;
 
 /// The terms of a sum, each with its coefficient.
 type Terms<'g> = Vec<(Expr<'g>, Number)>;
@@ -15,7 +17,7 @@ pub(super) fn with_single_terms<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Ve
     let limits =
         PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
     let left = |sum: Expr<'g>, most: usize| {
-        let left = Polynomial::of(sum, &limits).ok();
+        let left = residues::polynomial(sum, &limits).ok();
         left.filter(|left| left.len() <= most || left.as_number().is_some())
             .map_or(sum, |left| left.to_expr())
     };
@@ -65,7 +67,7 @@ fn shortened<'g>(sum: Expr<'g>, uses: &FxHashMap<Id, usize>, graph: &'g Graph) -
     // What is left can be a square of a sine and one of a cosine.
     let limits =
         PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
-    match Polynomial::of(short, &limits) {
+    match residues::polynomial(short, &limits) {
         Ok(polynomial) if polynomial.len() < rest.len() => Some(polynomial.to_expr()),
         _ => Some(short),
     }

@@ -9,7 +9,8 @@ use super::compact::{definitions, without_unused};
 use super::definitions::Root;
 use super::naming::{Named, named_length};
 use super::{
-    Equation, Group, Writer, aliases, arranged, joint_torque, letters, numbers, references, shapes,
+    Equation, Group, Writer, aliases, arranged, joint_torque, letters, numbers, references,
+    residues, shapes,
 };
 use crate::error::Error;
 use crate::math::Math;
@@ -100,7 +101,7 @@ pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Ve
         if writer.graph.is_full() {
             return Shown::Zero;
         }
-        match Polynomial::of(coefficient.value, &LIMITS) {
+        match residues::polynomial(coefficient.value, &LIMITS) {
             Ok(value) if value.is_zero() => Shown::Zero,
             Ok(value) if value.len() <= MAX_TERMS => {
                 let terms = writer.collected(&value);

@@ -3,13 +3,14 @@
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_value};
-use robot_symbolic::{AngleSums, Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
+use robot_symbolic::{AngleSums, Expr, Graph, Id, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root, is_omitted};
 use super::naming::is_leaf;
 use super::{
-    Equation, Group, Writer, angle_sums, arranged, canceled, numbers, of_joint_torque, vectors,
+    Equation, Group, Writer, angle_sums, arranged, canceled, numbers, of_joint_torque, residues,
+    vectors,
 };
 use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
@@ -129,7 +130,7 @@ pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<A
     if walk::reachable(&[value]).iter().any(|part| is_of_sum(*part)) {
         return built;
     }
-    let Ok(polynomial) = Polynomial::of(value, &limits) else { return built };
+    let Ok(polynomial) = residues::polynomial(value, &limits) else { return built };
     let collector = Collector { angles: &[], factors: true, double_angles: false };
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
     // Among equally long forms, the collector can choose one with an additional product.

@@ -3,13 +3,13 @@
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_value};
-use robot_symbolic::{Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
+use robot_symbolic::{Expr, Graph, Id, PolynomialOptions, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::compact::{moving, short_terms, tidy};
 use super::letters::candidates;
 use super::naming::{Named, Worthy, worth_naming};
-use super::{Equation, Group, Writer, shapes};
+use super::{Equation, Group, Writer, residues, shapes};
 use crate::error::Error;
 use crate::math::{Math, Script};
 
@@ -422,7 +422,7 @@ fn unfolded<'h>(
 ) -> Option<Vec<ArrangedTerm<'h>>> {
     let limits =
         PolynomialOptions { max_terms: MAX_UNFOLDED, ..PolynomialOptions::keeping_angle_sums() };
-    let value = Polynomial::of(expr, &limits).ok()?.to_expr();
+    let value = residues::polynomial(expr, &limits).ok()?.to_expr();
     let value = walk::rebuild(&[value], target, |name| target.symbol(name)).pop()?;
     Some(short_terms(writer, value))
 }

@@ -22,6 +22,7 @@ mod published;
 mod recursive;
 mod references;
 mod regrouped;
+mod residues;
 mod roots;
 mod shapes;
 mod vectors;

@@ -9,7 +9,7 @@ use robot_symbolic::{
 };
 use rustc_hash::FxHashMap;
 
-use super::Writer;
+use super::{Writer, residues};
 
 /// The largest number of digits of a number that stays in a sum with roots, as in `1 + √2`. People do not write longer
 /// ones.
@@ -165,7 +165,7 @@ pub(super) fn has_long(value: &Polynomial<'_>) -> bool {
 }
 
 /// The number of significant digits of a decimal.
-fn digits(number: &Number) -> usize {
+pub(super) fn digits(number: &Number) -> usize {
     let text = format!("{:e}", number.to_f64().abs());
     text.chars().take_while(|c| *c != 'e').filter(char::is_ascii_digit).count()
 }
@@ -224,7 +224,7 @@ pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial
         });
         sum + factors.fold(graph.number(number.clone()), |product, factor| product * factor)
     });
-    Polynomial::of(sum, &PolynomialOptions::default()).ok()
+    residues::polynomial(sum, &PolynomialOptions::default()).ok()
 }
 
 #[cfg(test)]

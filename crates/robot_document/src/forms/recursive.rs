@@ -5,7 +5,7 @@ use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, Graph, Id, Polynomial, PolynomialOptions, View};
+use robot_symbolic::{Expr, Graph, Id, PolynomialOptions, View};
 use rustc_hash::FxHashSet;
 
 use super::compact::{definitions, tidy, without_unused};
@@ -13,7 +13,7 @@ use super::definitions::{Definitions, Root, positive};
 use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
 use super::vectors::{cell, column};
-use super::{Cell, Equation, Group, Writer, joint_torque, numbers, shapes};
+use super::{Cell, Equation, Group, Writer, joint_torque, numbers, residues, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
@@ -251,7 +251,7 @@ fn sum(
     value: Expr<'_>,
 ) -> Result<Equation, Error> {
     let limits = PolynomialOptions { max_terms: 40, ..PolynomialOptions::keeping_angle_sums() };
-    match Polynomial::of(value, &limits) {
+    match residues::polynomial(value, &limits) {
         Ok(polynomial) => writer.of_polynomial(name, left, &polynomial),
         Err(_) => writer.of_expression(name, left, value),
     }
