@@ -9,6 +9,20 @@ use robot_symbolic::formula::is_reserved;
 use super::lexer::{is_accent, is_font, is_letter};
 use super::translate::{Translator, unknown};
 
+/// Signs that only a robot with such a symbol has as symbols.
+const OPERATORS: [&str; 10] = [
+    r"\star",
+    r"\prime",
+    r"\circ",
+    r"\bullet",
+    r"\dagger",
+    r"\infty",
+    r"\perp",
+    r"\parallel",
+    r"\pm",
+    r"\nabla",
+];
+
 /// An index of a symbol.
 #[derive(Clone)]
 struct Index {
@@ -32,6 +46,7 @@ impl Translator<'_, '_> {
         if !(self.starts_symbol() || self.peek() == "{") {
             return Err(unknown(self.peek(), first));
         }
+        let text = self.peek();
         let base = self.capture()?;
         let [lower, upper] = self.indices()?;
         let span = first.start..self.before();
@@ -43,6 +58,9 @@ impl Translator<'_, '_> {
         if let Some(name) = whole.as_ref().and_then(|whole| (self.names)(whole)) {
             self.emit(&name, span);
             return Ok(());
+        }
+        if OPERATORS.contains(&text) && (self.names)(&key).is_none() {
+            return Err(unknown(text, first));
         }
         let function = match base.as_str() {
             "s" => "sin",

@@ -121,6 +121,7 @@ impl<'t> Translator<'t, '_> {
                 _ => {}
             }
             if after_operand {
+                self.separate_digits()?;
                 self.emit("*", here.start..here.start);
             }
             self.operand()?;
@@ -128,6 +129,20 @@ impl<'t> Translator<'t, '_> {
             broken = None;
         }
         self.depth -= 1;
+        Ok(())
+    }
+
+    /// Refuses a number after a number, as in `1\,000`, which is not the product of the two.
+    fn separate_digits(&self) -> Result<(), ParseError> {
+        let before = self.infix.text.rsplit(|sign: char| "+-*/(".contains(sign)).next();
+        let is_digit = |byte: u8| byte.is_ascii_digit() || byte == b'.';
+        let is_number = before.is_some_and(|text| !text.is_empty() && text.bytes().all(is_digit));
+        if is_number && first_digit(self.peek()).is_some() {
+            return self.fault(
+                "a number follows a number",
+                r"write 1\,000 as 1000, and a product of numbers with `\cdot`",
+            );
+        }
         Ok(())
     }
 
@@ -168,6 +183,12 @@ impl<'t> Translator<'t, '_> {
             _ if FRACTIONS.contains(&text) => self.fraction(),
             r"\sqrt" => {
                 self.place += 1;
+                if self.peek() == "[" {
+                    return self.fault(
+                        "a root with an index is not supported",
+                        r"write a square root as `\sqrt{x}`",
+                    );
+                }
                 self.emit("sqrt", here);
                 self.argument()?;
                 self.power()
