@@ -20,13 +20,20 @@ pub enum Verdict {
 /// Judges the tensor `[xx, yy, zz, xy, xz, yz]` about the center of mass.
 #[must_use]
 pub fn judge(tensor: [f64; 6]) -> Verdict {
+    judge_shifted(tensor, 0.0)
+}
+
+/// Judges a tensor about the center of mass, of which entries up to `rounding` can be the rounding errors of a tensor
+/// that was given about another point: those of a point mass are not exactly 0.
+#[must_use]
+pub fn judge_shifted(tensor: [f64; 6], rounding: f64) -> Verdict {
     let Some(moments) = principal_moments(tensor) else {
         return Verdict::Possible;
     };
     let [least, middle, largest] = moments;
     let [xx, yy, zz, ..] = tensor;
-    let tolerance = TOLERANCE * largest.abs();
-    if least < -tolerance || xx.min(yy).min(zz) < 0.0 {
+    let tolerance = (TOLERANCE * largest.abs()).max(rounding);
+    if least < -tolerance || xx.min(yy).min(zz) < -rounding {
         return Verdict::Negative(moments);
     }
     if largest > least + middle + tolerance {
@@ -86,6 +93,18 @@ pub(crate) fn principal_moments(tensor: [f64; 6]) -> Option<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// m (c² − x²) and so on, of which rounding leaves 10⁻¹⁷.
+    #[test]
+    fn a_shifted_point_mass_may_have_rounding_errors() {
+        let tensor = [-2.5e-17, 1e-17, 0.0, 0.0, 0.0, 0.0];
+        assert_eq!(judge_shifted(tensor, 1e-12), Verdict::Possible);
+        assert!(matches!(judge_shifted(tensor, 0.0), Verdict::Negative(_)));
+        assert!(matches!(
+            judge_shifted([-2e-12, 0.0, 0.0, 0.0, 0.0, 0.0], 1e-12),
+            Verdict::Negative(_)
+        ));
+    }
 
     #[test]
     fn principal_moments_are_eigenvalues() {

@@ -10,7 +10,7 @@ use super::shape::{INERTIA, POINTS};
 use super::table::{Entry, Table};
 use super::value::{Quantity, quantity};
 use crate::diagnostic::{Diagnostic, Span, code};
-use crate::physics::{TOLERANCE, Verdict, judge};
+use crate::physics::{TOLERANCE, Verdict, judge_shifted};
 use crate::robot::{Axis, Inertia, Move};
 
 const MOMENT: Quantity = quantity("a moment of inertia", 1, 2, 0);
@@ -63,6 +63,7 @@ pub(super) fn read(
         ];
     }
     let shifted = about(reader, &mut table, !tensor.turns.is_empty());
+    let given = tensor.inertia.clone();
     table.finish(reader);
     if shifted {
         match shift(&tensor.inertia, mass, center) {
@@ -82,7 +83,7 @@ pub(super) fn read(
         }
     }
     if !place.unchecked {
-        check(reader, &tensor.inertia, &span, shifted);
+        check(reader, &tensor.inertia, &given, &span, shifted);
     }
     tensor
 }
@@ -163,13 +164,17 @@ fn finite(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span) {
     );
 }
 
-/// Reports a tensor that no body can have. Tensors with symbols that have no nominal values are not checked; a tensor
-/// of zeros describes a point mass.
-fn check(reader: &mut Reader<'_>, inertia: &Inertia, span: &Span, shifted: bool) {
+/// The rounding error of a tensor that is shifted to the center of mass, relative to the largest entry of the given one.
+const ROUNDING: f64 = 1e-12;
+
+/// Reports a tensor that no body can have, with the tensor as it is given. Tensors with symbols that have no nominal
+/// values are not checked; a tensor of zeros describes a point mass.
+fn check(reader: &mut Reader<'_>, inertia: &Inertia, given: &Inertia, span: &Span, shifted: bool) {
     let Some(tensor) = values(reader, inertia) else {
         return;
     };
-    let verdict = judge(tensor);
+    let largest = values(reader, given).into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+    let verdict = judge_shifted(tensor, if shifted { ROUNDING * largest } else { 0.0 });
     let diagnostic = match &verdict {
         Verdict::Possible => return,
         Verdict::Negative(_) => Diagnostic::error(verdict.code(), verdict.message())

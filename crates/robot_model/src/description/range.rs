@@ -115,9 +115,18 @@ impl Range<'_, '_> {
         self.all([&body.mass], &what, of_mass);
         self.divisor([&body.mass], &what, of_mass);
         let what = format!("the center of mass of `{}`", body.name);
-        self.placement(&body.placement, &what, center_of_mass.as_ref().unwrap_or(name));
-        let what = format!("the inertia of `{}`", body.name);
+        let of_center = center_of_mass.as_ref().unwrap_or(name);
         let of_inertia = inertia.as_ref().unwrap_or(name);
+        let Placement(moves) = &body.placement;
+        for step in moves {
+            match step {
+                Move::Translate(by) => self.all(by, &what, of_center),
+                Move::Rotate(_, angle) => {
+                    self.angle(angle, &format!("the inertia of `{}`", body.name), of_inertia);
+                }
+            }
+        }
+        let what = format!("the inertia of `{}`", body.name);
         self.all(body.inertia.entries(), &what, of_inertia);
         self.divisor(body.inertia.entries(), &what, of_inertia);
     }

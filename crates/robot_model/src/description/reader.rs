@@ -166,6 +166,9 @@ impl<'a> Reader<'a> {
                  another name to [parameters]",
                 quote(name)
             ),
+            None if matches!(name, "deg" | "degree" | "degrees" | "radians") => {
+                "write an angle of 30 degrees as `30*pi/180`".to_owned()
+            }
             None => format!(
                 "names in an expression are parameters: add `{}` to [parameters], or write `pi` or a \
                  function such as `sin(…)`",

@@ -21,6 +21,12 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     // An error without a place is at the end of the file, which is taken as the end of the last
     // line with text.
     let end = text.trim_end().len();
+    // What follows a decimal comma on its line; the errors there are its consequences.
+    let places = errors.iter().filter_map(|error| Some(error.span()?.start));
+    let commas: Vec<Span> = places
+        .filter(|place| is_decimal_comma(text, *place))
+        .map(|place| place..place + rest_of_line(text, place).len())
+        .collect();
     for error in &errors {
         let span = error.span().unwrap_or(end..end);
         let duplicate = error.message() == "duplicate key";
@@ -29,6 +35,9 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         }
         if duplicate && line_of(text, span.start).starts_with('[') {
             header = Some(span.start..next_header(text, span.end));
+        }
+        if commas.iter().any(|rest| rest.start < span.start && span.start < rest.end) {
+            continue;
         }
         let (message, help) = words(text, error.message(), &span);
         let mut diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
@@ -43,6 +52,27 @@ fn line_of(text: &str, byte: usize) -> &str {
     let before = text.get(..byte).unwrap_or_default();
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
     text.get(start..).unwrap_or_default()
+}
+
+/// The text from the byte to the end of its line.
+fn rest_of_line(text: &str, byte: usize) -> &str {
+    text.get(byte..).and_then(|rest| rest.lines().next()).unwrap_or_default()
+}
+
+/// Whether an error at a byte is a comma in a number, such as that of `0,5`: the byte is the comma or the one after the
+/// digits behind it.
+fn is_decimal_comma(text: &str, byte: usize) -> bool {
+    let before = text.get(..byte).unwrap_or_default();
+    let is_digit = |character: char| character.is_ascii_digit();
+    let after = text.get(byte..).and_then(|rest| rest.strip_prefix(','));
+    match after {
+        Some(after) if after.starts_with(is_digit) => before.ends_with(is_digit),
+        _ => {
+            let digits = before.trim_end_matches(is_digit);
+            let number = digits.strip_suffix(',').filter(|_| digits.len() < before.len());
+            number.is_some_and(|number| number.ends_with(is_digit))
+        }
+    }
 }
 
 /// The start of the first line after the byte that begins with `[`.
@@ -78,8 +108,26 @@ const NUMBER: [&str; 7] = [
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
     let starts = |start: &str| message.starts_with(start);
-    let help = if starts("unexpected key or value") && rest.starts_with(',') {
+    let line = line_of(text, span.start).lines().next().unwrap_or_default();
+    let help = if is_decimal_comma(text, span.start) {
         Some("use a decimal point: write `0.5` instead of `0,5`")
+    } else if line.chars().any(|character| character.is_whitespace() && !character.is_ascii()) {
+        Some(
+            "the line contains a space that is not the usual one, such as the no-break space of web pages: type \
+             its spaces again",
+        )
+    } else if line.chars().any(|character| character.is_control() && !character.is_whitespace())
+        || rest.starts_with('\u{feff}')
+        || line.contains('\u{c}')
+    {
+        Some("remove the invisible character")
+    } else if starts("carriage return must") {
+        Some(
+            "save the file with line feeds at the ends of its lines; it has carriage returns alone",
+        )
+    } else if rest.starts_with('{') && text.get(..span.start).unwrap_or_default().trim().is_empty()
+    {
+        Some("the file appears to be JSON; a robot file is TOML, with lines such as `format = 1`")
     } else if starts("unexpected key or value") {
         Some("write one `key = value` per line")
     } else if starts("duplicate key") && line_of(text, span.start).starts_with('[') {

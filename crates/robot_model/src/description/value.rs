@@ -16,6 +16,8 @@ use crate::unit::Dimension;
 
 /// The maximum length of a text.
 const MAX_TEXT: usize = 4096;
+/// The largest number of characters of a number.
+const MOST_DIGITS: usize = 2_600;
 
 /// The name of a value in messages, and its dimension if it is fixed.
 #[derive(Clone, Copy)]
@@ -204,6 +206,9 @@ impl Reader<'_> {
             let (message, help) = match text.trim_start_matches(['+', '-']) {
                 "nan" => ("not a number", "give a number"),
                 "inf" => ("infinite", "give a finite value"),
+                digits if digits.len() > MOST_DIGITS => {
+                    ("longer than any number has to be", "write the number with fewer digits")
+                }
                 _ => (
                     "outside the range of floating-point numbers",
                     "magnitudes must be between 5e-324 and 1.7e308, with an exponent between -400 and 400",

@@ -162,6 +162,7 @@ impl<'t> Lexer<'t> {
                 (unknown(character), "use the minus sign of the keyboard, `-`")
             }
             'π' => (unknown(character), "write `pi`"),
+            '°' => (unknown(character), "write an angle of 30 degrees as `30*pi/180`"),
             '²' | '³' => (unknown(character), "write a power as `x^2`"),
             '√' => (unknown(character), "write a root as `sqrt(x)`"),
             '[' | ']' | '{' | '}' => (unknown(character), "use parentheses, `(` and `)`"),

@@ -156,7 +156,9 @@ impl Parser<'_> {
                     whole,
                     format!("expected an operator between `{before}` and `{after}`"),
                 )
-                .help(if before == ")" {
+                .help(if after == "deg" {
+                    format!("write an angle in degrees as `{before}*pi/180`")
+                } else if before == ")" {
                     format!("write a product as `(…)*{after}{dots}`")
                 } else {
                     format!("write a product as `{before}*{after}{dots}`")
