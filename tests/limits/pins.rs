@@ -24,6 +24,7 @@ fn differs(name: &str, text: String) -> Option<String> {
     let found = search(&robot, &MechanismOptions::ROUNDED, Measure::Operations).unwrap();
     let path = format!("{}/robots/{name}.plan", env!("CARGO_MANIFEST_DIR"));
     let pinned = std::fs::read_to_string(path).unwrap();
+    let found = robot_build::counted(&robot, found, None).unwrap();
     let operations = found.operations;
     println!("{name}: {operations} operations, the best of {} forms", found.tried);
     (pinned != pin_text(&robot, &found)).then(|| format!("{name} ({operations} operations)"))

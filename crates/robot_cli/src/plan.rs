@@ -1,6 +1,6 @@
 //! The plan of the recursion with which commands compute.
 
-use robot_build::{Error, Errors, Options, RobotFile};
+use robot_build::{Error, Errors, Options, RobotFile, counted};
 use robot_dynamics::economical::search::{Found, Measure, search};
 use robot_dynamics::mechanism::MechanismOptions;
 
@@ -26,8 +26,11 @@ pub(crate) fn pinned_or_searched(
     }
     let robot = robot_build::read_with(&file.source, &options)?.robot;
     let mechanism = MechanismOptions::ROUNDED.with_snap(options.snap, &robot);
-    let find = || search(&robot, &mechanism, Measure::Operations);
-    let found = watched("searching for a plan", terminal, find);
+    let find = || {
+        let found = search(&robot, &mechanism, Measure::Operations);
+        found.map(|found| counted(&robot, found, options.snap)).transpose()
+    };
+    let found = watched("searching for a plan", terminal, find)?;
     let instead = match &found {
         Some(Found { operations, .. }) => format!(
             "using a plan from a new search, with which inverse dynamics takes {operations} \

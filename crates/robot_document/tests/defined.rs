@@ -164,6 +164,17 @@ fn every_name_is_used() {
 const SKEW: &str = include_str!("skew.toml");
 
 /// The lengths of these axes are roots of long numbers.
+/// A Furuta pendulum, whose common parts are written where they are used.
+#[test]
+fn what_is_used_once_has_no_name() {
+    let text = include_str!("furuta.toml");
+    let robot = read_toml("furuta", text).unwrap().robot;
+    let options = EquationOptions { form: Form::Compact, ..EquationOptions::default() };
+    let found = equations(&robot, &options).unwrap();
+    let names: Vec<&str> = found.definitions().map(|one| one.name.as_str()).collect();
+    assert_eq!(names, [""; 0]);
+}
+
 #[test]
 fn roots_of_long_numbers_are_not_printed() {
     let robot = read_toml("skew.toml", SKEW).unwrap().robot;

@@ -5,6 +5,7 @@ pub(crate) mod angles;
 pub mod budget;
 pub mod check;
 pub(crate) mod conventions;
+pub(crate) mod counted;
 pub(crate) mod file;
 pub(crate) mod generate;
 #[cfg(feature = "languages")]

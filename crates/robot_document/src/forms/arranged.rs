@@ -7,7 +7,7 @@
 use std::cmp::Reverse;
 
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
-use robot_symbolic::{Expr, Number, View, walk};
+use robot_symbolic::{Expr, Graph, Number, View, walk};
 use rustc_hash::FxHashMap;
 
 use crate::layout::{BRACKETS, Order, Rank};
@@ -266,6 +266,31 @@ fn one_term(mut terms: Terms<'_>) -> ArrangedTerm<'_> {
             terms.push(last);
             ArrangedTerm::product(&terms, vec![])
         }
+    }
+}
+
+/// Whether the terms are one product of at most two symbols, sines or cosines, possibly with a minus sign; it is as
+/// easy to read as a name.
+pub(super) fn is_short_product(terms: &[ArrangedTerm<'_>]) -> bool {
+    let [ArrangedTerm { coefficient, factors, .. }] = terms else { return false };
+    let is_plain = |(factor, exponent): &(ArrangedFactor<'_>, i32)| {
+        factor.as_atom().is_some() && *exponent > 0
+    };
+    let count: u32 = factors.iter().map(|(_, exponent)| exponent.unsigned_abs()).sum();
+    coefficient.is_one() && count <= 2 && factors.iter().all(is_plain)
+}
+
+/// Returns the value of terms that need no name: 0, or a symbol that is defined already, possibly with the opposite
+/// sign.
+pub(super) fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> {
+    match terms {
+        [] => Some(target.zero()),
+        [ArrangedTerm { negative, coefficient, factors }] if coefficient.is_one() => {
+            let [(ArrangedFactor::Atom(atom), 1)] = factors.as_slice() else { return None };
+            atom.as_symbol()?;
+            Some(if *negative { -*atom } else { *atom })
+        }
+        _ => None,
     }
 }
 

@@ -1,5 +1,7 @@
 //! The compact form, in which expressions that occur several times have names.
 
+use std::cell::RefCell;
+
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_value};
@@ -16,7 +18,7 @@ use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
 use crate::math::Math;
 
-pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
+pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, Error> {
     let mut quantities = writer.quantities(writer.options.friction);
     let mut forces = writer.economical_forces(writer.options.friction);
     if writer.angle_sums() == AngleSums::Keep {
@@ -33,21 +35,55 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;
     }
-    without_unused(writer, |writer, omitted| written(writer, &quantities, &values, omitted))
+    let symbols = writer.symbols.clone();
+    let once = RefCell::default();
+    let attempt = |writer: &mut Writer<'r, 'g>, inlined: &FxHashSet<Id>| {
+        without_unused(writer, |writer, omitted| {
+            let target = Graph::new();
+            let sources = (quantities.as_slice(), values.as_slice());
+            let (groups, list) = written(writer, sources, &target, omitted, inlined)?;
+            once.replace(INLINED.map(|longest| list.used_once(&groups, longest)));
+            let unused = list.unused(&groups);
+            Ok((groups, unused))
+        })
+    };
+    let groups = attempt(writer, &FxHashSet::default())?;
+    let inlined: [FxHashSet<Id>; 2] = once.take();
+    let known = std::mem::replace(&mut writer.symbols, symbols.clone());
+    for inlined in inlined.iter().filter(|inlined| !inlined.is_empty()) {
+        let shorter = attempt(writer, inlined)?;
+        if printed_length(&shorter) <= printed_length(&groups) {
+            return Ok(shorter);
+        }
+        writer.symbols = symbols.clone();
+    }
+    writer.symbols = known;
+    Ok(groups)
 }
 
-/// Writes the quantities, whose values are `values`, with names for common parts except those `omitted`. Returns the
-/// groups and the common parts that nothing uses.
-fn written<'g>(
+/// The largest numbers of characters of a part of a long expression that is written within it if it is used once. The
+/// first is used if it makes the equations shorter, or else the second.
+const INLINED: [usize; 2] = [120, 0];
+
+/// The number of characters of the equations as text.
+fn printed_length(groups: &[Group]) -> usize {
+    let equations = groups.iter().flat_map(|group| &group.equations);
+    equations.map(|equation| equation.name.len() + equation.text.len()).sum()
+}
+
+/// Writes quantities with their values, with names for common parts except those `omitted`, which nothing uses, and those
+/// `inlined`, which are written where they are used. Returns the groups and the definitions.
+fn written<'g, 'h>(
     writer: &mut Writer<'_, 'g>,
-    quantities: &[Quantity<'g>],
-    values: &[Expr<'g>],
+    (quantities, values): (&[Quantity<'g>], &[Expr<'g>]),
+    target: &'h Graph,
     omitted: FxHashSet<Id>,
-) -> Result<(Vec<Group>, FxHashSet<Id>), Error> {
-    let target = Graph::new();
-    let mut list = Definitions::new(&target, values, writer.options.digits);
+    inlined: &FxHashSet<Id>,
+) -> Result<(Vec<Group>, Definitions<'g, 'h>), Error> {
+    let mut list = Definitions::new(target, values, writer.options.digits);
     list.is_economical = true;
     list.omitted = omitted;
+    list.inlined.clone_from(inlined);
     list.name_torques(writer, quantities);
     let mut groups = list.define(writer)?;
     let mut equations: Vec<Equation> = vec![];
@@ -63,8 +99,7 @@ fn written<'g>(
     let equations = list.remaining(&symbols, equations);
     let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
     groups.push(Group { arrays, ..group });
-    let unused = list.unused(&groups);
-    Ok((groups, unused))
+    Ok((groups, list))
 }
 
 /// Defines the common parts of `roots`, except those `omitted`: first combinations of parameters, then expressions of the

@@ -2,10 +2,11 @@
 
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
-use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_value};
+use robot_symbolic::print::{ArrangedTerm, arranged_value};
 use robot_symbolic::{Expr, Graph, Id, PolynomialOptions, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::arranged::{is_short_product, known};
 use super::compact::{moving, short_terms, tidy};
 use super::letters::candidates;
 use super::naming::{Named, Worthy, worth_naming};
@@ -28,6 +29,8 @@ pub(super) struct Definitions<'g, 'h> {
     moving: FxHashSet<Id>,
     /// Expressions whose definitions nothing uses in the end, as [`Definitions::unused`] finds them; they are not printed.
     pub(super) omitted: FxHashSet<Id>,
+    /// Expressions that get no names, because these would be used once.
+    pub(super) inlined: FxHashSet<Id>,
     /// The names of the expressions that are defined, by their values in the graph of the names.
     names: FxHashMap<Id, Expr<'h>>,
     /// The defined expressions, by their names.
@@ -102,6 +105,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             worthy: worth_naming(roots, digits),
             moving: moving(roots),
             omitted: FxHashSet::default(),
+            inlined: FxHashSet::default(),
             names: FxHashMap::default(),
             sources: FxHashMap::default(),
             products: FxHashMap::default(),
@@ -187,7 +191,8 @@ impl<'g, 'h> Definitions<'g, 'h> {
             let mut section =
                 Section { letter, title, count: 0, equations: vec![], groups: vec![] };
             for one in self.worthy.clone() {
-                if self.moving.contains(&one.expr.id()) == of_state {
+                let is_named = !self.inlined.contains(&one.expr.id());
+                if is_named && self.moving.contains(&one.expr.id()) == of_state {
                     self.add(one, writer, &mut section)?;
                 }
             }
@@ -359,6 +364,31 @@ impl<'g, 'h> Definitions<'g, 'h> {
         unused
     }
 
+    /// The expressions whose names are used once in the equations; of those that are named because they are part of a long
+    /// expression, the ones with at most `longest` characters.
+    pub(super) fn used_once(&self, groups: &[Group], longest: usize) -> FxHashSet<Id> {
+        let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
+        let equations = || groups.iter().flat_map(|group| &group.equations);
+        for name in equations().flat_map(|equation| equation.right.symbols()) {
+            *uses.entry(name).or_default() += 1;
+        }
+        // Lines do not break within arguments and denominators.
+        let whole = walk::reachable(&self.roots).into_iter().filter_map(|part| match part.view() {
+            View::Call(_, inside) | View::Div(_, inside) => Some(inside),
+            _ => None,
+        });
+        let whole = walk::reachable(&whole.collect::<Vec<_>>());
+        let is_cut =
+            |source: Id| self.worthy.iter().any(|one| one.is_cut && one.expr.id() == source);
+        let once = equations().filter(|equation| uses.get(equation.name.as_str()) == Some(&1));
+        once.filter_map(|equation| {
+            let source = *self.sources.get(&equation.name)?;
+            let is_within = whole.iter().any(|part| part.id() == source);
+            (!is_within && (!is_cut(source) || equation.text.len() <= longest)).then_some(source)
+        })
+        .collect()
+    }
+
     /// Defines a joint torque under its own name.
     fn emit_torque(&mut self, place: usize, writer: &mut Writer<'_, '_>) -> Result<(), Error> {
         let Some(torque) = self.named_torques.get_mut(place) else { return Ok(()) };
@@ -425,31 +455,6 @@ fn unfolded<'h>(
     let value = residues::polynomial(expr, &limits).ok()?.to_expr();
     let value = walk::rebuild(&[value], target, |name| target.symbol(name)).pop()?;
     Some(short_terms(writer, value))
-}
-
-/// Whether the terms are one product of at most two symbols, sines or cosines, possibly with a minus sign; it is as
-/// easy to read as a name.
-fn is_short_product(terms: &[ArrangedTerm<'_>]) -> bool {
-    let [ArrangedTerm { coefficient, factors, .. }] = terms else { return false };
-    let is_plain = |(factor, exponent): &(ArrangedFactor<'_>, i32)| {
-        factor.as_atom().is_some() && *exponent > 0
-    };
-    let count: u32 = factors.iter().map(|(_, exponent)| exponent.unsigned_abs()).sum();
-    coefficient.is_one() && count <= 2 && factors.iter().all(is_plain)
-}
-
-/// Returns the value of terms that need no name: 0, or a symbol that is defined already, possibly with the opposite
-/// sign.
-fn known<'h>(terms: &[ArrangedTerm<'h>], target: &'h Graph) -> Option<Expr<'h>> {
-    match terms {
-        [] => Some(target.zero()),
-        [ArrangedTerm { negative, coefficient, factors }] if coefficient.is_one() => {
-            let [(ArrangedFactor::Atom(atom), 1)] = factors.as_slice() else { return None };
-            atom.as_symbol()?;
-            Some(if *negative { -*atom } else { *atom })
-        }
-        _ => None,
-    }
 }
 
 #[cfg(test)]

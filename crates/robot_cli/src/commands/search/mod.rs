@@ -6,7 +6,7 @@ use std::time::SystemTime;
 
 use clap::Args;
 use robot_build::{
-    Options, Output, Ownership, pin_text, robot_inputs, shown, snapping, system_reason,
+    Options, Output, Ownership, counted, pin_text, robot_inputs, shown, snapping, system_reason,
 };
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{Entry, LinkPlan, Origin, Turn};
@@ -80,7 +80,10 @@ impl Arguments {
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
         let find = || match self.tune {
             true => tune::search(&robot, (&options, measure), &self.code_options()),
-            false => Ok(search(&robot, &options, measure).map(|found| (found, vec![]))),
+            false => match search(&robot, &options, measure) {
+                Some(found) => Ok(Some((counted(&robot, found, self.robot.snap())?, vec![]))),
+                None => Ok(None),
+            },
         };
         let Some((found, times)) = watched("searching", terminal, find)? else {
             return Err(Failure::input(format!(

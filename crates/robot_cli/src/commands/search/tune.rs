@@ -106,7 +106,7 @@ fn timed(robot: &Robot, several: Vec<Found>, options: &Options) -> Result<Vec<Ti
             both.into_iter().all(|(a, b)| a.core == b.core && a.angles == b.angles)
         };
         if !programs.iter().any(same) {
-            programs.push((found, module));
+            programs.push((robot_build::counted(robot, found, options.snap)?, module));
         }
     }
     let contenders: Result<Vec<Contender<'_>>, Failure> = programs
