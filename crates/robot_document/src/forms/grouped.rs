@@ -6,6 +6,7 @@ use robot_symbolic::{Expr, Rational, walk};
 use super::coefficients::{
     Coefficient, Section, Shown, Sum, by_name, define_all, limit, motions, shown,
 };
+use super::independent::Joints;
 use super::letters::candidates;
 use super::loads::{frictions, gravity, whole, wrenches};
 use super::matrices::{Known, Term, attach};
@@ -141,12 +142,13 @@ fn velocities<'g>(
         rates.iter().map(|rate| walk::derivatives(&slopes, *rate)).collect()
     };
     let slopes: Vec<Vec<Vec<Expr<'g>>>> = rates.iter().map(second).collect();
+    let joints = Joints::new(writer.robot);
     let mut coefficients = vec![];
     for (index, sum) in sums.iter_mut().enumerate() {
         for first in 0..rates.len() {
             for other in first..rates.len() {
                 let slope = slopes[first][other][index];
-                if slope.is_zero() {
+                if slope.is_zero() || joints.is_zero(index, first, other) {
                     continue;
                 }
                 let (value, factor) = match (christoffel, first == other) {

@@ -10,6 +10,7 @@ mod compact;
 mod definitions;
 mod expanded;
 mod grouped;
+mod independent;
 mod letters;
 mod loads;
 mod matrices;
