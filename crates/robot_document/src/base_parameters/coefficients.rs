@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::SHORTER;
 use crate::error::Error;
-use crate::forms::{has_long_root, with_values};
+use crate::forms::{with_values, without_functions};
 
 /// The limits of expansions: beyond them, nobody could read the formulas.
 const LIMITS: PolynomialOptions =
@@ -120,8 +120,8 @@ fn fraction(value: f64) -> Option<Rational> {
     None
 }
 
-/// Expands coefficients or values of a robot; beside rounded numbers and roots of long numbers, other constants are
-/// rounded, too. Those that lose their digits are refused: at seeded values of the symbols, as long terms that cancel
+/// Expands coefficients or values of a robot; beside rounded numbers, roots of long numbers and sums of functions of
+/// numbers, other constants are rounded, too. Those that lose their digits are refused: at seeded values of the symbols, as long terms that cancel
 /// do, or at the nominal ones, where a divisor may be nearly 0.
 pub(crate) fn polynomials<'g>(
     values: &[Expr<'g>],
@@ -129,7 +129,7 @@ pub(crate) fn polynomials<'g>(
 ) -> Result<Vec<Polynomial<'g>>, Error> {
     let expanded = Polynomial::of_all(values, &LIMITS)
         .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })?;
-    let is_kept = |one: &Polynomial<'g>| one.is_exact() && !has_long_root(one);
+    let is_kept = |one: &Polynomial<'g>| one.is_exact() && without_functions(one).is_none();
     let rounded = |one: Polynomial<'g>| if is_kept(&one) { one } else { one.in_decimals(RESIDUE) };
     let expanded: Vec<_> = expanded.into_iter().map(rounded).collect();
     for place in PLACES {

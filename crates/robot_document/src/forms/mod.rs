@@ -50,7 +50,8 @@ use crate::math::Math;
 pub(crate) use grouped::titles;
 pub(crate) use letters::candidates::LINK_MASS;
 pub use letters::{InvalidLetters, Letters};
-pub(crate) use numbers::{has_long_root, with_values};
+pub(crate) use numbers::{with_values, without_functions};
+
 pub use options::{EquationOptions, Form};
 pub use published::{Differences, TermOrder};
 
@@ -381,7 +382,7 @@ impl<'g> Writer<'_, 'g> {
             Cow::Owned(decimal) => {
                 let decimal = self.collected_exactly(&decimal);
                 let is_shorter = length(&decimal) < length(&exact);
-                if is_shorter || has_long_root(value) { decimal } else { exact }
+                if is_shorter || numbers::has_long_root(value) { decimal } else { exact }
             }
             Cow::Borrowed(_) => exact,
         }
@@ -389,8 +390,7 @@ impl<'g> Writer<'_, 'g> {
 
     /// The polynomial with decimals for long numbers with functions if [`EquationOptions::rounds_roots`] is set.
     fn with_decimals<'p, 'h>(&self, value: &'p Polynomial<'h>) -> Cow<'p, Polynomial<'h>> {
-        let decimal =
-            self.options.rounds_roots.then(|| numbers::without_functions(value)).flatten();
+        let decimal = self.options.rounds_roots.then(|| without_functions(value)).flatten();
         decimal.map_or(Cow::Borrowed(value), Cow::Owned)
     }
 

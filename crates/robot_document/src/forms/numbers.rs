@@ -155,7 +155,7 @@ fn is_long_root(expr: Expr<'_>) -> bool {
 }
 
 /// Whether a polynomial contains the root of a number that nobody would write below a root.
-pub(crate) fn has_long_root(value: &Polynomial<'_>) -> bool {
+pub(super) fn has_long_root(value: &Polynomial<'_>) -> bool {
     value.atoms().into_iter().any(is_long_root)
 }
 
@@ -177,7 +177,7 @@ pub(crate) fn decimal(value: f64) -> Option<Number> {
 
 /// Writes functions of numbers as decimals in all terms if some coefficient of a product of symbols is a sum of such
 /// functions and long numbers, or contains the root of a long number; `None` if there is none.
-pub(super) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial<'g>> {
+pub(crate) fn without_functions<'g>(value: &Polynomial<'g>) -> Option<Polynomial<'g>> {
     let graph = value.graph();
     let is_of_number = |atom: Id| {
         matches!(graph.expr(atom).view(), View::Call(Function::Sqrt | Function::Sin | Function::Cos, argument)
