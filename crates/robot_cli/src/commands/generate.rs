@@ -1,5 +1,7 @@
 //! `generate`: the module of a robot as a file.
 
+use std::path::Path;
+
 use clap::Args;
 use robot_build::check_runtime_path;
 use robot_build::languages::{Contents, Language, SourceFile, sources_of};
@@ -51,10 +53,40 @@ impl Arguments {
         let programs = programs(&source, &options, terminal)?;
         let files =
             watched("generating", terminal, || sources_of(&programs, &source, &options, language))?;
+        self.check_ending(&files)?;
         let text = text(files, language)?;
         output.deliver(&text, terminal)
     }
+
+    /// Checks that the file's name does not end as that of code in another language.
+    fn check_ending(&self, files: &[SourceFile]) -> Result<(), Failure> {
+        let ending = |name: &Path| Some(name.extension()?.to_str()?.to_ascii_lowercase());
+        let own = files.first().and_then(|file| ending(Path::new(&file.name)));
+        let (Some(path), Some(own)) = (self.output.file(), own) else { return Ok(()) };
+        let family = |ending: &str| FAMILIES.iter().position(|family| family.contains(&ending));
+        let is_other = |given: &String| family(given).is_some_and(|of| family(&own) != Some(of));
+        let given = ending(path).filter(is_other);
+        match given {
+            Some(given) => Err(Failure::Usage(vec![format!(
+                "--output: a file in `{}` does not end in `.{given}`; choose the language with --language, or a name \
+                 that ends in `.{own}`",
+                self.language.language.name()
+            )])),
+            None => Ok(()),
+        }
+    }
 }
+
+/// The endings of the names of files in languages of one family.
+const FAMILIES: [&[&str]; 7] = [
+    &["rs"],
+    &["c", "h", "cc", "cpp", "hpp", "cu", "cuh"],
+    &["py"],
+    &["m"],
+    &["js", "mjs", "ts", "mts"],
+    &["wgsl"],
+    &["wasm"],
+];
 
 /// The text of the module, if it is a single file in the language.
 fn text(mut files: Vec<SourceFile>, language: Language) -> Result<String, Failure> {

@@ -31,6 +31,16 @@ fn a_document_is_no_pdf() {
 }
 
 #[test]
+fn code_is_not_written_to_a_file_of_another_language() {
+    let file = robot("planar_2r");
+    for (language, name) in [("rust", "arm.py"), ("python", "arm.rs"), ("c", "arm.m")] {
+        let words = ["generate", &file, "--language", language, "-o", name];
+        let found = complaint(2, &words, "");
+        assert!(found.contains(&format!("a file in `{language}` does not end in")), "{found}");
+    }
+}
+
+#[test]
 fn without_a_command_the_demonstration_runs() {
     let shown = output(&[], "");
     assert_eq!(shown, output(&["demo"], ""));
