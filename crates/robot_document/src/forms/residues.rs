@@ -20,7 +20,7 @@ pub(super) fn polynomial<'g>(
     limits: &PolynomialOptions,
 ) -> Result<Polynomial<'g>, PolynomialError> {
     let exact = Polynomial::of(expr, limits)?;
-    let numbers = walk::reachable(&[expr]).into_iter().filter_map(|part| part.as_number());
+    let numbers = walk::reachable(&[expr]).into_iter().filter_map(Expr::as_number);
     let largest = numbers.map(|number| number.to_f64().abs()).fold(1.0, f64::max);
     let is_small = |number: &Number| number.to_f64().abs() < SMALL * largest;
     if !exact.terms().any(|(_, number)| is_small(number)) {
