@@ -3,6 +3,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use robot_model::robot::Robot;
+use robot_symbolic::polynomial::reduced;
 use robot_symbolic::{Expr, Polynomial, PolynomialOptions, Random, View, walk};
 
 /// The number of points at which symbols have seeded values.
@@ -118,20 +119,27 @@ fn is_rational(polynomial: &Polynomial<'_>) -> bool {
     polynomial.is_exact() && polynomial.atoms().iter().all(|atom| atom.as_symbol().is_some())
 }
 
-/// The canonical form of an expression, if the expression is short and the form contains no sums as atoms.
+/// The canonical form of an expression, if the expression is short and the form contains no sums as atoms; otherwise the
+/// expression without common divisors, if that is shorter.
 pub(super) fn tidied(expr: Expr<'_>) -> Expr<'_> {
     let is_simple = !walk::is_longer_than(expr, 3);
     let is_done = is_simple || expr.as_number().is_some() || expr.graph().is_full();
     if is_done || walk::is_longer_than(expr, SHORT) {
         return expr;
     }
-    match Polynomial::of(expr, &TIDY) {
-        Ok(polynomial) => {
-            let whole = |atom: &Expr<'_>| !matches!(atom.view(), View::Add(..) | View::Sub(..));
-            if polynomial.atoms().iter().all(whole) { polynomial.to_expr() } else { expr }
-        }
-        Err(_) => expr,
+    let Ok(polynomial) = Polynomial::of(expr, &TIDY) else { return expr };
+    let whole = |atom: &Expr<'_>| !matches!(atom.view(), View::Add(..) | View::Sub(..));
+    match polynomial.atoms().iter().all(whole) {
+        true => polynomial.to_expr(),
+        // Squares of roots are sums in the polynomial.
+        false => shortest(expr, reduced(polynomial.to_expr(), &TIDY)),
     }
+}
+
+/// An expression, or another form of it with fewer nodes.
+fn shortest<'g>(expr: Expr<'g>, other: Option<Expr<'g>>) -> Expr<'g> {
+    let nodes = |expr: Expr<'g>| walk::reachable(&[expr]).len();
+    other.filter(|other| nodes(*other) < nodes(expr)).unwrap_or(expr)
 }
 
 fn pairwise(a: [f64; POINTS], b: [f64; POINTS], of: impl Fn(f64, f64) -> f64) -> [f64; POINTS] {
@@ -243,6 +251,8 @@ mod tests {
         };
         assert_eq!(tidy("a*(b + c) - b*a"), "a*c");
         assert_eq!(tidy("(a + b)*(a - b) + b*b"), "a^2");
+        let root = "sqrt(a^2 + b^2)";
+        assert_eq!(tidy(&format!("(a^3 + a*b^2)/({root}*{root}*(a + b)) + b/(a + b)")), "1");
         for kept in ["a*(b + a)/(b + c)", "(a + b + c + d + e)^8"] {
             let own = robot_symbolic::print::to_text(graph.parse(kept).unwrap()).unwrap();
             assert_eq!(tidy(kept), own);

@@ -20,6 +20,7 @@ mod expand;
 mod monomial;
 mod packed;
 mod quotient;
+mod ratio;
 mod terms;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,7 @@ use accumulator::{Budget, Part, Term, Terms};
 pub(crate) use atoms::AtomTable;
 pub(crate) use monomial::compare_powers;
 pub use monomial::{Factor, Monomial};
+pub use ratio::reduced;
 
 /// The treatment of sines and cosines of sums and multiples of angles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
