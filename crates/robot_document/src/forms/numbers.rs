@@ -57,6 +57,12 @@ pub(super) fn rounded<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Ex
     }
 }
 
+/// Like [`rounded`], for an expression of any graph.
+pub(super) fn rounded_in<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Expr<'h> {
+    let rounded = writer.options.rounds_roots.then(|| with_decimals(&[value], value.graph()));
+    rounded.and_then(|mut rounded| rounded.pop()).unwrap_or(value)
+}
+
 fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     with_values(roots, graph, |constant, value| decimal(expanded(constant, value)))
 }

@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use robot_check::difference::{
     Change, Difference, Equation, Item, ItemKind, Property, State, Term, Torque, Torques,
 };
+use robot_model::diagnostic::significant;
 use robot_model::robot::JointKind;
 use robot_model::variable::JointVariable;
 use serde_json::{Map, Value, json};
@@ -158,21 +159,33 @@ fn torques(found: &Torques) -> String {
             JointKind::Revolute => ("N m", "rad"),
             JointKind::Prismatic => ("N", "m"),
         };
+        let decimals = decimals(b - a);
         let State { q, qd, qdd } = state;
         let list = |values: &[f64]| {
             values.iter().map(|value| format!("{value:.3}")).collect::<Vec<_>>().join(", ")
         };
         let _ = writeln!(
             shown,
-            "  joint {joint}, {low:.3} to {high:.3} {length}: {:.4} {unit}, {a:.4} -> {b:.4}\n    \
+            "  joint {joint}, {low:.3} to {high:.3} {length}: {} {unit}, {a:.decimals$} -> {b:.decimals$}\n    \
              at q = ({}), qd = ({}), qdd = ({})",
-            b - a,
+            changed(b - a),
             list(q),
             list(qd),
             list(qdd)
         );
     }
     shown
+}
+
+/// The number of decimals with which torques are shown so that their difference is visible.
+fn decimals(change: f64) -> usize {
+    let needed = 2.0 - change.abs().log10().floor();
+    needed.clamp(4.0, 17.0) as usize
+}
+
+/// A difference of torques with four decimals, or with six digits if it is small.
+fn changed(change: f64) -> String {
+    if decimals(change) > 4 { significant(change) } else { format!("{change:.4}") }
 }
 
 /// Prints the whole difference as JSON; a part that was not compared is `{"not_compared": reason}`.

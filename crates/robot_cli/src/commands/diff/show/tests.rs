@@ -94,7 +94,7 @@ fn torques_have_the_units_of_their_joints() {
         drawn: StateBox {
             seed: 7,
             states: 3,
-            positions: vec![[-1.0, 1.0], [0.0, 0.5], [-1.0, 1.0]],
+            positions: vec![[-1.0, 1.0], [0.0, 0.5], [-1.0, 1.0], [-1.0, 1.0]],
             velocity: 2.0,
             acceleration: 5.0,
         },
@@ -102,6 +102,7 @@ fn torques_have_the_units_of_their_joints() {
             joint("swing", JointKind::Revolute, [1.0, 3.5]),
             joint("slide", JointKind::Prismatic, [2.0, 0.5]),
             joint("hand", JointKind::Revolute, [1e-3, 1e-3 + 1e-16]),
+            joint("wrist", JointKind::Revolute, [3.0, 3.000_001]),
         ],
     };
     let at = "    at q = (0.500, 1.000), qd = (0.250, 2.000), qdd = (-1.000, 3.000)\n";
@@ -111,7 +112,8 @@ fn torques_have_the_units_of_their_joints() {
             "  3 states, seed 7; velocities within 2, accelerations within 5, positions\n\
              \x20 joint swing, -1.000 to 1.000 rad: 2.5000 N m, 1.0000 -> 3.5000\n{at}\
              \x20 joint slide, 0.000 to 0.500 m: -1.5000 N, 2.0000 -> 0.5000\n{at}\
-             \x20 joint hand: none\n"
+             \x20 joint hand: none\n\
+             \x20 joint wrist, -1.000 to 1.000 rad: 1e-6 N m, 3.00000000 -> 3.00000100\n{at}"
         )
     );
     let json = torques_json(&found);
