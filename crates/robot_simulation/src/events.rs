@@ -46,7 +46,7 @@ impl Bracket {
         Bracket { t, y: y.to_vec(), overruns, tries }
     }
 
-    /// The length of the next step to try from the base. It leads to the time at which secants predict the first end of
+    /// The length of the next step to try from the last state before the end of a mode. It leads to the time at which secants predict the first end of
     /// a mode; every third step leads to the middle, so that the interval always shrinks.
     pub(crate) fn step(&mut self, base: &Base<'_>, shortest: f64) -> f64 {
         self.tries += 1;

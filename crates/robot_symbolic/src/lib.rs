@@ -64,5 +64,5 @@ pub use number::{Number, Real};
 pub use operations::{Counter, Operations, operations};
 pub use polynomial::{AngleSums, Monomial, Polynomial, PolynomialError, PolynomialOptions};
 pub use random::Random;
-pub use rational::Rational;
+pub use rational::{MAX_DIGITS, Rational};
 pub use spelling::nearest_word;

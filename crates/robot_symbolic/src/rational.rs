@@ -12,7 +12,7 @@ use dashu_ratio::RBig;
 pub(crate) const MAX_BITS: usize = 8192;
 
 /// The largest number of digits in decimal text: a number of [`MAX_BITS`] bits does not have more.
-pub(crate) const MAX_DIGITS: usize = 2600;
+pub const MAX_DIGITS: usize = 2600;
 
 /// An exact rational number in lowest terms.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

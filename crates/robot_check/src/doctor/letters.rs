@@ -5,23 +5,57 @@ use robot_model::diagnostic::{Diagnostic, code};
 
 use super::facts::RobotFacts;
 
-/// Equations in which two symbols look alike cannot be printed; code can be generated.
+/// Reports symbols that are printed alike: equations in which two symbols look alike cannot be printed, although code can
+/// be generated.
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
-    let table = SymbolTable::new(facts.robot, Trigonometry::default());
-    let Err(Error::Alike { name, other, latex }) = table else { return };
+    let mut robot = facts.robot.clone();
+    // Each round reports a pair and gives one of the two another look.
+    for round in 0..robot.parameters.len() {
+        let table = SymbolTable::new(&robot, Trigonometry::default());
+        let Err(Error::Alike { name, other, latex }) = table else { return };
+        found.push(diagnostic(facts, [&name, &other], &latex));
+        let pair = robot.parameters.iter_mut().rev();
+        let Some(one) = pair.into_iter().find(|one| [&name, &other].contains(&&one.name)) else {
+            return;
+        };
+        one.latex = Some(format!("\\mathrm{{reported}}_{{{round}}}"));
+    }
+}
+
+fn diagnostic(facts: &RobotFacts<'_>, pair: [&String; 2], latex: &str) -> Diagnostic {
+    let [name, other] = pair;
     let message = format!("`{name}` and `{other}` are both printed as {latex}");
     let parameters = facts.robot.parameters.iter().zip(&facts.locations.parameters);
     let places: Vec<_> = parameters
-        .filter(|(parameter, _)| [&name, &other].contains(&&parameter.name))
+        .filter(|(parameter, _)| pair.contains(&&parameter.name))
         .map(|(_, place)| &place.name)
         .collect();
     let place = places.first().copied().unwrap_or(&facts.locations.name);
-    let diagnostic = Diagnostic::warning(code::SAME_LETTER, message).at(place, "this symbol");
-    let diagnostic =
-        places.iter().skip(1).fold(diagnostic, |found, place| found.and_at(place, "and this one"));
-    found.push(
-        diagnostic
-            .because("equations and documents with these symbols are refused")
-            .help("give one of the symbols another `latex`, or another name"),
-    );
+    let diagnostic = Diagnostic::warning(code::PRINTED_ALIKE, message).at(place, "this symbol");
+    let others = places.iter().skip(1);
+    others
+        .fold(diagnostic, |found, place| found.and_at(place, "and this one"))
+        .because("equations and documents with these symbols are refused")
+        .help("give one of the symbols another `latex`, or another name")
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::doctor::check;
+
+    #[test]
+    fn all_pairs_are_reported() {
+        let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\na = { value = 1, latex = \"q_1\" }\n\
+                    b = { value = 1, latex = \"m\" }\nm = 1\nc = { value = 1, latex = \"m\" }\n[[link]]\n\
+                    name = \"1\"\njoint = { type = \"revolute\", axis = \"z\" }\nmass = \"a + b + c + m\"\n\
+                    center_of_mass = [0, 0, 0]\ninertia = { xx = 1, yy = 1, zz = 1 }\n";
+        let found = check("arm.toml", text, &robot_model::description::Options::default()).found;
+        let alike: Vec<&str> = found
+            .iter()
+            .filter(|one| one.code == super::code::PRINTED_ALIKE)
+            .map(|one| one.message.as_str())
+            .collect();
+        assert_eq!(alike.len(), 3, "{alike:?}");
+        assert!(alike.iter().any(|message| message.contains("q_1")), "{alike:?}");
+    }
 }

@@ -21,7 +21,8 @@ use crate::math::{Fence, Math};
 /// The remedy for formulas of base parameters that are too long.
 const SHORTER: &str = "their formulas are too long to read, but the function `base_parameters` computes their values; if \
     angles between frames are nearly multiples of π/2, snapping them (the option `snap`) makes the formulas shorter, and \
-    formulas in other frames (`base_frames = \"denavit_hartenberg\"`) can be shorter";
+    if no joint axis depends on parameters, formulas in other frames (`base_frames = \"denavit_hartenberg\"`) can be \
+    shorter";
 
 /// The explanation of the names of standard and base parameters.
 pub(crate) const NAMES: &str = "XX to ZZ are the entries of a link's inertia tensor about the \

@@ -61,11 +61,11 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
     Ok(groups)
 }
 
-/// The largest numbers of characters of a part of a long expression that is written within it if it is used once. The
-/// first is used if it makes the equations shorter, or else the second.
+/// The largest numbers of bytes of a part of a long expression that is written within it if it is used once. The first
+/// that does not make the equations longer is taken.
 const INLINED: [usize; 2] = [120, 0];
 
-/// The number of characters of the equations as text.
+/// The number of bytes of the equations as text.
 fn printed_length(groups: &[Group]) -> usize {
     let equations = groups.iter().flat_map(|group| &group.equations);
     equations.map(|equation| equation.name.len() + equation.text.len()).sum()

@@ -365,7 +365,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
     }
 
     /// The expressions whose names are used once in the equations; of those that are named because they are part of a long
-    /// expression, the ones with at most `longest` characters.
+    /// expression, the ones with at most `longest` bytes of text.
     pub(super) fn used_once(&self, groups: &[Group], longest: usize) -> FxHashSet<Id> {
         let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
         let equations = || groups.iter().flat_map(|group| &group.equations);
@@ -378,13 +378,14 @@ impl<'g, 'h> Definitions<'g, 'h> {
             _ => None,
         });
         let whole = walk::reachable(&whole.collect::<Vec<_>>());
-        let is_cut =
-            |source: Id| self.worthy.iter().any(|one| one.is_cut && one.expr.id() == source);
+        let whole: FxHashSet<Id> = whole.into_iter().map(Expr::id).collect();
+        let cut = self.worthy.iter().filter(|one| one.is_cut).map(|one| one.expr.id());
+        let cut: FxHashSet<Id> = cut.collect();
         let once = equations().filter(|equation| uses.get(equation.name.as_str()) == Some(&1));
         once.filter_map(|equation| {
             let source = *self.sources.get(&equation.name)?;
-            let is_within = whole.iter().any(|part| part.id() == source);
-            (!is_within && (!is_cut(source) || equation.text.len() <= longest)).then_some(source)
+            let is_short = !cut.contains(&source) || equation.text.len() <= longest;
+            (is_short && !whole.contains(&source)).then_some(source)
         })
         .collect()
     }

@@ -1,6 +1,9 @@
 //! Rounding errors that are left where decimals cancel each other.
 
-use robot_symbolic::{Expr, Number, Polynomial, PolynomialError, PolynomialOptions, View, walk};
+use robot_symbolic::{
+    Expr, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, walk,
+};
+use rustc_hash::FxHashSet;
 
 use super::numbers::digits;
 
@@ -9,8 +12,8 @@ const SMALL: f64 = 1e-12;
 /// The least number of significant digits of a decimal that stands for a root or a sine.
 const ROUNDED_DIGITS: usize = 15;
 
-/// The polynomial of an expression, without the terms that are only rounding errors: those that are 0 if the long
-/// decimals are floating-point numbers.
+/// The polynomial of an expression, without the terms that are only rounding errors: small ones that are 0 if the long
+/// decimals are floating-point numbers. Terms with a long decimal in a function or a divisor are kept.
 ///
 /// # Errors
 ///
@@ -23,20 +26,32 @@ pub(super) fn polynomial<'g>(
     let numbers = walk::reachable(&[expr]).into_iter().filter_map(Expr::as_number);
     let largest = numbers.map(|number| number.to_f64().abs()).fold(1.0, f64::max);
     let is_small = |number: &Number| number.to_f64().abs() < SMALL * largest;
-    if !exact.terms().any(|(_, number)| is_small(number)) {
+    let small = exact.terms().filter(|(_, number)| is_small(number)).map(|(monomial, _)| monomial);
+    let mut errors: FxHashSet<Monomial> = small.cloned().collect();
+    if errors.is_empty() {
         return Ok(exact);
     }
     let graph = exact.graph();
-    let rounded = walk::rebuild_above(&[expr], graph, |part| match part.view() {
-        View::Number(number) if digits(&number) >= ROUNDED_DIGITS => {
-            Some(graph.number(Number::real(number.to_f64())))
-        }
-        _ => None,
+    let rounded = walk::rebuild_above(&[expr], graph, |part| {
+        rounded(part).map(|number| graph.number(Number::real(number)))
     });
-    let Some(rounded) = rounded.first() else { return Ok(exact) };
-    let rounded = Polynomial::of(*rounded, limits)?;
-    let mut kept = exact.split_by(|monomial| rounded.terms().any(|(other, _)| other == monomial));
+    let rounded = rounded.first().and_then(|rounded| Polynomial::of(*rounded, limits).ok());
+    let Some(rounded) = rounded else { return Ok(exact) };
+    for (monomial, _) in rounded.terms() {
+        errors.remove(monomial);
+    }
+    errors.retain(|monomial| {
+        let atoms: Vec<Expr<'_>> =
+            monomial.factors().iter().map(|factor| graph.expr(factor.atom())).collect();
+        walk::reachable(&atoms).into_iter().all(|part| self::rounded(part).is_none())
+    });
+    let mut kept = exact.split_by(|monomial| !errors.contains(monomial));
     Ok(kept.remove(&true).unwrap_or_else(|| Polynomial::zero(graph, limits)))
+}
+
+/// The value of a number with as many digits as a rounded root or sine.
+fn rounded(part: Expr<'_>) -> Option<f64> {
+    part.as_number().filter(|number| digits(number) >= ROUNDED_DIGITS).map(|number| number.to_f64())
 }
 
 #[cfg(test)]
@@ -58,6 +73,24 @@ mod tests {
         assert_eq!(text(sum), "b*c");
         let products = "(0.57320189347536359*a + b)*c - (0.57320189347536362*a + b)*c";
         assert_eq!(text(products), "0");
+    }
+
+    /// In a function or a divisor, a number that is rounded otherwise would make another term.
+    #[test]
+    fn terms_with_long_decimals_in_functions_and_divisors_stay() {
+        let graph = Graph::new();
+        let limits = PolynomialOptions::default();
+        for sum in [
+            "1.5*cos(0.3333333333333333*q) + 1/100000000000000000*cos(q)",
+            "1.5*cos(q) + 1/100000000000000000*cos(0.3333333333333333*q)",
+            "1/(0.5732018934753635*a + b) + 1/100000000000000000*a",
+            "1/10000000000000000*a/(0.5732018934753635*a + b) + a",
+        ] {
+            let expr = graph.parse(sum).unwrap();
+            let exact = Polynomial::of(expr, &limits).unwrap();
+            assert_eq!(exact.len(), 2);
+            assert!(polynomial(expr, &limits).unwrap() == exact, "{sum}");
+        }
     }
 
     #[test]

@@ -25,7 +25,7 @@ use crate::vector::{Matrix, Vector};
 /// and the force Hᵀ ω + M v.
 #[derive(Clone, Copy, Debug)]
 struct ArticulatedInertia<'g> {
-    /// The moment I, symmetric.
+    /// The rotational part I, symmetric.
     turning: Matrix<'g>,
     /// The coupling H.
     coupling: Matrix<'g>,

@@ -2,6 +2,7 @@
 
 mod folder;
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -139,9 +140,12 @@ impl Compiler {
     fn run(&self, command: &mut Command) -> Result<Output, Error> {
         command.output().map_err(|error| {
             let path = self.path();
-            let reason = match path.is_dir() {
-                true => "it is a folder".to_owned(),
-                false => system_reason(&error),
+            let is_name = path.parent().is_some_and(|folder| folder.as_os_str().is_empty());
+            let reason = match error.kind() {
+                _ if path.is_dir() => "it is a folder".to_owned(),
+                // A name without a folder is not that of a file in the current folder.
+                ErrorKind::NotFound if is_name => "PATH has no program of this name".to_owned(),
+                _ => system_reason(&error),
             };
             Error::NoCompiler { path, reason }
         })
@@ -208,5 +212,8 @@ mod tests {
         for part in ["/nowhere/rustc", "compiled with `rustc`", "the option `rustc`"] {
             assert!(message.contains(part), "{message}");
         }
+        let compiler = Compiler { rustc: Some(PathBuf::from("no-rustc")), ..Compiler::default() };
+        let message = compiler.description().unwrap_err().to_string();
+        assert!(message.contains("PATH has no program of this name"), "{message}");
     }
 }

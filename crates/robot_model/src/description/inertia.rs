@@ -55,6 +55,7 @@ pub(super) fn read(
     place.unchecked = unchecked.and_then(|entry| reader.boolean(entry.value)) == Some(true);
     tensor.inertia = entries(reader, &mut table, place.unchecked);
     if let Some(entry) = table.get("rpy") {
+        place.axes = Some(entry.value.span());
         let [roll, pitch, yaw] = reader.angle_vector(entry.value, RPY);
         tensor.turns = vec![
             Move::Rotate(Axis::Z, yaw),

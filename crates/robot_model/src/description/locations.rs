@@ -102,6 +102,8 @@ pub struct BodyLocation {
     pub center_of_mass: Option<Span>,
     /// The place of the inertia table.
     pub inertia: Option<Span>,
+    /// The place of the angles of the axes in which the inertia is given.
+    pub axes: Option<Span>,
     /// Whether the file waives the check of the inertia with `unchecked = true`.
     pub unchecked: bool,
 }

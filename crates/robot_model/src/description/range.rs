@@ -109,7 +109,7 @@ impl Range<'_, '_> {
     }
 
     fn body(&mut self, body: &Body, place: &BodyLocation) {
-        let BodyLocation { name, mass, center_of_mass, inertia, .. } = place;
+        let BodyLocation { name, mass, center_of_mass, inertia, axes, .. } = place;
         let of_mass = mass.as_ref().unwrap_or(name);
         let what = format!("the mass of `{}`", body.name);
         self.all([&body.mass], &what, of_mass);
@@ -122,7 +122,8 @@ impl Range<'_, '_> {
             match step {
                 Move::Translate(by) => self.all(by, &what, of_center),
                 Move::Rotate(_, angle) => {
-                    self.angle(angle, &format!("the inertia of `{}`", body.name), of_inertia);
+                    let what = format!("the inertia of `{}`", body.name);
+                    self.angle(angle, &what, axes.as_ref().unwrap_or(of_inertia));
                 }
             }
         }

@@ -166,8 +166,11 @@ impl<'a> Reader<'a> {
                  another name to [parameters]",
                 quote(name)
             ),
-            None if matches!(name, "deg" | "degree" | "degrees" | "radians") => {
+            None if matches!(name, "deg" | "degree" | "degrees") => {
                 "write an angle of 30 degrees as `30*pi/180`".to_owned()
+            }
+            None if matches!(name, "rad" | "radian" | "radians") => {
+                "angles are in radians: write the number alone".to_owned()
             }
             None => format!(
                 "names in an expression are parameters: add `{}` to [parameters], or write `pi` or a \

@@ -23,10 +23,14 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     let end = text.trim_end().len();
     // What follows a decimal comma on its line; the errors there are its consequences.
     let places = errors.iter().filter_map(|error| Some(error.span()?.start));
-    let commas: Vec<Span> = places
-        .filter(|place| is_decimal_comma(text, *place))
-        .map(|place| place..place + rest_of_line(text, place).len())
-        .collect();
+    let commas = places.filter(|place| is_decimal_comma(text, *place));
+    let mut commas: Vec<Span> =
+        commas.map(|place| place..place + rest_of_line(text, place).len()).collect();
+    commas.sort_unstable_by_key(|rest| rest.start);
+    let follows_comma = |place: usize| {
+        let before = commas.partition_point(|rest| rest.start < place);
+        before.checked_sub(1).and_then(|last| commas.get(last)).is_some_and(|rest| place < rest.end)
+    };
     for error in &errors {
         let span = error.span().unwrap_or(end..end);
         let duplicate = error.message() == "duplicate key";
@@ -36,7 +40,7 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         if duplicate && line_of(text, span.start).starts_with('[') {
             header = Some(span.start..next_header(text, span.end));
         }
-        if commas.iter().any(|rest| rest.start < span.start && span.start < rest.end) {
+        if follows_comma(span.start) {
             continue;
         }
         let (message, help) = words(text, error.message(), &span);
@@ -104,22 +108,29 @@ const NUMBER: [&str; 7] = [
     "`_` may only",
 ];
 
+fn first_character(text: &str) -> &str {
+    let end = text.chars().next().map_or(0, char::len_utf8);
+    text.get(..end).unwrap_or_default()
+}
+
 /// The message of the parser, and a remedy for the most frequent cases.
 fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
     let rest = text.get(span.start..).unwrap_or_default();
     let starts = |start: &str| message.starts_with(start);
-    let line = line_of(text, span.start).lines().next().unwrap_or_default();
+    let found = text.get(span.clone()).filter(|found| !found.is_empty());
+    let found = found.unwrap_or_else(|| first_character(rest));
+    let is_space = |character: char| character.is_whitespace() && !character.is_ascii();
+    let is_invisible = |character: char| {
+        matches!(character, '\u{c}' | '\u{feff}')
+            || character.is_control() && !character.is_whitespace()
+    };
     let help = if is_decimal_comma(text, span.start) {
         Some("use a decimal point: write `0.5` instead of `0,5`")
-    } else if line.chars().any(|character| character.is_whitespace() && !character.is_ascii()) {
+    } else if found.contains(is_space) {
         Some(
-            "the line contains a space that is not the usual one, such as the no-break space of web pages: type \
-             its spaces again",
+            "this space is not the usual one, but for example the no-break space of web pages: type it again",
         )
-    } else if line.chars().any(|character| character.is_control() && !character.is_whitespace())
-        || rest.starts_with('\u{feff}')
-        || line.contains('\u{c}')
-    {
+    } else if found.contains(is_invisible) {
         Some("remove the invisible character")
     } else if starts("carriage return must") {
         Some(

@@ -2,7 +2,7 @@
 
 use std::array;
 
-use robot_symbolic::{Formula, Rational};
+use robot_symbolic::{Formula, MAX_DIGITS, Rational};
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
@@ -16,8 +16,6 @@ use crate::unit::Dimension;
 
 /// The maximum length of a text.
 const MAX_TEXT: usize = 4096;
-/// The largest number of characters of a number.
-const MOST_DIGITS: usize = 2_600;
 
 /// The name of a value in messages, and its dimension if it is fixed.
 #[derive(Clone, Copy)]
@@ -206,8 +204,8 @@ impl Reader<'_> {
             let (message, help) = match text.trim_start_matches(['+', '-']) {
                 "nan" => ("not a number", "give a number"),
                 "inf" => ("infinite", "give a finite value"),
-                digits if digits.len() > MOST_DIGITS => {
-                    ("longer than any number has to be", "write the number with fewer digits")
+                digits if digits.len() > MAX_DIGITS => {
+                    ("longer than 2600 digits", "write the number with fewer digits")
                 }
                 _ => (
                     "outside the range of floating-point numbers",

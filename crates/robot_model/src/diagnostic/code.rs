@@ -90,7 +90,7 @@ codes! {
     GRAVITY_UP = "R0615", "Gravity points up.";
     FREE_BASE = "R0617", "The base has mass, and several branches move on it.";
     LIMIT_SIGN = "R0618", "A joint limit has an impossible sign.";
-    SAME_LETTER = "R0619", "Two symbols are printed alike.";
+    PRINTED_ALIKE = "R0619", "Two symbols are printed alike.";
     TAKEN_AS_BASE = "R0701", "A link is used as the base.";
     TAKEN_TOGETHER = "R0702", "A fixed link is merged into its parent.";
     TAKEN_COORDINATE = "R0703", "The coordinate of a joint is stated.";

@@ -157,7 +157,8 @@ impl Parser<'_> {
                     format!("expected an operator between `{before}` and `{after}`"),
                 )
                 .help(if after == "deg" {
-                    format!("write an angle in degrees as `{before}*pi/180`")
+                    let angle = if before == ")" { "(…)" } else { before.as_str() };
+                    format!("write an angle in degrees as `{angle}*pi/180`")
                 } else if before == ")" {
                     format!("write a product as `(…)*{after}{dots}`")
                 } else {

@@ -8,7 +8,7 @@ use crate::expr::Expr;
 use crate::graph::Id;
 use crate::{View, walk};
 
-/// The largest number of terms of a quotient.
+/// The largest number of terms of a quotient, and of what is left while it is computed.
 const MAX_TERMS: usize = 100;
 
 /// A quotient of a polynomial and a product of sums, each without a common factor and with 1 as its first coefficient.
@@ -163,7 +163,7 @@ mod tests {
             ("a*(b/(b + c) + c/(b + c))", "a"),
         ] {
             let graph = Graph::new();
-            let [given_, expected_] = [given, expected].map(|text| graph.parse(text).unwrap());
+            let [from, to] = [given, expected].map(|text| graph.parse(text).unwrap());
             let found = text(given).unwrap();
             let length = |text: &str| text.replace(['(', ')', ' '], "").len();
             assert!(length(&found) <= length(expected), "{given}: {found}");
@@ -174,9 +174,9 @@ mod tests {
                         crate::Random::of_name(&graph.symbol_name(symbol), seed).uniform(0.4, 1.6)
                     })
                 };
-                let size = value(given_).abs().max(1.0);
-                assert!((value(found) - value(given_)).abs() <= 1e-12 * size, "{given}");
-                assert!((value(expected_) - value(given_)).abs() <= 1e-12 * size, "{given}");
+                let size = value(from).abs().max(1.0);
+                assert!((value(found) - value(from)).abs() <= 1e-12 * size, "{given}");
+                assert!((value(to) - value(from)).abs() <= 1e-12 * size, "{given}");
             }
         }
     }

@@ -9,7 +9,7 @@ use robot_symbolic::formula::is_reserved;
 use super::lexer::{is_accent, is_font, is_letter};
 use super::translate::{Translator, unknown};
 
-/// Signs that only a robot with such a symbol has as symbols.
+/// The signs of operators, which are symbols only if the robot has a symbol with such a name.
 const OPERATORS: [&str; 10] = [
     r"\star",
     r"\prime",

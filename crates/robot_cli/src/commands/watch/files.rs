@@ -52,7 +52,7 @@ impl Iterator for Files<'_> {
 /// Selects the readings that are new and stable.
 #[derive(Default)]
 pub(super) struct Settling {
-    /// The last reading that was selected.
+    /// The reading that was returned last.
     last: Option<Reading>,
     /// The present candidate, and how often it was seen in a row.
     seen: Option<(Reading, usize)>,

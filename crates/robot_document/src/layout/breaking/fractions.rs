@@ -1,5 +1,5 @@
-//! Fractions wider than a line. Lines cannot break within a fraction, so that of a wide numerator is written before it:
-//! (a + b + …)/d is 1/d (a + b + …).
+//! Fractions wider than a line. Lines cannot break within a fraction, so a wide numerator is written after it, as a
+//! factor: (a + b + …)/d is 1/d (a + b + …).
 
 use crate::layout::math::{Fence, Math};
 use crate::layout::width::width;
@@ -40,7 +40,7 @@ fn beside(numerator: &Math, denominator: &Math, limit: f64) -> Vec<Math> {
         {
             std::iter::once(fraction(number.clone())).chain(rest.iter().cloned()).collect()
         }
-        [_, _, ..] => {
+        [_, _, ..] | [Math::Fenced(Fence::Parentheses, _)] => {
             std::iter::once(fraction(Math::integer(1))).chain(pieces.iter().cloned()).collect()
         }
         _ => vec![fraction(numerator.clone())],

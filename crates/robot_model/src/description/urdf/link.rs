@@ -74,6 +74,7 @@ fn body(
         mass: Some(of_mass),
         center_of_mass: origin.xyz,
         inertia: Some(of_inertia),
+        axes: origin.rpy,
         unchecked: false,
     };
     Some(Inertial {

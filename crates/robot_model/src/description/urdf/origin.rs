@@ -18,6 +18,8 @@ pub(super) struct Origin {
     pub(super) span: Option<Span>,
     /// The place of the coordinates.
     pub(super) xyz: Option<Span>,
+    /// The place of the angles.
+    pub(super) rpy: Option<Span>,
 }
 
 /// Reads the `<origin>` of an element; the identity if there is none. Angles are about fixed axes: R = Rz(yaw)
@@ -39,7 +41,7 @@ pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Orig
         return None;
     };
     let [of_xyz, of_rpy] = attributes;
-    let places = of_rpy.map(|attribute| words(reader, &attribute)).unwrap_or_default();
+    let places = of_rpy.as_ref().map(|attribute| words(reader, attribute)).unwrap_or_default();
     let angles = rpy.iter().zip(places);
     let angles = angles.map(|(value, (_, place))| AngleLocation { value: value.clone(), place });
     reader.angles.extend(angles);
@@ -47,6 +49,7 @@ pub(super) fn read(reader: &mut Reader<'_>, of: &Element<'_, '_>) -> Option<Orig
         placement: placement(xyz, rpy),
         span: Some(element.span()),
         xyz: of_xyz.map(|attribute| attribute.span),
+        rpy: of_rpy.map(|attribute| attribute.span),
     })
 }
 

@@ -67,7 +67,8 @@ pub struct Found {
     pub plan: Plan,
     /// The measure that was minimized.
     pub measure: Measure,
-    /// The plan's number of multiplications and additions, without sines and cosines.
+    /// The number of multiplications and additions of the plan's expressions, without sines and cosines. The code needs
+    /// no more; plan files state its number instead.
     pub operations: usize,
     /// The number of operations, with fusible pairs counted once.
     pub instructions: usize,
