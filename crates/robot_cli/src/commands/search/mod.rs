@@ -80,7 +80,10 @@ impl Arguments {
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
         let find = || match self.tune {
             true => tune::search(&robot, (&options, measure), &self.code_options()),
-            false => self.searched(&robot, &options).map(|found| Some((found?, vec![]))),
+            false => match search(&robot, &options, measure) {
+                Some(found) => Ok(Some((counted(&robot, found, self.robot.snap())?, vec![]))),
+                None => Ok(None),
+            },
         };
         let Some((found, times)) = watched("searching", terminal, find)? else {
             return Err(Failure::input(format!(
@@ -103,31 +106,6 @@ impl Arguments {
             writeln!(terminal.output, "\npinned in {}", named(&path))?;
         }
         Ok(())
-    }
-
-    /// The cheapest plan with the counts of its code; `None` if there are no plans for the robot. Searches count
-    /// expressions, so for the fewest instructions the plan with the fewest operations is a candidate, too.
-    fn searched(
-        &self,
-        robot: &Robot,
-        options: &MechanismOptions,
-    ) -> Result<Option<Found>, Failure> {
-        let find = |measure| -> Result<Option<Found>, Failure> {
-            let found = search(robot, options, measure);
-            Ok(found.map(|found| counted(robot, found, self.robot.snap())).transpose()?)
-        };
-        let fewest = find(Measure::Operations)?;
-        if !self.fused {
-            return Ok(fewest);
-        }
-        let fused = find(Measure::Instructions)?;
-        Ok(match (fused, fewest) {
-            (Some(fused), Some(fewest)) if fewest.instructions < fused.instructions => {
-                let tried = fused.tried + fewest.tried;
-                Some(Found { measure: Measure::Instructions, tried, ..fewest })
-            }
-            (fused, _) => fused,
-        })
     }
 
     /// The options of the code that `--tune` times.
