@@ -11,7 +11,7 @@ use dashu_ratio::RBig;
 /// robot file needs more, and a hostile one must not fill the memory.
 pub(crate) const MAX_BITS: usize = 8192;
 
-/// The largest number of digits in decimal text: a number of [`MAX_BITS`] bits does not have more.
+/// The largest number of digits in decimal text: one of 8192 bits does not have more.
 pub const MAX_DIGITS: usize = 2600;
 
 /// An exact rational number in lowest terms.
