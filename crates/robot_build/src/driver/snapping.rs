@@ -2,12 +2,11 @@
 
 use robot_dynamics::economical::Plan;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions, Snap};
-use robot_model::functions::{Effects, FunctionKind, Functions};
 use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
+use crate::driver::counted::inverse_dynamics;
 use crate::driver::options::Options;
-use crate::driver::programs::programs_of;
 use crate::error::Errors;
 
 /// The tolerances, in rad, that are tried in addition to the one in use.
@@ -62,17 +61,9 @@ pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result
 }
 
 fn tried(robot: &Robot, tolerance: f64, plan: Option<&Plan>) -> Result<Tried, Errors> {
-    let options = Options {
-        functions: Functions::Chosen(vec![FunctionKind::InverseDynamics(Effects::NONE)]),
-        snap: Some(tolerance),
-        plan: plan.cloned(),
-        ..Options::default()
-    };
-    let programs = programs_of(robot.clone(), &robot.name, &options)?;
-    let functions = programs.module.functions.iter();
-    let operations =
-        functions.map(|function| programs.module.counts(function).call.operations()).sum();
-    Ok(Tried { tolerance, snapped: programs.snapped, operations })
+    let options = Options { snap: Some(tolerance), plan: plan.cloned(), ..Options::default() };
+    let (programs, counts) = inverse_dynamics(robot, options)?;
+    Ok(Tried { tolerance, snapped: programs.snapped, operations: counts.operations() })
 }
 
 #[cfg(test)]
@@ -80,6 +71,7 @@ mod tests {
     use robot_dynamics::economical::plan::LinkPlan;
 
     use super::*;
+    use crate::driver::programs::programs_of;
 
     /// An arm with two angles near a right angle, one of them nearer.
     fn arm() -> Robot {

@@ -1,5 +1,7 @@
 //! Checks for symbols that look alike in print.
 
+use std::borrow::Cow;
+
 use robot_document::{Error, SymbolTable, Trigonometry};
 use robot_model::diagnostic::{Diagnostic, code};
 
@@ -8,16 +10,15 @@ use super::facts::RobotFacts;
 /// Reports symbols that are printed alike: equations in which two symbols look alike cannot be printed, although code can
 /// be generated.
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
-    let mut robot = facts.robot.clone();
+    let mut robot = Cow::Borrowed(facts.robot);
     // Each round reports a pair and gives one of the two another look.
     for round in 0..robot.parameters.len() {
         let table = SymbolTable::new(&robot, Trigonometry::default());
         let Err(Error::Alike { name, other, latex }) = table else { return };
         found.push(diagnostic(facts, [&name, &other], &latex));
-        let pair = robot.parameters.iter_mut().rev();
-        let Some(one) = pair.into_iter().find(|one| [&name, &other].contains(&&one.name)) else {
-            return;
-        };
+        let mut parameters = robot.to_mut().parameters.iter_mut().rev();
+        let one = parameters.find(|one| [&name, &other].contains(&&one.name));
+        let Some(one) = one else { return };
         one.latex = Some(format!("\\mathrm{{reported}}_{{{round}}}"));
     }
 }

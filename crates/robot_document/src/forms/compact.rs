@@ -42,7 +42,7 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
             let target = Graph::new();
             let sources = (quantities.as_slice(), values.as_slice());
             let (groups, list) = written(writer, sources, &target, omitted, inlined)?;
-            once.replace(INLINED.map(|longest| list.used_once(&groups, longest)));
+            once.replace(list.used_once(&groups, INLINED));
             let unused = list.unused(&groups);
             Ok((groups, unused))
         })

@@ -364,9 +364,9 @@ impl<'g, 'h> Definitions<'g, 'h> {
         unused
     }
 
-    /// The expressions whose names are used once in the equations; of those that are named because they are part of a long
-    /// expression, the ones with at most `longest` bytes of text.
-    pub(super) fn used_once(&self, groups: &[Group], longest: usize) -> FxHashSet<Id> {
+    /// The expressions whose names are used once in the equations, for each length in `longest`: of those that are named
+    /// because they are part of a long expression, the ones with at most so many bytes of text.
+    pub(super) fn used_once(&self, groups: &[Group], longest: [usize; 2]) -> [FxHashSet<Id>; 2] {
         let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
         let equations = || groups.iter().flat_map(|group| &group.equations);
         for name in equations().flat_map(|equation| equation.right.symbols()) {
@@ -382,12 +382,17 @@ impl<'g, 'h> Definitions<'g, 'h> {
         let cut = self.worthy.iter().filter(|one| one.is_cut).map(|one| one.expr.id());
         let cut: FxHashSet<Id> = cut.collect();
         let once = equations().filter(|equation| uses.get(equation.name.as_str()) == Some(&1));
-        once.filter_map(|equation| {
-            let source = *self.sources.get(&equation.name)?;
-            let is_short = !cut.contains(&source) || equation.text.len() <= longest;
-            (is_short && !whole.contains(&source)).then_some(source)
-        })
-        .collect()
+        let mut found = longest.map(|_| FxHashSet::default());
+        for equation in once {
+            let Some(source) = self.sources.get(&equation.name).copied() else { continue };
+            for (sources, longest) in found.iter_mut().zip(longest) {
+                let is_short = !cut.contains(&source) || equation.text.len() <= longest;
+                if is_short && !whole.contains(&source) {
+                    sources.insert(source);
+                }
+            }
+        }
+        found
     }
 
     /// Defines a joint torque under its own name.

@@ -50,17 +50,11 @@ impl Constant {
 
 /// The expressions as they are printed: the parts that are long sums with functions of numbers are the nearest doubles
 /// if [`rounds_roots`](super::EquationOptions::rounds_roots) is set.
-pub(super) fn rounded<'g>(writer: &Writer<'_, 'g>, roots: &[Expr<'g>]) -> Vec<Expr<'g>> {
-    match writer.options.rounds_roots {
-        true => with_decimals(roots, writer.graph),
-        false => roots.to_vec(),
+pub(super) fn rounded<'h>(writer: &Writer<'_, '_>, roots: &[Expr<'h>]) -> Vec<Expr<'h>> {
+    match roots.first().filter(|_| writer.options.rounds_roots) {
+        Some(root) => with_decimals(roots, root.graph()),
+        None => roots.to_vec(),
     }
-}
-
-/// Like [`rounded`], for an expression of any graph.
-pub(super) fn rounded_in<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Expr<'h> {
-    let rounded = writer.options.rounds_roots.then(|| with_decimals(&[value], value.graph()));
-    rounded.and_then(|mut rounded| rounded.pop()).unwrap_or(value)
 }
 
 fn with_decimals<'g>(roots: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {

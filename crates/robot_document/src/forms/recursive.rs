@@ -253,6 +253,9 @@ fn sum(
     let limits = PolynomialOptions { max_terms: 40, ..PolynomialOptions::keeping_angle_sums() };
     match residues::polynomial(value, &limits) {
         Ok(polynomial) => writer.of_polynomial(name, left, &polynomial),
-        Err(_) => writer.of_expression(name, left, numbers::rounded_in(writer, value)),
+        Err(_) => {
+            let rounded = numbers::rounded(writer, &[value]).pop().unwrap_or(value);
+            writer.of_expression(name, left, rounded)
+        }
     }
 }

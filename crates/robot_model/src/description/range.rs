@@ -28,7 +28,8 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     }
     for (frame, place) in robot.frames.iter().zip(&locations.frames) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
-        range.placement(&frame.placement, &format!("the pose of `{}`", frame.name), at);
+        let pose = format!("the pose of `{}`", frame.name);
+        range.placement(&frame.placement, (&pose, at), (&pose, at));
     }
 }
 
@@ -39,7 +40,8 @@ struct Range<'r, 'a> {
 impl Range<'_, '_> {
     fn link(&mut self, link: &Link, place: &LinkLocation) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
-        self.placement(&link.placement, &format!("the pose of `{}`", link.name), at);
+        let pose = format!("the pose of `{}`", link.name);
+        self.placement(&link.placement, (&pose, at), (&pose, at));
         self.joint(&link.joint, place);
         let of_friction = place.friction.as_ref().unwrap_or(&place.joint);
         self.friction(&link.friction, &link.joint.name, of_friction);
@@ -117,26 +119,24 @@ impl Range<'_, '_> {
         let what = format!("the center of mass of `{}`", body.name);
         let of_center = center_of_mass.as_ref().unwrap_or(name);
         let of_inertia = inertia.as_ref().unwrap_or(name);
-        let Placement(moves) = &body.placement;
-        for step in moves {
-            match step {
-                Move::Translate(by) => self.all(by, &what, of_center),
-                Move::Rotate(_, angle) => {
-                    let what = format!("the inertia of `{}`", body.name);
-                    self.angle(angle, &what, axes.as_ref().unwrap_or(of_inertia));
-                }
-            }
-        }
-        let what = format!("the inertia of `{}`", body.name);
-        self.all(body.inertia.entries(), &what, of_inertia);
-        self.divisor(body.inertia.entries(), &what, of_inertia);
+        let inertia = format!("the inertia of `{}`", body.name);
+        let of_axes = axes.as_ref().unwrap_or(of_inertia);
+        self.placement(&body.placement, (&what, of_center), (&inertia, of_axes));
+        self.all(body.inertia.entries(), &inertia, of_inertia);
+        self.divisor(body.inertia.entries(), &inertia, of_inertia);
     }
 
-    fn placement(&mut self, Placement(moves): &Placement, what: &str, at: &Span) {
+    /// Checks a placement; its translations and its rotations each have their words and their place.
+    fn placement(
+        &mut self,
+        Placement(moves): &Placement,
+        translation: (&str, &Span),
+        rotation: (&str, &Span),
+    ) {
         for step in moves {
             match step {
-                Move::Translate(by) => self.all(by, what, at),
-                Move::Rotate(_, angle) => self.angle(angle, what, at),
+                Move::Translate(by) => self.all(by, translation.0, translation.1),
+                Move::Rotate(_, angle) => self.angle(angle, rotation.0, rotation.1),
             }
         }
     }

@@ -3,6 +3,7 @@
 use toml::Spanned;
 use toml::de::DeTable;
 
+use super::value::is_hidden;
 use crate::diagnostic::{Diagnostic, Span, code};
 
 /// Parses the text. The tables are usable only if there are no diagnostics.
@@ -120,17 +121,13 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
     let found = text.get(span.clone()).filter(|found| !found.is_empty());
     let found = found.unwrap_or_else(|| first_character(rest));
     let is_space = |character: char| character.is_whitespace() && !character.is_ascii();
-    let is_invisible = |character: char| {
-        matches!(character, '\u{c}' | '\u{feff}')
-            || character.is_control() && !character.is_whitespace()
-    };
     let help = if is_decimal_comma(text, span.start) {
         Some("use a decimal point: write `0.5` instead of `0,5`")
     } else if found.contains(is_space) {
         Some(
             "this space is not the usual one, but for example the no-break space of web pages: type it again",
         )
-    } else if found.contains(is_invisible) {
+    } else if found.contains(is_hidden) {
         Some("remove the invisible character")
     } else if starts("carriage return must") {
         Some(

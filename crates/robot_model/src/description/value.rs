@@ -29,6 +29,12 @@ pub(super) const fn quantity(what: &'static str, mass: i8, length: i8, time: i8)
     Quantity { what, dimension: Some(Dimension::new(mass, length, time)) }
 }
 
+/// Whether a character is a control character other than line ends and tabs, or invisible.
+pub(super) fn is_hidden(character: char) -> bool {
+    let is_control = character.is_control() && !matches!(character, '\n' | '\r' | '\t');
+    is_control || is_invisible(character)
+}
+
 impl Reader<'_> {
     pub(super) fn wrong_type(&mut self, value: Value<'_>, expected: &str) {
         let found = match value.get_ref() {
@@ -128,10 +134,7 @@ impl Reader<'_> {
     /// allowed.
     pub(super) fn prose(&mut self, value: Value<'_>) -> Option<String> {
         let text = self.string(value, "text in quotes")?.as_ref();
-        let bad = |(_, character): &(usize, char)| {
-            (character.is_control() && !matches!(character, '\n' | '\r' | '\t'))
-                || is_invisible(*character)
-        };
+        let bad = |(_, character): &(usize, char)| is_hidden(*character);
         if let Some((at, character)) = text.char_indices().find(bad) {
             let range = at..at + character.len_utf8();
             let span = strings::place(self.text, &value.span(), text, range);
@@ -201,11 +204,12 @@ impl Reader<'_> {
         });
         if usable.is_none() {
             let text = self.text.get(value.span()).unwrap_or_default();
+            let too_long = format!("longer than {MAX_DIGITS} digits");
             let (message, help) = match text.trim_start_matches(['+', '-']) {
                 "nan" => ("not a number", "give a number"),
                 "inf" => ("infinite", "give a finite value"),
                 digits if digits.len() > MAX_DIGITS => {
-                    ("longer than 2600 digits", "write the number with fewer digits")
+                    (too_long.as_str(), "write the number with fewer digits")
                 }
                 _ => (
                     "outside the range of floating-point numbers",

@@ -120,7 +120,7 @@ impl<'g> Ratio<'g> {
     }
 }
 
-/// The quotient of two polynomials if there is no remainder.
+/// The quotient of two polynomials; `None` if it leaves a remainder.
 fn quotient<'g>(whole: &Polynomial<'g>, divisor: &Polynomial<'g>) -> Option<Polynomial<'g>> {
     let (first, number) = divisor.terms.first()?;
     let (inverse, number) = (first.inverse()?, number.recip());

@@ -3,25 +3,21 @@
 use std::ops::Range;
 
 use robot_model::diagnostic::quote;
+use robot_model::signs::{Letter, Use};
 use robot_symbolic::ParseError;
 use robot_symbolic::formula::is_reserved;
 
 use super::lexer::{is_accent, is_font, is_letter};
 use super::translate::{Translator, unknown};
 
-/// The signs of operators, which are symbols only if the robot has a symbol with such a name.
-const OPERATORS: [&str; 10] = [
-    r"\star",
-    r"\prime",
-    r"\circ",
-    r"\bullet",
-    r"\dagger",
-    r"\infty",
-    r"\perp",
-    r"\parallel",
-    r"\pm",
-    r"\nabla",
-];
+/// Whether a token is a sign such as ± or ∘, which is a symbol only if the robot has a symbol of that name. The signs of
+/// products are read elsewhere.
+fn is_sign(token: &str) -> bool {
+    let letter = token.strip_prefix('\\').and_then(Letter::of_latex);
+    letter.is_some_and(|letter| {
+        letter.used == Use::Symbol && !matches!(letter.character, 'ℓ' | '∗' | '·')
+    })
+}
 
 /// An index of a symbol.
 #[derive(Clone)]
@@ -59,7 +55,7 @@ impl Translator<'_, '_> {
             self.emit(&name, span);
             return Ok(());
         }
-        if OPERATORS.contains(&text) && (self.names)(&key).is_none() {
+        if is_sign(text) && (self.names)(&key).is_none() {
             return Err(unknown(text, first));
         }
         let function = match base.as_str() {
