@@ -177,7 +177,7 @@ def head(count, versions, tally):
     )
     return f"""# Conformance: how programs read a robot description
 
-Each row is a small URDF file with a state and the right torques, derived by hand, or the reason why no program should accept it.
+Each row is a small URDF file with a state and the right torques, derived by hand, or the reason for refusing the file.
 The rows are in [conformance/](../conformance/README.md), where anybody can run them. `conformance/peers.py` writes this page;
 `tests/derivations/conformance.rs` tests the column *here*. Torques are in N m, forces in N.
 Bold marks an answer that differs from the right one. *Silent* means that the program wrote nothing to standard output or error.

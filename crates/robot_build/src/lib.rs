@@ -30,7 +30,7 @@ mod error;
 
 pub use driver::angles::too_large_angle;
 pub use driver::conventions::CONVENTIONS;
-pub use driver::counted::counted;
+pub use driver::counted::{counted, search_code};
 pub use driver::file::File;
 pub use driver::generate::{Generated, generate, names};
 #[cfg(feature = "languages")]

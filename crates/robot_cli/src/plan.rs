@@ -1,8 +1,7 @@
 //! The plan of the recursion with which commands compute.
 
-use robot_build::{Error, Errors, Options, RobotFile, counted};
-use robot_dynamics::economical::search::{Found, Measure, search};
-use robot_dynamics::mechanism::MechanismOptions;
+use robot_build::{Error, Errors, Options, RobotFile, search_code};
+use robot_dynamics::economical::search::{Found, Measure};
 
 use crate::Terminal;
 use crate::failure::{Failure, in_command_words};
@@ -25,11 +24,7 @@ pub(crate) fn pinned_or_searched(
         return Err(errors.into());
     }
     let robot = robot_build::read_with(&file.source, &options)?.robot;
-    let mechanism = MechanismOptions::ROUNDED.with_snap(options.snap, &robot);
-    let find = || {
-        let found = search(&robot, &mechanism, Measure::Operations);
-        found.map(|found| counted(&robot, found, options.snap)).transpose()
-    };
+    let find = || search_code(&robot, Measure::Operations, options.snap);
     let found = watched("searching for a plan", terminal, find)?;
     let instead = match &found {
         Some(Found { operations, .. }) => format!(

@@ -139,7 +139,7 @@ const CARRYING: &str = include_str!("carrying.toml");
 /// Parts that cancel and moments of inertia that do not act have no names.
 #[test]
 fn every_name_is_used() {
-    let files = [("carrying", CARRYING), ("skew", SKEW)];
+    let files = [("carrying", CARRYING), ("skew", SKEW), ("gantry", GANTRY)];
     let own = files.map(|(name, text)| read_toml(name, text).unwrap().robot);
     let mut names = 0;
     for robot in robots().iter().chain(&own) {
@@ -162,6 +162,9 @@ fn every_name_is_used() {
 
 /// Two links with skew axes; the principal moments of the second about two axes are the same.
 const SKEW: &str = include_str!("skew.toml");
+
+/// A chain of which one constant is named and not used, and used if it has no name.
+const GANTRY: &str = include_str!("gantry.toml");
 
 /// A Furuta pendulum, whose common parts are written where they are used.
 #[test]

@@ -65,7 +65,7 @@ pub enum Error {
          thumbv7em-none-eabihf) are supported"
     )]
     Architecture {
-        /// The processor.
+        /// The architecture.
         architecture: String,
     },
 }

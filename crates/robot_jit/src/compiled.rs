@@ -52,8 +52,8 @@ pub struct Function<'c> {
 ///
 /// # Errors
 ///
-/// The machine does not have the registers; the parameters are invalid, see [`Interpreter::new`]; the system does not
-/// provide memory for code.
+/// The machine does not have the registers; the parameters are invalid, see [`Interpreter::new`]; a function is too large
+/// or needs too much of the stack; the system does not provide memory for code.
 pub fn compile<'m>(module: &'m Module, given: &[(&str, f64)]) -> Result<Compiled<'m>, Error> {
     compile_with(module, given, &Options::default())
 }

@@ -11,6 +11,7 @@ use robot_model::functions::{Bundle, FunctionKind};
 use robot_model::robot::Robot;
 use robot_symbolic::Graph;
 
+use crate::driver::counted::search_code;
 use crate::driver::options::Options;
 use crate::driver::{limbs, nominal, singular, specification};
 use crate::error::{Error, Errors};
@@ -87,8 +88,13 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
 
 /// Returns the plan of the options, or searches for one if the options request a search.
 pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
-    let measure = if options.fused { Measure::Instructions } else { Measure::Operations };
-    let searched = || search(robot, &options.mechanism(robot), measure).map(|found| found.plan);
+    let searched = || {
+        let found = match options.fused {
+            true => search_code(robot, Measure::Instructions, options.snap).ok()?,
+            false => search(robot, &options.mechanism(robot), Measure::Operations),
+        };
+        found.map(|found| found.plan)
+    };
     let given = options.plan.clone();
     if options.search { given.or_else(searched) } else { given }
 }
@@ -147,7 +153,7 @@ mod tests {
         let usual = Options { fused: true, ..Options::default() };
         assert_eq!(planned(&robot, &usual), usual);
         let searching = Options { search: true, ..usual.clone() };
-        let found = search(&robot, &searching.mechanism(&robot), Measure::Instructions).unwrap();
+        let found = search_code(&robot, Measure::Instructions, None).unwrap().unwrap();
         let expected = Options { plan: Some(found.plan), ..usual.clone() };
         assert_eq!(planned(&robot, &searching), expected);
         let given = Options { plan: Some(Plan::uniform(2, &LinkPlan::BASIC)), ..usual };

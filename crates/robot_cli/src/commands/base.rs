@@ -8,6 +8,7 @@ use robot_model::robot::Robot;
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
+use crate::delivery::size;
 use crate::displayed::{LayoutArguments, Notation};
 use crate::failure::Failure;
 use crate::forms::{NO_DIGITS, failed, note_rounding};
@@ -89,9 +90,19 @@ impl Arguments {
             Format::Mathml => displayed(Notation::page(terminal)?)?,
             Format::Json => json(&robot, &exact),
         };
+        if shown.len() > LONG && !matches!(self.format, Format::Json) {
+            writeln!(
+                terminal.errors,
+                "note: the formulas have {}; the function base_parameters computes their values",
+                size(shown.len())
+            )?;
+        }
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }
+
+/// The number of bytes of formulas that people can read, those of some thirty pages.
+const LONG: usize = 100_000;
 
 /// Prints each base parameter as `ZZR_2 = …`, with its value below; long sums take several lines.
 fn plain(robot: &Robot, set: &BaseSet) -> String {

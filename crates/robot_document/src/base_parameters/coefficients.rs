@@ -190,8 +190,9 @@ fn check_digits(
     if values.iter().zip(expanded).all(is_kept) {
         return Ok(());
     }
-    let reason = format!("multiplied out, their terms cancel, so that digits are lost; {SHORTER}");
-    Err(Error::Base { reason })
+    let reason = "if the formulas are multiplied out, terms cancel and digits are lost; the function \
+                  `base_parameters` computes their values";
+    Err(Error::Base { reason: reason.to_owned() })
 }
 
 /// Expands the coefficients of a base parameter.

@@ -5,9 +5,10 @@ use robot_symbolic::collected::length;
 use robot_symbolic::print::ArrangedTerm;
 use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, PolynomialOptions, walk};
 
-use super::compact::{definitions, without_unused};
+use super::compact::definitions;
 use super::definitions::Root;
 use super::naming::{Named, named_length};
+use super::uses::{Attempt, without_unused};
 use super::{
     Equation, Group, Writer, aliases, arranged, joint_torque, letters, numbers, references,
     residues, shapes,
@@ -261,13 +262,14 @@ pub(super) fn definitions_of<'g>(
         long.filter(|((_, shown), by_symbols)| !by_symbols && matches!(shown, Shown::Long { .. }));
     let long: Vec<Root<'g>> =
         long.map(|(((coefficient, value), _), _)| coefficient.root(*value)).collect();
-    without_unused(writer, |writer, omitted| {
+    let (groups, ()) = without_unused(writer, |writer, unnamed| {
         let target = Graph::new();
-        let (groups, list) = definitions(writer, long.clone(), &target, omitted)?;
+        let (groups, list) = definitions(writer, long.clone(), &target, unnamed)?;
         let groups = with_coefficients(writer, groups, &list.named, (sections, shown, &values))?;
-        let unused = list.unused(&groups);
-        Ok((groups, unused))
-    })
+        let uses = list.uses(&groups);
+        Ok(Attempt { groups, uses, more: () })
+    })?;
+    Ok(groups)
 }
 
 /// Adds the coefficients, whose values are `values`, to the definitions of names in `groups`.

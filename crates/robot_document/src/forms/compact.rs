@@ -1,18 +1,17 @@
 //! The compact form, in which expressions that occur several times have names.
 
-use std::cell::RefCell;
-
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_value};
 use robot_symbolic::{AngleSums, Expr, Graph, Id, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
-use super::definitions::{Definitions, Root, is_omitted};
+use super::definitions::{Definitions, Root};
 use super::naming::is_leaf;
+use super::uses::{Attempt, Unnamed, printed_length, without_unused};
 use super::{
-    Equation, Group, Writer, angle_sums, arranged, canceled, numbers, of_joint_torque, residues,
-    vectors,
+    Equation, Group, Writer, angle_sums, arranged, canceled, independent, numbers, of_joint_torque,
+    residues, vectors,
 };
 use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
@@ -20,7 +19,8 @@ use crate::math::Math;
 
 pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, Error> {
     let mut quantities = writer.quantities(writer.options.friction);
-    let mut forces = writer.economical_forces(writer.options.friction);
+    let forces = writer.economical_forces(writer.options.friction);
+    let mut forces = independent::without_velocities(writer, forces);
     if writer.angle_sums() == AngleSums::Keep {
         forces = angle_sums::joined(&forces, writer.graph);
     }
@@ -36,54 +36,69 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
         quantity.value = *value;
     }
     let symbols = writer.symbols.clone();
-    let once = RefCell::default();
     let attempt = |writer: &mut Writer<'r, 'g>, inlined: &FxHashSet<Id>| {
-        without_unused(writer, |writer, omitted| {
+        writer.symbols = symbols.clone();
+        without_unused(writer, |writer, mut unnamed| {
+            unnamed.inlined.extend(inlined);
             let target = Graph::new();
             let sources = (quantities.as_slice(), values.as_slice());
-            let (groups, list) = written(writer, sources, &target, omitted, inlined)?;
-            once.replace(list.used_once(&groups, INLINED));
-            let unused = list.unused(&groups);
-            Ok((groups, unused))
+            let (groups, list) = written(writer, sources, &target, unnamed)?;
+            let (uses, more) = (list.uses(&groups), list.used_once(&groups, INLINED));
+            Ok(Attempt { groups, uses, more })
         })
     };
-    let groups = attempt(writer, &FxHashSet::default())?;
-    let inlined: [FxHashSet<Id>; 2] = once.take();
-    let known = std::mem::replace(&mut writer.symbols, symbols.clone());
-    for inlined in inlined.iter().filter(|inlined| !inlined.is_empty()) {
-        let shorter = attempt(writer, inlined)?;
-        if printed_length(&shorter) <= printed_length(&groups) {
-            return Ok(shorter);
-        }
-        writer.symbols = symbols.clone();
+    let mut inlined = FxHashSet::default();
+    let (mut groups, mut once) = attempt(writer, &inlined)?;
+    // What is written in place can leave other names that are used once.
+    for _ in 0..ROUNDS {
+        let known = writer.symbols.clone();
+        let Some(found) = shorter(&groups, &once, &inlined, |more| attempt(writer, more))? else {
+            writer.symbols = known;
+            break;
+        };
+        (groups, once, inlined) = found;
     }
-    writer.symbols = known;
     Ok(groups)
 }
+
+/// The largest number of times that names are sought that are used once.
+const ROUNDS: usize = 3;
 
 /// The largest numbers of bytes of a part of a long expression that is written within it if it is used once. The first
 /// that does not make the equations longer is taken.
 const INLINED: [usize; 2] = [120, 0];
 
-/// The number of bytes of the equations as text.
-fn printed_length(groups: &[Group]) -> usize {
-    let equations = groups.iter().flat_map(|group| &group.equations);
-    equations.map(|equation| equation.name.len() + equation.text.len()).sum()
+/// The equations, the names in them that are used once, and the expressions that have no names.
+type Found = (Vec<Group>, [FxHashSet<Id>; 2], FxHashSet<Id>);
+
+/// The equations as `attempt` writes them without names that are used once, in addition to those `inlined`; `None` if
+/// they are longer.
+fn shorter(
+    groups: &[Group],
+    once: &[FxHashSet<Id>; 2],
+    inlined: &FxHashSet<Id>,
+    mut attempt: impl FnMut(&FxHashSet<Id>) -> Result<(Vec<Group>, [FxHashSet<Id>; 2]), Error>,
+) -> Result<Option<Found>, Error> {
+    for more in once.iter().filter(|more| !more.is_subset(inlined)) {
+        let inlined: FxHashSet<Id> = inlined.union(more).copied().collect();
+        let (shorter, once) = attempt(&inlined)?;
+        if printed_length(&shorter) <= printed_length(groups) {
+            return Ok(Some((shorter, once, inlined)));
+        }
+    }
+    Ok(None)
 }
 
-/// Writes quantities with their values, with names for common parts except those `omitted`, which nothing uses, and those
-/// `inlined`, which are written where they are used. Returns the groups and the definitions.
+/// Writes quantities with their values, with names for common parts except those `unnamed`. Returns the groups and the definitions.
 fn written<'g, 'h>(
     writer: &mut Writer<'_, 'g>,
     (quantities, values): (&[Quantity<'g>], &[Expr<'g>]),
     target: &'h Graph,
-    omitted: FxHashSet<Id>,
-    inlined: &FxHashSet<Id>,
+    unnamed: Unnamed,
 ) -> Result<(Vec<Group>, Definitions<'g, 'h>), Error> {
     let mut list = Definitions::new(target, values, writer.options.digits);
     list.is_economical = true;
-    list.omitted = omitted;
-    list.inlined.clone_from(inlined);
+    list.unnamed = unnamed;
     list.name_torques(writer, quantities);
     let mut groups = list.define(writer)?;
     let mut equations: Vec<Equation> = vec![];
@@ -102,42 +117,20 @@ fn written<'g, 'h>(
     Ok((groups, list))
 }
 
-/// Defines the common parts of `roots`, except those `omitted`: first combinations of parameters, then expressions of the
+/// Defines the common parts of `roots`, except those `unnamed`: first combinations of parameters, then expressions of the
 /// state. A root that is part of others is defined among them under its own name, which the writer must already know.
 pub(super) fn definitions<'g, 'h>(
     writer: &mut Writer<'_, '_>,
     roots: Vec<Root<'g>>,
     target: &'h Graph,
-    omitted: FxHashSet<Id>,
+    unnamed: Unnamed,
 ) -> Result<(Vec<Group>, Definitions<'g, 'h>), Error> {
     let values: Vec<Expr<'_>> = roots.iter().map(|root| root.value).collect();
     let mut list = Definitions::new(target, &values, writer.options.digits);
-    list.omitted = omitted;
+    list.unnamed = unnamed;
     list.entries = roots;
     let groups = list.define(writer)?;
     Ok((groups, list))
-}
-
-/// Returns the groups that `write` writes, without the names that nothing uses in the end, such as those of parts that
-/// cancel. `write` omits the parts that it is given, and also returns those that nothing uses.
-pub(super) fn without_unused<'r, 'g>(
-    writer: &mut Writer<'r, 'g>,
-    write: impl Fn(&mut Writer<'r, 'g>, FxHashSet<Id>) -> Result<(Vec<Group>, FxHashSet<Id>), Error>,
-) -> Result<Vec<Group>, Error> {
-    let symbols = writer.symbols.clone();
-    let (groups, unused) = write(writer, FxHashSet::default())?;
-    if unused.is_empty() {
-        return Ok(groups);
-    }
-    let symbols = std::mem::replace(&mut writer.symbols, symbols);
-    let (shorter, _) = write(writer, unused)?;
-    let mut equations = shorter.iter().flat_map(|group| &group.equations);
-    if equations.any(|equation| equation.right.symbols().into_iter().any(is_omitted)) {
-        // Another order of names has led to other parts.
-        writer.symbols = symbols;
-        return Ok(groups);
-    }
-    Ok(shorter)
 }
 
 /// The largest number of terms of a sum that is multiplied out to be collected.

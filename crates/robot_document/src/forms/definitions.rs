@@ -10,6 +10,7 @@ use super::arranged::{is_short_product, known};
 use super::compact::{moving, short_terms, tidy};
 use super::letters::candidates;
 use super::naming::{Named, Worthy, worth_naming};
+use super::uses::Unnamed;
 use super::{Equation, Group, Writer, residues, shapes};
 use crate::error::Error;
 use crate::math::{Math, Script};
@@ -24,17 +25,15 @@ pub(super) struct Definitions<'g, 'h> {
     /// Whether parts of long expressions are named only if the whole does not become shorter without these names, as it
     /// does if terms cancel.
     pub(super) is_economical: bool,
-    roots: Vec<Expr<'g>>,
-    worthy: Vec<Worthy<'g>>,
+    pub(super) roots: Vec<Expr<'g>>,
+    pub(super) worthy: Vec<Worthy<'g>>,
     moving: FxHashSet<Id>,
-    /// Expressions whose definitions nothing uses in the end, as [`Definitions::unused`] finds them; they are not printed.
-    pub(super) omitted: FxHashSet<Id>,
-    /// Expressions that get no names, because these would be used once.
-    pub(super) inlined: FxHashSet<Id>,
+    /// Expressions that get no names.
+    pub(super) unnamed: Unnamed,
     /// The names of the expressions that are defined, by their values in the graph of the names.
     names: FxHashMap<Id, Expr<'h>>,
-    /// The defined expressions, by their names.
-    sources: FxHashMap<String, Id>,
+    /// The defined expressions, by their names, with those that are omitted.
+    pub(super) sources: FxHashMap<String, Id>,
     /// The values of names that stand for one product.
     products: FxHashMap<String, Expr<'h>>,
     /// Parts that possibly need no name.
@@ -104,8 +103,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             roots: roots.to_vec(),
             worthy: worth_naming(roots, digits),
             moving: moving(roots),
-            omitted: FxHashSet::default(),
-            inlined: FxHashSet::default(),
+            unnamed: Unnamed::default(),
             names: FxHashMap::default(),
             sources: FxHashMap::default(),
             products: FxHashMap::default(),
@@ -191,7 +189,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             let mut section =
                 Section { letter, title, count: 0, equations: vec![], groups: vec![] };
             for one in self.worthy.clone() {
-                let is_named = !self.inlined.contains(&one.expr.id());
+                let is_named = !self.unnamed.inlined.contains(&one.expr.id());
                 if is_named && self.moving.contains(&one.expr.id()) == of_state {
                     self.add(one, writer, &mut section)?;
                 }
@@ -300,10 +298,11 @@ impl<'g, 'h> Definitions<'g, 'h> {
             self.named.name(value, &name);
             return Ok(());
         }
-        if self.omitted.contains(&expr.id()) {
+        if self.unnamed.omitted.contains(&expr.id()) {
             let name = format!("{OMITTED}{}", self.names.len());
             self.named.name(expr, &name);
             self.names.insert(written.id(), self.named.graph.symbol(&name));
+            self.sources.insert(name, expr.id());
             return Ok(());
         }
         section.count += 1;
@@ -347,52 +346,6 @@ impl<'g, 'h> Definitions<'g, 'h> {
             }
         }
         shortest
-    }
-
-    /// The expressions whose names occur neither in the equations nor in a definition that they need.
-    pub(super) fn unused(&self, groups: &[Group]) -> FxHashSet<Id> {
-        let mut needed: FxHashSet<&str> = FxHashSet::default();
-        let mut unused = FxHashSet::default();
-        for equation in groups.iter().rev().flat_map(|group| group.equations.iter().rev()) {
-            match self.sources.get(&equation.name) {
-                Some(source) if !needed.contains(equation.name.as_str()) => {
-                    unused.insert(*source);
-                }
-                _ => needed.extend(equation.right.symbols()),
-            }
-        }
-        unused
-    }
-
-    /// The expressions whose names are used once in the equations, for each length in `longest`: of those that are named
-    /// because they are part of a long expression, the ones with at most so many bytes of text.
-    pub(super) fn used_once(&self, groups: &[Group], longest: [usize; 2]) -> [FxHashSet<Id>; 2] {
-        let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
-        let equations = || groups.iter().flat_map(|group| &group.equations);
-        for name in equations().flat_map(|equation| equation.right.symbols()) {
-            *uses.entry(name).or_default() += 1;
-        }
-        // Lines do not break within arguments and denominators.
-        let whole = walk::reachable(&self.roots).into_iter().filter_map(|part| match part.view() {
-            View::Call(_, inside) | View::Div(_, inside) => Some(inside),
-            _ => None,
-        });
-        let whole = walk::reachable(&whole.collect::<Vec<_>>());
-        let whole: FxHashSet<Id> = whole.into_iter().map(Expr::id).collect();
-        let cut = self.worthy.iter().filter(|one| one.is_cut).map(|one| one.expr.id());
-        let cut: FxHashSet<Id> = cut.collect();
-        let once = equations().filter(|equation| uses.get(equation.name.as_str()) == Some(&1));
-        let mut found = longest.map(|_| FxHashSet::default());
-        for equation in once {
-            let Some(source) = self.sources.get(&equation.name).copied() else { continue };
-            for (sources, longest) in found.iter_mut().zip(longest) {
-                let is_short = !cut.contains(&source) || equation.text.len() <= longest;
-                if is_short && !whole.contains(&source) {
-                    sources.insert(source);
-                }
-            }
-        }
-        found
     }
 
     /// Defines a joint torque under its own name.

@@ -1,6 +1,12 @@
 //! The coefficients of velocity products that are zero because the mass matrix does not depend on a joint position.
 
 use robot_model::robot::Robot;
+use robot_model::variable::JointVariable;
+use robot_symbolic::{Expr, walk};
+
+use super::Writer;
+use super::coefficients::motions;
+use super::naming::named_length;
 
 /// The joints of a robot, of which the mass matrix has an entry for each pair.
 ///
@@ -67,9 +73,40 @@ impl<'r> Joints<'r> {
     }
 }
 
+/// The joint torques without the joint velocities that do not act on them, for the same reason: in the recursion, their
+/// terms are in several parts, which cancel. A torque keeps them if it would share fewer parts with others, so that the
+/// equations would be longer.
+pub(super) fn without_velocities<'g>(
+    writer: &Writer<'_, 'g>,
+    mut torques: Vec<Expr<'g>>,
+) -> Vec<Expr<'g>> {
+    let joints = Joints::new(writer.robot);
+    let rates = motions(writer, JointVariable::Velocity);
+    let all = 0..rates.len();
+    let mut least = named_length(&torques, writer.options.digits);
+    for (index, torque) in torques.clone().into_iter().enumerate() {
+        // Friction is a function of the joint's own velocity.
+        let others = all.clone().filter(|j| !(writer.options.friction && *j == index));
+        let idle = others.filter(|j| all.clone().all(|k| joints.is_zero(index, *j, k)));
+        let idle: Vec<Expr<'g>> = idle.filter_map(|j| rates.get(j).copied()).collect();
+        let replace = |part: Expr<'g>| idle.contains(&part).then(|| writer.graph.zero());
+        let mut attempt = torques.clone();
+        if let Some(attempt) = attempt.get_mut(index) {
+            *attempt =
+                walk::rebuild_above(&[torque], writer.graph, replace).pop().unwrap_or(torque);
+        }
+        let length = named_length(&attempt, writer.options.digits);
+        if attempt != torques && length <= least {
+            (torques, least) = (attempt, length);
+        }
+    }
+    torques
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{EquationOptions, Form, equations};
 
     fn zeros(joints: &str) -> Vec<[usize; 3]> {
         let text = format!("format = 1\n[robot]\nname = \"arm\"\n{joints}");
@@ -113,5 +150,26 @@ mod tests {
         let mimic = "axis = \"z\", mimic = { joint = \"a\", ratio = 2 }";
         let chain = link("a", "", "axis = \"z\"") + &link("b", "", mimic);
         assert!(zeros(&chain).is_empty());
+    }
+
+    /// The recursion has centrifugal terms of a single joint, which cancel.
+    #[test]
+    fn a_single_joint_has_no_velocity_in_its_torque() {
+        let text = "format = 1\n[robot]\nname = \"one\"\n[[link]]\nname = \"1\"\n\
+             joint = { type = \"revolute\", axis = [1, 1, 0] }\n\
+             origin = { xyz = [0, 0, 0], rpy = [0.3, 0, 0] }\nmass = 2\n\
+             center_of_mass = [0.1, -0.05, 0.2]\n\
+             inertia = { xx = 0.3, yy = 0.35, zz = 0.4, xy = 0.01, yz = -0.02 }\n\
+             friction = { viscous = 2 }\n";
+        let robot = robot_model::description::read_toml("one", text).unwrap().robot;
+        for (friction, count) in [(false, 0), (true, 1)] {
+            let options =
+                EquationOptions { form: Form::Compact, friction, ..EquationOptions::default() };
+            let printed = equations(&robot, &options).unwrap();
+            let texts: String = printed.quantities().map(|one| one.text.as_str()).collect();
+            let all: Vec<&str> = printed.definitions().map(|one| one.text.as_str()).collect();
+            let found = [texts, all.concat()].concat();
+            assert_eq!(found.matches("qd1").count(), count, "{found}");
+        }
     }
 }

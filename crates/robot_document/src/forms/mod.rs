@@ -26,6 +26,7 @@ mod regrouped;
 mod residues;
 mod roots;
 mod shapes;
+mod uses;
 mod vectors;
 
 use std::borrow::Cow;

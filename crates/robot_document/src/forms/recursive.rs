@@ -5,36 +5,39 @@ use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, Graph, Id, PolynomialOptions, View};
+use robot_symbolic::{Expr, Graph, PolynomialOptions, View};
 use rustc_hash::FxHashSet;
 
-use super::compact::{definitions, tidy, without_unused};
+use super::compact::{definitions, tidy};
 use super::definitions::{Definitions, Root, positive};
 use super::letters::candidates;
 use super::naming::{Named, is_leaf, is_long_constant};
+use super::uses::{Attempt, Unnamed, without_unused};
 use super::vectors::{cell, column};
 use super::{Cell, Equation, Group, Writer, joint_torque, numbers, residues, shapes};
 use crate::error::Error;
 use crate::math::Math;
 
-pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
+pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, Error> {
     let effects = Effects { wrench: true, friction: writer.options.friction };
     let mut mechanism = writer.derivation().mechanism;
     numbers::round_links(writer, &mut mechanism);
     let iterations = newton_euler(&mechanism, effects);
-    without_unused(writer, |writer, omitted| written(writer, &mechanism, &iterations, omitted))
+    let write =
+        |writer: &mut Writer<'r, 'g>, unnamed| written(writer, &mechanism, &iterations, unnamed);
+    let (groups, ()) = without_unused(writer, write)?;
+    Ok(groups)
 }
 
-/// Writes the iterations with names for common parts except those `omitted`. Returns the groups and the common parts that
-/// nothing uses.
+/// Writes the iterations with names for common parts except those `unnamed`.
 fn written<'g>(
     writer: &mut Writer<'_, 'g>,
     mechanism: &Mechanism<'g>,
     iterations: &NewtonEuler<'g>,
-    omitted: FxHashSet<Id>,
-) -> Result<(Vec<Group>, FxHashSet<Id>), Error> {
+    unnamed: Unnamed,
+) -> Result<Attempt<()>, Error> {
     let target = Graph::new();
-    let (mut groups, mut list) = link_values(writer, mechanism, &target, omitted)?;
+    let (mut groups, mut list) = link_values(writer, mechanism, &target, unnamed)?;
     let named = &mut list.named;
     let mut printed = FxHashSet::default();
     for (index, motion) in iterations.motions.iter().enumerate() {
@@ -66,8 +69,8 @@ fn written<'g>(
     }
     groups.push(joint_torques(writer, &iterations.joint_torques, named)?);
     leave_unused(&mut groups);
-    let unused = list.unused(&groups);
-    Ok((groups, unused))
+    let uses = list.uses(&groups);
+    Ok(Attempt { groups, uses, more: () })
 }
 
 /// Removes the values of links that no equation needs, such as moments of inertia about axes that do not turn.
@@ -93,7 +96,7 @@ fn link_values<'g, 'h>(
     writer: &mut Writer<'_, '_>,
     mechanism: &Mechanism<'g>,
     target: &'h Graph,
-    omitted: FxHashSet<Id>,
+    unnamed: Unnamed,
 ) -> Result<(Vec<Group>, Definitions<'g, 'h>), Error> {
     let letter = writer.symbols.free_letter(&candidates::LINK_MASS);
     let mut link_values: Vec<(String, Math, Expr<'g>)> = vec![];
@@ -121,7 +124,7 @@ fn link_values<'g, 'h>(
     // Numbers do not depend on each other.
     let is_plain = link_values.iter().all(|(_, _, value)| is_leaf(*value));
     let order: Vec<String> = link_values.iter().map(|(name, _, _)| name.clone()).collect();
-    let (groups, mut list) = definitions(writer, roots, target, omitted)?;
+    let (groups, mut list) = definitions(writer, roots, target, unnamed)?;
     let named = &mut list.named;
     let mut all: Vec<Equation> = groups.into_iter().flat_map(|group| group.equations).collect();
     for (name, left, expr) in link_values {

@@ -265,7 +265,7 @@ pub static JOINT: Shape = Shape {
 
 /// `mimic`.
 pub static MIMIC: Shape = Shape {
-    what: "a mimic",
+    what: "a `mimic` table",
     doc: "Position = ratio * position of the leading joint + offset.",
     keys: &[
         needed("joint", Label, "The leading joint."),
@@ -311,7 +311,7 @@ pub static INERTIA: Shape = Shape {
 
 /// `friction`.
 pub static FRICTION: Shape = Shape {
-    what: "a friction",
+    what: "a `friction` table",
     doc: "Friction in a joint.",
     keys: &[
         key("viscous", Formula, "Viscous friction b, N m s/rad or N s/m."),

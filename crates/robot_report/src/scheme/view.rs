@@ -14,7 +14,7 @@ pub(crate) struct View {
     up: Vector3<f64>,
     /// The direction out of the page, toward the viewer.
     toward: Vector3<f64>,
-    /// The direction opposite to gravity, along a base axis.
+    /// The base axis that is nearest to the direction opposite to gravity; z without gravity.
     pub(crate) vertical: Vector3<f64>,
 }
 
@@ -22,7 +22,7 @@ pub(crate) struct View {
 const ANGLES: [[f64; 2]; 6] =
     [[28.0, 20.0], [40.0, 24.0], [16.0, 18.0], [55.0, 22.0], [-25.0, 20.0], [-45.0, 24.0]];
 
-/// The views, with gravity pointing down the page and the next base axis toward the viewer.
+/// The views, with the [vertical](View::vertical) pointing up the page and the next base axis toward the viewer.
 pub(crate) fn views(robot: &Robot) -> [View; 6] {
     let [up, front] = upright(robot);
     let side = up.cross(&front);
@@ -36,7 +36,7 @@ pub(crate) fn views(robot: &Robot) -> [View; 6] {
     ANGLES.map(view)
 }
 
-/// The base axis that points away from gravity, and the next one, which points toward the viewer.
+/// The [vertical](View::vertical) base axis, and the next one, which points toward the viewer.
 pub(crate) fn upright(robot: &Robot) -> [Vector3<f64>; 2] {
     let gravity = robot.gravity.each_ref().map(|part| text::value(robot, part));
     let gravity = Vector3::from(gravity.map(|part| if part.is_finite() { part } else { 0.0 }));

@@ -174,8 +174,8 @@ mod x86 {
     /// The features of the processor, after it has been queried.
     static LEVEL: AtomicU8 = AtomicU8::new(PLAIN);
 
-    /// The features of the processor as known so far. With debug assertions this is a call, so that callers have no
-    /// branches inside in either case.
+    /// The features of the processor as known so far. With debug assertions this is a call, so that callers do not
+    /// contain the branches of an unoptimized load.
     #[cfg_attr(debug_assertions, inline(never))]
     #[cfg_attr(not(debug_assertions), inline(always))]
     fn detected_level() -> u8 {

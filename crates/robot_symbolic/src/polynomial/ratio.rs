@@ -18,16 +18,17 @@ struct Ratio<'g> {
     below: Vec<Polynomial<'g>>,
 }
 
-/// An expression of symbols and numbers as a sum of terms over a product of sums, from which the sums that divide the
-/// others and the numerator are canceled: (a³ + a b²)/(a⁴ + a² b²) becomes 1/a. `None` if the expression contains
-/// functions, or if a numerator or a divisor exceeds a limit of the options.
+/// An expression as a sum of terms over a product of sums, from which the sums that divide the others and the numerator
+/// are canceled: (a³ + a b²)/(a⁴ + a² b²) becomes 1/a. `None` if a numerator or a divisor exceeds a limit of the options.
 #[must_use]
 pub fn reduced<'g>(expr: Expr<'g>, options: &PolynomialOptions) -> Option<Expr<'g>> {
     let mut known: FxHashMap<Id, Ratio<'g>> = FxHashMap::default();
     for part in walk::reachable(&[expr]) {
         let of = |operand: Expr<'g>| known.get(&operand.id()).cloned();
         let ratio = match part.view() {
-            View::Number(_) | View::Symbol(_) => {
+            // Squares of sines and roots are other terms in a polynomial. A division can then leave a remainder where there
+            // is none, but not the reverse.
+            View::Number(_) | View::Symbol(_) | View::Pi | View::Call(..) => {
                 Ratio { above: Polynomial::of(part, options).ok()?, below: vec![] }
             }
             View::Neg(a) => {
@@ -41,7 +42,6 @@ pub fn reduced<'g>(expr: Expr<'g>, options: &PolynomialOptions) -> Option<Expr<'
             }
             View::Mul(a, b) => of(a)?.times(of(b)?)?,
             View::Div(a, b) => of(a)?.times(of(b)?.inverse()?)?,
-            View::Call(..) | View::Pi => return None,
         };
         known.insert(part.id(), ratio.canceled()?);
     }
@@ -161,6 +161,8 @@ mod tests {
             ("(2*a + 2*b)/(4*a + 4*b)", "1/2"),
             ("(a + b)/(a - b)", "(a + b)/(a - b)"),
             ("a*(b/(b + c) + c/(b + c))", "a"),
+            ("(a*sin(q) + a*sin(q)*cos(q)^2)/(1 + cos(q)^2)/cos(q)", "a*sin(q)/cos(q)"),
+            ("(a + sqrt(2)*b)*c/(a*c + sqrt(2)*b*c)", "1"),
         ] {
             let graph = Graph::new();
             let [from, to] = [given, expected].map(|text| graph.parse(text).unwrap());
@@ -182,8 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn functions_and_long_quotients_are_left() {
-        assert_eq!(text("sin(a)/(a + b)"), None);
+    fn long_quotients_are_left() {
         let limits = PolynomialOptions { max_terms: 10, ..PolynomialOptions::default() };
         let graph = Graph::new();
         let long = graph.parse("(a + b + c + d)^5/(a - b)").unwrap();

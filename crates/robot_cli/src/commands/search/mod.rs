@@ -6,11 +6,11 @@ use std::time::SystemTime;
 
 use clap::Args;
 use robot_build::{
-    Options, Output, Ownership, counted, pin_text, robot_inputs, shown, snapping, system_reason,
+    Options, Output, Ownership, pin_text, robot_inputs, search_code, shown, snapping, system_reason,
 };
 use robot_dynamics::economical::Plan;
 use robot_dynamics::economical::plan::{Entry, LinkPlan, Origin, Turn};
-use robot_dynamics::economical::search::{Found, Measure, search};
+use robot_dynamics::economical::search::{Found, Measure};
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::robot::Robot;
 
@@ -80,10 +80,10 @@ impl Arguments {
         let measure = if self.fused { Measure::Instructions } else { Measure::Operations };
         let find = || match self.tune {
             true => tune::search(&robot, (&options, measure), &self.code_options()),
-            false => match search(&robot, &options, measure) {
-                Some(found) => Ok(Some((counted(&robot, found, self.robot.snap())?, vec![]))),
-                None => Ok(None),
-            },
+            false => {
+                let found = search_code(&robot, measure, self.robot.snap())?;
+                Ok(found.map(|found| (found, vec![])))
+            }
         };
         let Some((found, times)) = watched("searching", terminal, find)? else {
             return Err(Failure::input(format!(

@@ -10,7 +10,7 @@ use super::variables::Variables;
 use crate::module::Function;
 use crate::program::{Limits, Operation, Statements};
 
-/// The fewest operations of a function that is compiled for several processors; shorter ones are equally fast without.
+/// The fewest operations of a function that is compiled for several processors; a shorter one would not become faster.
 const LEAST_OPERATIONS: usize = 16;
 
 /// Whether a function is compiled for several processors. Tiny functions are not, nor are functions that are cut into

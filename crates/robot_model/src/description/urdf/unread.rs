@@ -80,7 +80,7 @@ fn friction(reader: &mut Reader<'_>, joints: &[UrdfJoint<'_>]) {
 fn drives(reader: &mut Reader<'_>, places: &[Span]) {
     let Some(first) = places.first() else { return };
     let count = counted(places.len(), "transmission");
-    let message = format!("{count}: gear ratio and motor inertia are not part of the robot");
+    let message = format!("{count}: gear ratio and rotor inertia are not part of the robot");
     reader.report(
         Diagnostic::note(code::LEFT_OUT, message)
             .at(first, "")

@@ -1,0 +1,126 @@
+//! How often the names of common parts are used: those that nothing uses in the end are not defined.
+
+use robot_symbolic::{Expr, Id, View, walk};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::definitions::{Definitions, is_omitted};
+use super::{Group, Writer};
+use crate::error::Error;
+
+/// Equations with names for common parts.
+pub(super) struct Attempt<T> {
+    pub(super) groups: Vec<Group>,
+    pub(super) uses: Uses,
+    /// What else is known of the equations.
+    pub(super) more: T,
+}
+
+/// The expressions whose definitions are one too many or are missing.
+pub(super) struct Uses {
+    /// Those whose names occur neither in the equations nor in a definition that they need.
+    pub(super) unused: FxHashSet<Id>,
+    /// Those that were omitted and whose names occur.
+    pub(super) missing: FxHashSet<Id>,
+}
+
+/// The expressions that get no names although they are common parts.
+#[derive(Clone, Default)]
+pub(super) struct Unnamed {
+    /// Those whose names nothing uses in the end: their definitions are not printed.
+    pub(super) omitted: FxHashSet<Id>,
+    /// Those that are written where they are used.
+    pub(super) inlined: FxHashSet<Id>,
+}
+
+/// The largest number of attempts to leave out the names that nothing uses.
+const ATTEMPTS: usize = 5;
+
+/// Returns what `write` writes, without the names that nothing uses in the end, such as those of parts that cancel.
+/// `write` gives no names to the expressions that it is given.
+pub(super) fn without_unused<'r, 'g, T>(
+    writer: &mut Writer<'r, 'g>,
+    write: impl Fn(&mut Writer<'r, 'g>, Unnamed) -> Result<Attempt<T>, Error>,
+) -> Result<(Vec<Group>, T), Error> {
+    let symbols = writer.symbols.clone();
+    let mut best = write(writer, Unnamed::default())?;
+    let mut unnamed = Unnamed { omitted: best.uses.unused.clone(), inlined: FxHashSet::default() };
+    for _ in 0..ATTEMPTS {
+        if best.uses.unused.is_empty() {
+            break;
+        }
+        let known = std::mem::replace(&mut writer.symbols, symbols.clone());
+        let Attempt { groups, uses, more } = write(writer, unnamed.clone())?;
+        let is_better = uses.missing.is_empty()
+            && uses.unused.len() < best.uses.unused.len()
+            && printed_length(&groups) <= printed_length(&best.groups);
+        unnamed.omitted.extend(&uses.unused);
+        // Without some names, the others have another order, in which factors and terms are collected otherwise, and a
+        // name can be used that was not.
+        unnamed.omitted.retain(|one| !uses.missing.contains(one));
+        unnamed.inlined.extend(&uses.missing);
+        if is_better {
+            best = Attempt { groups, uses, more };
+        } else {
+            writer.symbols = known;
+        }
+    }
+    Ok((best.groups, best.more))
+}
+
+/// The number of bytes of the equations as text.
+pub(super) fn printed_length(groups: &[Group]) -> usize {
+    let equations = groups.iter().flat_map(|group| &group.equations);
+    equations.map(|equation| equation.name.len() + equation.text.len()).sum()
+}
+
+impl Definitions<'_, '_> {
+    /// The expressions whose definitions are one too many or are missing in the equations.
+    pub(super) fn uses(&self, groups: &[Group]) -> Uses {
+        let mut needed: FxHashSet<&str> = FxHashSet::default();
+        let mut unused = FxHashSet::default();
+        for equation in groups.iter().rev().flat_map(|group| group.equations.iter().rev()) {
+            match self.sources.get(&equation.name) {
+                Some(source) if !needed.contains(equation.name.as_str()) => {
+                    unused.insert(*source);
+                }
+                _ => needed.extend(equation.right.symbols()),
+            }
+        }
+        let equations = groups.iter().flat_map(|group| &group.equations);
+        let missing = equations.flat_map(|equation| equation.right.symbols());
+        let missing = missing.filter(|name| is_omitted(name));
+        let missing = missing.filter_map(|name| self.sources.get(name).copied()).collect();
+        Uses { unused, missing }
+    }
+
+    /// The expressions whose names are used once in the equations, for each length in `longest`: of those that are named
+    /// because they are part of a long expression, the ones with at most so many bytes of text.
+    pub(super) fn used_once(&self, groups: &[Group], longest: [usize; 2]) -> [FxHashSet<Id>; 2] {
+        let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
+        let equations = || groups.iter().flat_map(|group| &group.equations);
+        for name in equations().flat_map(|equation| equation.right.symbols()) {
+            *uses.entry(name).or_default() += 1;
+        }
+        // Lines do not break within arguments and denominators.
+        let whole = walk::reachable(&self.roots).into_iter().filter_map(|part| match part.view() {
+            View::Call(_, inside) | View::Div(_, inside) => Some(inside),
+            _ => None,
+        });
+        let whole = walk::reachable(&whole.collect::<Vec<_>>());
+        let whole: FxHashSet<Id> = whole.into_iter().map(Expr::id).collect();
+        let cut = self.worthy.iter().filter(|one| one.is_cut).map(|one| one.expr.id());
+        let cut: FxHashSet<Id> = cut.collect();
+        let once = equations().filter(|equation| uses.get(equation.name.as_str()) == Some(&1));
+        let mut found = longest.map(|_| FxHashSet::default());
+        for equation in once {
+            let Some(source) = self.sources.get(&equation.name).copied() else { continue };
+            for (sources, longest) in found.iter_mut().zip(longest) {
+                let is_short = !cut.contains(&source) || equation.text.len() <= longest;
+                if is_short && !whole.contains(&source) {
+                    sources.insert(source);
+                }
+            }
+        }
+        found
+    }
+}
