@@ -135,3 +135,24 @@ fn every_option_of_code_reaches_the_module() {
     }
     assert_eq!(codes.len(), 2 + 8);
 }
+
+/// The torques of three pendulums do not depend on velocities, so nothing is stored in that matrix.
+#[test]
+fn a_matrix_of_zeros_is_not_mutable() {
+    let link = |name: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\nparent = \"base\"\n\
+             joint = {{ type = \"revolute\", axis = \"z\" }}\nmass = 1\n\
+             center_of_mass = [0.1, 0.2, 0]\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+        )
+    };
+    let links = ["1", "2", "3", "4"].map(link).concat();
+    let text = format!("format = 1\n[robot]\nname = \"clocks\"\ngravity = [0, -9.81, 0]\n{links}");
+    let source = Source { name: "clocks.toml".to_owned(), text };
+    let functions = robot_build::FunctionKind::from_name("inverse_dynamics_derivatives").unwrap();
+    let functions = Functions::Chosen(vec![functions]);
+    let options = Options { batch: Some(4), functions, ..Options::default() };
+    let code = generate(&source, &options).unwrap().code;
+    assert!(code.contains("let mut dtau_dq = [[[0.0; 4]; 4]; 4];"), "{code}");
+    assert!(code.contains("let dtau_dqd = [[[0.0; 4]; 4]; 4];"), "{code}");
+}

@@ -150,7 +150,7 @@ fn without_comments(text: &str, notation: Notation) -> String {
     clean.extend(std::iter::repeat_n(' ', text.len() - unmarked.len()));
     for line in unmarked.split_inclusive('\n') {
         let comment = match notation {
-            Notation::Text => line.trim_start().starts_with('#').then_some(0),
+            Notation::Text => line.find('#'),
             Notation::Latex => percent(line),
         };
         let end = line.trim_end_matches(['\n', '\r']).len();

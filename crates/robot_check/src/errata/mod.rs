@@ -110,7 +110,7 @@ pub struct Comparison {
 /// tips are only included if one of the equations contains one of their symbols.
 ///
 /// An equation is `(number) quantity = terms`; the number is optional. In infix text, it is on one line, which indented
-/// lines may continue; `#` begins a comment line. In LaTeX, it is also on one line, or in a display (`equation`,
+/// lines may continue; `#` begins a comment. In LaTeX, it is also on one line, or in a display (`equation`,
 /// `align` …), in which case all other text is ignored; a vector may be a column of three rows.
 ///
 /// # Errors

@@ -20,12 +20,14 @@ pub enum Notation {
 }
 
 impl Notation {
-    /// Guesses the notation of a text: infix text contains backslashes only in comments.
+    /// Guesses the notation of a text: infix text contains backslashes, dollar signs and braces after `_` and `^` only in
+    /// comments.
     #[must_use]
     pub fn detect(text: &str) -> Notation {
         let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-        let mut lines = text.lines().filter(|line| !line.trim_start().starts_with('#'));
-        if lines.any(|line| line.contains('\\')) { Notation::Latex } else { Notation::Text }
+        let mut lines = text.lines().map(|line| line.split('#').next().unwrap_or_default());
+        let is_latex = |line: &str| ["\\", "$", "_{", "^{"].iter().any(|sign| line.contains(sign));
+        if lines.any(is_latex) { Notation::Latex } else { Notation::Text }
     }
 }
 

@@ -41,6 +41,14 @@ pub(super) fn is_computed(printed: &Number, derived: &Number) -> bool {
     }
 }
 
+/// The largest error of a sum of decimals, relative to the derived coefficient, from which on a wrong digit is seen.
+const SMALL: f64 = 1e-8;
+
+/// Whether the largest error of a sum of decimals is that of decimals with many digits.
+pub(super) fn is_small(error: &Number, derived: &Number) -> bool {
+    error.to_f64() <= SMALL * derived.to_f64().abs()
+}
+
 /// Whether a printed coefficient, of which `error` is the largest error, stands for a derived one, or for the nearest
 /// `f64` to it, from which programs print numbers.
 pub(super) fn stands_for(printed: &Number, derived: &Number, error: &Number) -> bool {

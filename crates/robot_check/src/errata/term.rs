@@ -112,16 +112,24 @@ struct Sum {
 }
 
 impl Sum {
+    /// The largest error; `None` if the sum is exact.
+    fn rounding(&self) -> Option<Number> {
+        self.roundings.iter().cloned().reduce(|sum, one| &sum + &one)
+    }
+
     fn add(&mut self, term: &Term<'_>) {
         self.coefficient = &self.coefficient + &term.coefficient;
         self.roundings.extend(term.rounding.clone());
     }
 
-    /// Whether the sum stands for a derived coefficient. Of several decimals, each might have a wrong digit although
-    /// their sum is right to its digits, so they have to be exact.
+    /// Whether the sum stands for a derived coefficient. Of several short decimals, each might have a wrong digit although
+    /// their sum is right to its digits, so they have to be exact. Programs print long ones.
     fn stands_for(&self, derived: &Number) -> bool {
-        let rounded = match &self.roundings[..] {
-            [error] => rounding::stands_for(&self.coefficient, derived, error),
+        let error = self.rounding();
+        let rounded = match &error {
+            Some(error) if self.roundings.len() == 1 || rounding::is_small(error, derived) => {
+                rounding::stands_for(&self.coefficient, derived, error)
+            }
             _ => rounding::is_computed(&self.coefficient, derived),
         };
         rounded
@@ -143,7 +151,8 @@ pub(super) struct Leftover<'g> {
 
 /// Removes the terms on which a printed and a derived equation agree.
 ///
-/// Like terms may be printed separately: if their sum is the derived term, all of them are right.
+/// Like terms may be printed separately: if their sum is the derived term, all of them are right. If neither the sum nor
+/// one of them is, their sum is the wrong term.
 pub(super) fn leftover<'g>(printed: &[Term<'g>], derived: &[Term<'g>]) -> Leftover<'g> {
     let mut sums: HashMap<Key, Sum> = HashMap::default();
     for term in printed {
@@ -179,7 +188,19 @@ pub(super) fn leftover<'g>(printed: &[Term<'g>], derived: &[Term<'g>]) -> Leftov
         };
         match like.find(stands).and_then(|place| wrong.get_mut(place)).and_then(Option::take) {
             Some(right) => left.rounded += usize::from(right.coefficient != term.coefficient),
-            None => left.missing.push(term.clone()),
+            None => {
+                left.missing.push(term.clone());
+                let mut like = places.get(&key).into_iter().flatten();
+                if let (Some(first), Some(sum)) = (like.next(), sums.get(&key)) {
+                    if let Some(Some(first)) = wrong.get_mut(*first) {
+                        first.coefficient = sum.coefficient.clone();
+                        first.rounding = None;
+                    }
+                    for place in like {
+                        wrong[*place] = None;
+                    }
+                }
+            }
         }
     }
     left.wrong = wrong.into_iter().flatten().collect();

@@ -215,10 +215,11 @@ fn latex_is_compared_as_text_is() {
 #[test]
 fn a_byte_order_mark_is_not_part_of_the_equations() {
     let robot = robot("planar_2r");
-    let equation = "Q2 = m2*r2^2*qdd1 # not a comment here\n";
+    let equation = "Q2 = m2*r2^2*qdd1 @ # a comment\n";
     for (text, notation) in [
         ("# The equations, \\emph{as printed}.\n(2) Q2 = I2*(qdd1 + qdd2)\n", Notation::Text),
-        ("(2) Q2 = I2*(qdd1 + qdd2)\n", Notation::Text),
+        ("(2) Q2 = I2*(qdd1 + qdd2) # as \\emph{printed}\n", Notation::Text),
+        ("Q_{2} = I_2*(qdd1 + qdd2)\n", Notation::Latex),
         ("% As printed.\n\\[ Q_2 = I_2 (\\ddot q_1 + \\ddot q_2) \\]\n", Notation::Latex),
     ] {
         let marked = format!("\u{feff}{text}");
@@ -473,6 +474,9 @@ fn a_wrong_digit_is_a_difference() {
     // Of two rounded numbers, one may be wrong although their sum is right to its digits.
     assert_eq!(rounded("1.126125", "0.563*qdd1 + 0.563*qdd1").0, 0);
     assert!(!rounded("1.126125", "0.563*qdd1 + 0.563*qdd1").1.is_empty());
+    // Decimals that programs print.
+    assert!(rounded("1.126125", "0.5630625001*qdd1 + 0.5630624999*qdd1").1.is_empty());
+    assert!(!rounded("1.126125", "0.5630625101*qdd1 + 0.5630624999*qdd1").1.is_empty());
     // A difference of another kind is not also one of the coefficient.
     assert_eq!(rounded("1.126125", "-1.126*qdd1").1, ["sign"]);
     assert_eq!(rounded("1.126125", "1.126*qd1").1, ["dot: qd1 for qdd1"]);

@@ -83,6 +83,9 @@ impl StateArguments {
 /// Parses a wrench such as `0,0,-10,0,0,0` or `left=0,0,-10,0,0,0`.
 fn wrench(text: &str, layout: &Layout) -> Result<(usize, Vec<f64>), Vec<String>> {
     let (tip, entries) = text.split_once('=').map_or(("", text), |(tip, rest)| (tip.trim(), rest));
+    if tip.is_empty() && text.contains('=') {
+        return Err(vec!["--wrench: the name before `=` is missing".to_owned()]);
+    }
     let name = if tip.is_empty() { WRENCH.to_owned() } else { format!("{WRENCH}_{tip}") };
     let Some(index) = layout.position(&name) else {
         let of_tip = |name: &&str| name.starts_with(&format!("{WRENCH}_"));

@@ -162,3 +162,32 @@ fn the_tables_of_functions_are_the_declared_ones() {
         }
     }
 }
+
+/// In code, each function of a frame has the same name whichever other functions are generated, also for names that are
+/// alike as identifiers or long.
+#[test]
+fn the_name_of_a_function_does_not_depend_on_others() {
+    let text = std::fs::read_to_string(robot("planar_2r")).unwrap();
+    let text = text.split("[tip]").next().unwrap();
+    let frame = |name: &str| format!("\n[[frame]]\nname = \"{name}\"\nparent = \"1\"\n");
+    let long = ["x", "y"].map(|end| format!("{}{end}", "a_long_name_".repeat(5)));
+    let names = ["a", "a_", "_a", "b__c", "b_c", "__", &long[0], &long[1]];
+    let path = folder("functions-alike").join("arm.toml");
+    std::fs::write(&path, format!("{text}{}", names.map(frame).concat())).unwrap();
+    let file = path.to_str().unwrap();
+    let generated = |language: &str, function: &str| {
+        let shown = output(&["generate", file, "--function", function, "--language", language], "");
+        move |name: &str| shown.contains(&format!("{name}("))
+    };
+    let known = output(&["stats", file, "--function", "jacobian,jacobian_1"], "");
+    let known: Value = serde_json::from_str(&known).unwrap();
+    let known: Vec<&String> = known["functions"].as_object().unwrap().keys().collect();
+    assert_eq!(known.len(), names.len() + 1);
+    for language in ["rust", "c", "python"] {
+        let all = generated(language, "jacobian,jacobian_1");
+        for function in &known {
+            assert!(function.len() <= 63 && all(function), "{language}: {function}");
+            assert!(generated(language, function)(function), "{language}: {function}");
+        }
+    }
+}

@@ -10,8 +10,8 @@ use super::definitions::{Definitions, Root};
 use super::naming::is_leaf;
 use super::uses::{Attempt, Unnamed, printed_length, without_unused};
 use super::{
-    Equation, Group, Writer, angle_sums, arranged, canceled, independent, numbers, of_joint_torque,
-    residues, vectors,
+    Equation, Group, Writer, angle_sums, arranged, canceled, independent, multiples, numbers,
+    of_joint_torque, residues, vectors,
 };
 use crate::error::Error;
 use crate::layout::{BRACKETS, is_motion};
@@ -32,6 +32,7 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
     let values = numbers::rounded(writer, &values);
     let values = canceled::with_single_terms(&values, writer.graph);
     let values = canceled::without_canceled_terms(&values, writer.graph);
+    let values = multiples::united(&values, writer.graph, writer.options.digits);
     for (quantity, value) in quantities.iter_mut().zip(&values) {
         quantity.value = *value;
     }
@@ -106,7 +107,7 @@ fn written<'g, 'h>(
         let (name, left) = (quantity.symbol.to_string(), writer.look(quantity.symbol));
         equations.push(match list.torque_equation(quantity.symbol) {
             Some(equation) => equation,
-            None => tidy(writer, name, left, list.named.rewritten(quantity.value))?,
+            None => list.tidy(writer, name, left, list.named.rewritten(quantity.value))?,
         });
     }
     let arrays = vectors::of_quantities(quantities, &equations, writer.options.paper);

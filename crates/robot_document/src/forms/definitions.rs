@@ -7,8 +7,9 @@ use robot_symbolic::{Expr, Graph, Id, PolynomialOptions, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::arranged::{is_short_product, known};
-use super::compact::{moving, short_terms, tidy};
+use super::compact::{moving, short_terms};
 use super::letters::candidates;
+use super::multiples::Multiples;
 use super::naming::{Named, Worthy, worth_naming};
 use super::uses::Unnamed;
 use super::{Equation, Group, Writer, residues, shapes};
@@ -34,6 +35,8 @@ pub(super) struct Definitions<'g, 'h> {
     names: FxHashMap<Id, Expr<'h>>,
     /// The defined expressions, by their names, with those that are omitted.
     pub(super) sources: FxHashMap<String, Id>,
+    /// The names of defined sums.
+    sums: Multiples<'h>,
     /// The values of names that stand for one product.
     products: FxHashMap<String, Expr<'h>>,
     /// Parts that possibly need no name.
@@ -106,6 +109,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             unnamed: Unnamed::default(),
             names: FxHashMap::default(),
             sources: FxHashMap::default(),
+            sums: Multiples::default(),
             products: FxHashMap::default(),
             pending: vec![],
             named_torques: vec![],
@@ -280,6 +284,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
             value = arranged_value(&shorter, self.named.graph);
             terms = shorter;
         }
+        terms = self.with_sums(writer, terms);
         let written = arranged_value(&terms, self.named.graph);
         let same = self.names.get(&written.id()).copied();
         if let Some(known) = same.or_else(|| known(&terms, self.named.graph)) {
@@ -294,7 +299,7 @@ impl<'g, 'h> Definitions<'g, 'h> {
         if let Some(place) = self.entries.iter().position(|entry| positive(entry.value) == expr) {
             let Root { name, look, value } = self.entries.swap_remove(place);
             let renamed = self.named.rewritten(value);
-            section.equations.push(tidy(writer, name.clone(), look, renamed)?);
+            section.equations.push(self.tidy(writer, name.clone(), look, renamed)?);
             self.named.name(value, &name);
             return Ok(());
         }
@@ -313,11 +318,40 @@ impl<'g, 'h> Definitions<'g, 'h> {
         section.equations.push(writer.of_terms(name.clone(), left, &terms)?);
         self.named.name(expr, &name);
         self.names.insert(written.id(), self.named.graph.symbol(&name));
-        if let [_] = terms.as_slice() {
-            self.products.insert(name.clone(), written);
+        match terms.as_slice() {
+            [_] => drop(self.products.insert(name.clone(), written)),
+            _ => self.sums.insert(written, self.named.graph.symbol(&name)),
         }
         self.sources.insert(name, expr.id());
         Ok(())
+    }
+
+    /// An equation whose right side has collected powers and sorted factors, with the names of sums that are defined.
+    pub(super) fn tidy(
+        &self,
+        writer: &Writer<'_, '_>,
+        name: String,
+        left: Math,
+        value: Expr<'h>,
+    ) -> Result<Equation, Error> {
+        let terms = self.with_sums(writer, short_terms(writer, value));
+        writer.of_terms(name, left, &terms)
+    }
+
+    /// The terms with the names of sums that are defined, if they are not longer: sums that are collected can be
+    /// multiples of these.
+    fn with_sums(
+        &self,
+        writer: &Writer<'_, '_>,
+        terms: Vec<ArrangedTerm<'h>>,
+    ) -> Vec<ArrangedTerm<'h>> {
+        let value = arranged_value(&terms, self.named.graph);
+        let named = self.sums.within(value);
+        if named == value {
+            return terms;
+        }
+        let shorter = short_terms(writer, named);
+        if length(&shorter) <= length(&terms) { shorter } else { terms }
     }
 
     /// Writes names of products as products if this makes an expression shorter by more than a fifth, because terms
@@ -350,12 +384,16 @@ impl<'g, 'h> Definitions<'g, 'h> {
 
     /// Defines a joint torque under its own name.
     fn emit_torque(&mut self, place: usize, writer: &mut Writer<'_, '_>) -> Result<(), Error> {
-        let Some(torque) = self.named_torques.get_mut(place) else { return Ok(()) };
-        let value = self.named.rewritten(torque.value);
-        let left = writer.look(torque.symbol);
-        torque.equation = Some(tidy(writer, torque.symbol.to_string(), left, value)?);
+        let Some(torque) = self.named_torques.get(place) else { return Ok(()) };
+        let (value, symbol) = (torque.value, torque.symbol);
         writer.define(&torque.name, torque.look.clone())?;
-        self.named.name(torque.value, &torque.name);
+        let left = writer.look(symbol);
+        let renamed = self.named.rewritten(value);
+        let equation = self.tidy(writer, symbol.to_string(), left, renamed)?;
+        if let Some(torque) = self.named_torques.get_mut(place) {
+            torque.equation = Some(equation);
+            self.named.name(value, &torque.name);
+        }
         self.defined.push(place);
         Ok(())
     }

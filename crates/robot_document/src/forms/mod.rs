@@ -14,6 +14,7 @@ mod independent;
 mod letters;
 mod loads;
 mod matrices;
+mod multiples;
 mod naming;
 mod numbers;
 mod options;

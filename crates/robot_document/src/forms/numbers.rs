@@ -41,7 +41,7 @@ struct Constant {
 impl Constant {
     /// Whether the constant is printed as a decimal.
     fn is_decimal(&self) -> bool {
-        let is_long = self.digits > MOST_DIGITS || self.sums > 1 || self.angles > 1;
+        let is_long = self.digits > MOST_DIGITS || self.sums > 1 || self.angles > 0;
         let is_product = self.sums == 0 && self.angles < 2;
         let is_decimal = self.has_long_root || self.has_function && is_long && !is_product;
         is_decimal && self.value.value().is_finite()
@@ -245,6 +245,8 @@ mod tests {
         assert_eq!(decimals("(0.007735484874 - 0.00365*sqrt(2))*sin(q1)"), expected);
         let negative = format!("-{expected}");
         assert_eq!(decimals("(0.00365*sqrt(2) - 0.007735484874)*sin(q1)"), negative);
+        let value = 0.022 + 0.0045 * 0.3_f64.cos();
+        assert_eq!(decimals("(0.022 + 0.0045*cos(0.3))*l1"), format!("{value}*l1"));
         let value = 0.1_f64.sin() * 0.3_f64.sin();
         assert_eq!(decimals("sin(0.1)*sin(0.3)*l1"), format!("{value}*l1"));
         // Several short numbers are long together.

@@ -11,8 +11,9 @@ const DIGITS: f64 = 1e3;
 /// The largest rounding error of an angle whose sine can be computed, rad.
 const ANGLE: f64 = 1e-6;
 
-/// The reason why the sine of a large angle cannot be computed.
-pub(super) const LARGE_ANGLE: &str = "the angle is too large for its sine to be computed";
+/// The reason why the sine of a rounded large angle cannot be computed.
+pub(super) const LARGE_ANGLE: &str =
+    "rounding errors of the angle are above 1e-6 rad, so its sine is not known";
 
 /// A value and a bound on its rounding error.
 #[derive(Clone, Copy)]

@@ -87,11 +87,29 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
     found
 }
 
-/// The name in lower case, with `_` for all characters that an identifier cannot have.
+/// The name in lower case, with one `_` for the characters between those that an identifier can have, and none at its
+/// ends: printers of code write names of functions like this, too, and the name of a function must not depend on which
+/// other functions are generated. A name that would be longer than that of any function in any language, or empty, ends
+/// with the frame's number.
 fn identifier(frame: FrameRef, robot: &Robot) -> String {
-    let fits = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
-    frame.name(robot).unwrap_or_default().chars().map(fits).collect()
+    let name = frame.name(robot).unwrap_or_default().to_ascii_lowercase();
+    let words = name.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    let name = words.collect::<Vec<_>>().join("_");
+    let (what, number) = match frame {
+        FrameRef::Named(index) => ("frame", index + 1),
+        FrameRef::Link(index) => ("link", index + 1),
+    };
+    match name.get(..SHORTENED) {
+        _ if name.is_empty() => format!("{what}_{number}"),
+        Some(start) if name.len() > LONGEST => format!("{}_{number}", start.trim_end_matches('_')),
+        _ => name,
+    }
 }
+
+/// The largest length of a suffix: with `jacobian_dot_qd_`, a name has the 63 characters that MATLAB and C distinguish.
+const LONGEST: usize = 47;
+/// The length to which a longer suffix is cut, with room for a number and what makes it unique.
+const SHORTENED: usize = 32;
 
 /// The names of all functions of a robot, with their kinds: first the kinds that the robot has, then the functions of
 /// single frames, of named frames before moving links.

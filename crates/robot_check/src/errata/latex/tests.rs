@@ -100,6 +100,7 @@ fn errors_name_their_place() {
         (r"m_1 \circ q_2", r"\circ", "is not supported here"),
         (r"q_2 + 1\,000 q_1", "000", "a number follows a number"),
         (r"2 3 q_1", "3", "a number follows a number"),
+        (r"m_1/2 q_1", "q_1", "a factor without a sign follows a divisor"),
         (r"\frac{1}", "", "incomplete"),
         (r"a_{b", "{", "not closed"),
         (r"q_1 = 2", "=", "is not supported here"),

@@ -83,7 +83,7 @@ impl<'t> Translator<'t, '_> {
     fn sum(&mut self, close: Option<&str>) -> Result<(), ParseError> {
         self.deeper()?;
         let open = self.here();
-        let mut after_operand = false;
+        let (mut after_operand, mut divided) = (false, false);
         // The plus or minus sign before a line break, which may be repeated after it.
         let mut broken = None;
         loop {
@@ -111,7 +111,7 @@ impl<'t> Translator<'t, '_> {
                     if needed && !repeated {
                         self.emit(if text.len() > 1 { "*" } else { text }, here);
                     }
-                    after_operand = false;
+                    (after_operand, divided) = (false, text == "/");
                     continue;
                 }
                 "{" if self.tokens.get(self.place + 1).is_some_and(|next| next.text == "}") => {
@@ -121,6 +121,12 @@ impl<'t> Translator<'t, '_> {
                 _ => {}
             }
             if after_operand {
+                if divided {
+                    return self.fault(
+                        "a factor without a sign follows a divisor",
+                        r"write `\frac{a}{b} c` or `\frac{a}{b c}`: readers take `a/b c` for either",
+                    );
+                }
                 self.separate_digits()?;
                 self.emit("*", here.start..here.start);
             }

@@ -36,7 +36,7 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     /// The published equations
     printed: PathBuf,
-    /// Notation of the equations [default: latex if they contain a backslash, else text]
+    /// Notation of the equations [default: latex if they contain a backslash, $, _{ or ^{, else text]
     #[arg(long, value_enum)]
     notation: Option<NotationName>,
     /// Output format

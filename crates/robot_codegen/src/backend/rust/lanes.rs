@@ -168,14 +168,21 @@ impl Methods<'_, '_> {
     fn loops(&mut self, slices: &mut Slices, layout: Layout) -> Vec<Stmt> {
         let lanes = slices.lanes.clone();
         let array = |zero: Expr, length: &Literal| -> Expr { parse_quote!([#zero; #length]) };
-        let zeros = slices.outputs.iter().map(|(name, shape)| -> Stmt {
+        let stored = match self.stores_entries(layout) {
+            true => self.has_entries(),
+            false => vec![true; slices.outputs.len()],
+        };
+        let zeros = slices.outputs.iter().zip(stored).map(|((name, shape), is_stored)| -> Stmt {
             let shape = shape.iter().rev().map(|length| Literal::usize_unsuffixed(*length));
             let lengths: Vec<Literal> = match layout {
                 Layout::Lanes => [lanes.clone()].into_iter().chain(shape).collect(),
                 Layout::States => shape.chain([lanes.clone()]).collect(),
             };
             let zeros = lengths.iter().fold(syntax::float(0.0), array);
-            parse_quote!(let mut #name = #zeros;)
+            match is_stored {
+                true => parse_quote!(let mut #name = #zeros;),
+                false => parse_quote!(let #name = #zeros;),
+            }
         });
         let mut statements: Vec<Stmt> = zeros.collect();
         statements.extend(self.copied(slices, layout));
@@ -282,10 +289,15 @@ impl Methods<'_, '_> {
         statements
     }
 
+    /// Whether entries are stored one by one, except those that are always 0.
+    fn stores_entries(&self, layout: Layout) -> bool {
+        layout == Layout::Lanes && self.has_matrices()
+    }
+
     /// Makes the statements that store the results, `State::set_lane(result, &mut tau, lane);`, in a group for each
     /// loop.
     fn stores(&self, slices: &Slices, layout: Layout) -> Vec<Vec<Stmt>> {
-        if layout == Layout::Lanes && self.has_matrices() {
+        if self.stores_entries(layout) {
             return self.entries(slices);
         }
         let runtime = self.number.runtime();

@@ -12,6 +12,7 @@ use super::batch::{Layout, Slices};
 use super::function::Methods;
 use super::outputs;
 use super::syntax;
+use crate::module::Output;
 use crate::program::Operation;
 
 /// The most entries that a loop stores. LLVM joins the sets of memory that may overlap once it has 250 of them, and
@@ -41,15 +42,28 @@ impl Methods<'_, '_> {
         copies.collect()
     }
 
-    /// Makes the statements that store the entries of all outputs in lane `lane`, except those that are always 0, in a
-    /// group for each loop.
-    pub(super) fn entries(&self, slices: &Slices) -> Vec<Vec<Stmt>> {
+    /// Whether each entry of the outputs is something other than the constant 0.
+    fn not_zero(&self) -> Vec<bool> {
         let core = &self.function.core;
         let is_stored = core.results().iter().map(|value| match core.operation(*value) {
             Operation::Constant(constant) => constant.get().to_bits() != 0,
             _ => true,
         });
-        let stored: Vec<bool> = is_stored.collect();
+        is_stored.collect()
+    }
+
+    /// Whether [`entries`](Self::entries) stores entries of each output.
+    pub(super) fn has_entries(&self) -> Vec<bool> {
+        let mut stored = self.not_zero().into_iter();
+        let of_output =
+            |length| stored.by_ref().take(length).filter(|is_stored| *is_stored).count() > 0;
+        self.function.outputs.iter().map(Output::len).map(of_output).collect()
+    }
+
+    /// Makes the statements that store the entries of all outputs in lane `lane`, except those that are always 0, in a
+    /// group for each loop.
+    pub(super) fn entries(&self, slices: &Slices) -> Vec<Vec<Stmt>> {
+        let stored = self.not_zero();
         let count = stored.iter().filter(|is_stored| **is_stored).count();
         let loops = count.div_ceil(MAX_ENTRIES);
         let loops = if loops > MAX_LOOPS { 1 } else { loops.max(1) };
