@@ -190,13 +190,15 @@ pub(super) fn leftover<'g>(printed: &[Term<'g>], derived: &[Term<'g>]) -> Leftov
             Some(right) => left.rounded += usize::from(right.coefficient != term.coefficient),
             None => {
                 left.missing.push(term.clone());
-                let mut like = places.get(&key).into_iter().flatten();
-                if let (Some(first), Some(sum)) = (like.next(), sums.get(&key)) {
+                let like = places.get(&key).map_or(&[][..], Vec::as_slice);
+                if let ([first, others @ ..], Some(sum)) = (like, sums.get(&key))
+                    && !others.is_empty()
+                {
                     if let Some(Some(first)) = wrong.get_mut(*first) {
                         first.coefficient = sum.coefficient.clone();
                         first.rounding = None;
                     }
-                    for place in like {
+                    for place in others {
                         wrong[*place] = None;
                     }
                 }
