@@ -2,7 +2,7 @@
 
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
-use robot_symbolic::print::{ArrangedTerm, arranged_value};
+use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
 use robot_symbolic::{AngleSums, Expr, Graph, Id, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
@@ -164,8 +164,12 @@ pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<A
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
     // Among equally long forms, the collector can choose one with an additional product.
     let collected = arranged::positive_first(arranged::factored(collected, &writer.order));
-    let is_shorter = length(&collected) < length(&built)
-        && arranged::operations(&collected) <= arranged::operations(&built);
+    let bytes = |terms: &[ArrangedTerm<'_>]| arranged_text(terms).map_or(0, |text| text.len());
+    let (new, old) = (length(&collected), length(&built));
+    let is_shorter = new < old
+        && arranged::operations(&collected) <= arranged::operations(&built)
+        // A few symbols fewer with longer numbers and names are no gain.
+        && (10 * new < 9 * old || bytes(&collected) <= bytes(&built));
     if is_shorter { collected } else { built }
 }
 

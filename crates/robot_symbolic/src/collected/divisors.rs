@@ -332,15 +332,13 @@ impl<'t> Seeker<'t> {
 
     /// Candidates that are complete squares of sums.
     fn squares(&self) -> Vec<Candidate> {
-        let all = self.terms.as_slice();
-        let root = |(powers, number): &Term| number.is_one().then(|| powers.root()).flatten();
-        let roots: Vec<Powers> = all.iter().filter_map(root).collect();
+        let roots: Vec<Term> = self.terms.as_slice().iter().filter_map(root).collect();
         let mut found = vec![];
         for (place, first) in roots.iter().enumerate() {
-            let mut sum = vec![(first.clone(), Rational::ONE)];
+            let mut sum = vec![first.clone()];
             for other in &roots[place + 1..] {
                 if let Some(sign) = self.sign_of(&sum, other) {
-                    sum.push((other.clone(), sign));
+                    sum.push((other.0.clone(), &other.1 * &sign));
                 }
             }
             let sum = Terms::sum(sum);
@@ -355,14 +353,12 @@ impl<'t> Seeker<'t> {
     }
 
     /// The sign of a further term of a sum, from the double products of the square; `None` if these do not fit.
-    fn sign_of(&self, sum: &[Term], other: &Powers) -> Option<Rational> {
+    fn sign_of(&self, sum: &[Term], (other, root): &Term) -> Option<Rational> {
         let sign = |(powers, own): &Term| {
             let number = &self.terms.as_slice().get(*self.places.get(&powers.product(other))?)?.1;
-            match number.to_integer()? {
-                2 => Some(own.clone()),
-                -2 => Some(-own),
-                _ => None,
-            }
+            let double = &(own * root) + &(own * root);
+            let ratio = number * &double.recip()?;
+            matches!(ratio.to_integer()?, 1 | -1).then_some(ratio)
         };
         let mut signs = sum.iter().map(sign);
         let first = signs.next()??;
@@ -400,13 +396,25 @@ fn estimate(terms: &Terms) -> usize {
 
 /// The length of a sum, or of its square root with an exponent if it can be a complete square.
 fn flat_or_square(terms: &Terms) -> usize {
-    let roots = terms.as_slice().iter();
-    let roots = roots.filter(|(powers, number)| number.is_one() && powers.root().is_some());
-    let count = roots.clone().count();
+    let roots: Vec<Term> = terms.as_slice().iter().filter_map(root).collect();
+    let count = roots.len();
     if count < 2 || terms.len() != count * (count + 1) / 2 {
         return terms.unsigned_length();
     }
-    let root: usize = roots.filter_map(|(powers, _)| powers.root()).map(|it| it.length() + 1).sum();
+    let length: usize = roots.iter().map(|root| term_length(root) + 1).sum();
     // The signs of the double products are not checked here; the search for squares does that.
-    terms.unsigned_length().min(root + 1)
+    terms.unsigned_length().min(length + 1)
+}
+
+/// The square root of a term: of a product of even powers, or of a number, which stands beside a symbol in a square such as
+/// (q + 0.4)².
+fn root((powers, square): &Term) -> Option<Term> {
+    let number = match powers.is_one() {
+        true => {
+            let (above, below) = square.to_small()?;
+            Rational::new(above.checked_isqrt()?, below.checked_isqrt()?)?
+        }
+        false => Rational::ONE,
+    };
+    (&number * &number == *square).then_some((powers.root()?, number))
 }

@@ -353,6 +353,14 @@ impl Factoring {
         }
         let content = common_factor(terms);
         let formula = match &content {
+            _ if terms.as_slice().iter().all(|(_, number)| number.is_negative()) => {
+                // Squares are found in the positive sum.
+                let negative = |(powers, number): &Term| (powers.clone(), -number);
+                let opposite = Terms::sum(terms.as_slice().iter().map(negative));
+                let opposite = self.best(&opposite, place);
+                let minus = |it: &Product| Product { coefficient: -&it.coefficient, ..it.clone() };
+                Formula::sorted(opposite.products.iter().map(minus).collect(), |_| false)
+            }
             (powers, number) if powers.is_one() && number.is_one() => {
                 self.without_content(terms, place)
             }
