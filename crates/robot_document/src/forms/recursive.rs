@@ -5,7 +5,7 @@ use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, Graph, PolynomialOptions, View};
+use robot_symbolic::{Expr, Graph, Number, PolynomialOptions, View};
 use rustc_hash::FxHashSet;
 
 use super::compact::{definitions, tidy};
@@ -22,23 +22,47 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
     let effects = Effects { wrench: true, friction: writer.options.friction };
     let mut mechanism = writer.derivation().mechanism;
     numbers::round_links(writer, &mut mechanism);
+    let masses = masses_by_name(writer, &mut mechanism);
     let iterations = newton_euler(&mechanism, effects);
-    let write =
-        |writer: &mut Writer<'r, 'g>, unnamed| written(writer, &mechanism, &iterations, unnamed);
+    let write = |writer: &mut Writer<'r, 'g>, unnamed| {
+        written(writer, (&mechanism, &masses), &iterations, unnamed)
+    };
     let (groups, ()) = without_unused(writer, write)?;
     Ok(groups)
+}
+
+/// The masses that are short numbers, with the symbols that replace them in the mechanism: the moment of a force is then
+/// the product of a lever and the force, and not that of a number and an acceleration.
+fn masses_by_name<'g>(
+    writer: &Writer<'_, 'g>,
+    mechanism: &mut Mechanism<'g>,
+) -> Vec<(Expr<'g>, Number)> {
+    let digits = writer.options.digits;
+    let mut masses = vec![];
+    for (link, place) in mechanism.links.iter_mut().zip(1..) {
+        let number = link.mass.as_number().filter(|number| !number.is_zero() && !number.is_one());
+        if let Some(number) = number.filter(|_| !is_long_constant(link.mass, digits)) {
+            // Symbols of the robot contain no spaces.
+            link.mass = writer.graph.symbol(&format!("mass {place}"));
+            masses.push((link.mass, number));
+        }
+    }
+    masses
 }
 
 /// Writes the iterations with names for common parts except those `unnamed`.
 fn written<'g>(
     writer: &mut Writer<'_, 'g>,
-    mechanism: &Mechanism<'g>,
+    (mechanism, masses): (&Mechanism<'g>, &[(Expr<'g>, Number)]),
     iterations: &NewtonEuler<'g>,
     unnamed: Unnamed,
 ) -> Result<Attempt<()>, Error> {
     let target = Graph::new();
     let (mut groups, mut list) = link_values(writer, mechanism, &target, unnamed)?;
     let named = &mut list.named;
+    for (mass, number) in masses {
+        named.replace(*mass, target.number(number.clone()));
+    }
     let mut printed = FxHashSet::default();
     for (index, motion) in iterations.motions.iter().enumerate() {
         let number = index + 1;
