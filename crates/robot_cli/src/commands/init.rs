@@ -21,7 +21,7 @@ const NAME: &str = "my_robot";
   robot-symbolic init
   robot-symbolic init two_link
 
-Writes NAME.toml, a planar arm with two links and a comment on each key, to be edited. Its first line names the
+Writes NAME.toml, a planar arm with two links and comments, to be edited. Its first line names the
 JSON schema for editors, which `robot-symbolic schema` writes. docs/robot-file.md describes all keys, and
 `import` converts a URDF file to a robot file.")]
 pub(crate) struct Arguments {

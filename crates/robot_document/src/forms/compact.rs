@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
 use super::naming::is_leaf;
-use super::uses::{Attempt, Unnamed, printed_length, without_unused};
+use super::uses::{Attempt, Rare, Unnamed, printed_length, without_unused};
 use super::{
     Equation, Group, Writer, angle_sums, arranged, canceled, independent, multiples, numbers,
     of_joint_torque, residues, vectors,
@@ -32,25 +32,45 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
     let values = numbers::rounded(writer, &values);
     let values = canceled::with_single_terms(&values, writer.graph);
     let values = canceled::without_canceled_terms(&values, writer.graph);
-    let values = multiples::united(&values, writer.graph, writer.options.digits);
-    for (quantity, value) in quantities.iter_mut().zip(&values) {
+    let symbols = writer.symbols.clone();
+    let groups = named(writer, &mut quantities, &values)?;
+    let united = multiples::united(&values, writer.graph);
+    if united == values {
+        return Ok(groups);
+    }
+    let known = std::mem::replace(&mut writer.symbols, symbols);
+    let shorter = named(writer, &mut quantities, &united)?;
+    if printed_length(&shorter) < printed_length(&groups) {
+        return Ok(shorter);
+    }
+    writer.symbols = known;
+    Ok(groups)
+}
+
+/// Writes quantities with these values, with names for common parts.
+fn named<'r, 'g>(
+    writer: &mut Writer<'r, 'g>,
+    quantities: &mut [Quantity<'g>],
+    values: &[Expr<'g>],
+) -> Result<Vec<Group>, Error> {
+    for (quantity, value) in quantities.iter_mut().zip(values) {
         quantity.value = *value;
     }
+    let quantities: &[Quantity<'g>] = quantities;
     let symbols = writer.symbols.clone();
     let attempt = |writer: &mut Writer<'r, 'g>, inlined: &FxHashSet<Id>| {
         writer.symbols = symbols.clone();
         without_unused(writer, |writer, mut unnamed| {
             unnamed.inlined.extend(inlined);
             let target = Graph::new();
-            let sources = (quantities.as_slice(), values.as_slice());
-            let (groups, list) = written(writer, sources, &target, unnamed)?;
-            let (uses, more) = (list.uses(&groups), list.used_once(&groups, INLINED));
+            let (groups, list) = written(writer, (quantities, values), &target, unnamed)?;
+            let (uses, more) = (list.uses(&groups), list.rarely_used(&groups));
             Ok(Attempt { groups, uses, more })
         })
     };
     let mut inlined = FxHashSet::default();
     let (mut groups, mut once) = attempt(writer, &inlined)?;
-    // What is written in place can leave other names that are used once.
+    // What is written in place can leave other names that are rarely used.
     for _ in 0..ROUNDS {
         let known = writer.symbols.clone();
         let Some(found) = shorter(&groups, &once, &inlined, |more| attempt(writer, more))? else {
@@ -62,23 +82,19 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
     Ok(groups)
 }
 
-/// The largest number of times that names are sought that are used once.
+/// The largest number of times that names are sought that are rarely used.
 const ROUNDS: usize = 3;
 
-/// The largest numbers of bytes of a part of a long expression that is written within it if it is used once. The first
-/// that does not make the equations longer is taken.
-const INLINED: [usize; 2] = [120, 0];
+/// The equations, the names in them that are rarely used, and the expressions that have no names.
+type Found = (Vec<Group>, Rare, FxHashSet<Id>);
 
-/// The equations, the names in them that are used once, and the expressions that have no names.
-type Found = (Vec<Group>, [FxHashSet<Id>; 2], FxHashSet<Id>);
-
-/// The equations as `attempt` writes them without names that are used once, in addition to those `inlined`; `None` if
+/// The equations as `attempt` writes them without names that are rarely used, in addition to those `inlined`; `None` if
 /// they are longer.
 fn shorter(
     groups: &[Group],
-    once: &[FxHashSet<Id>; 2],
+    once: &Rare,
     inlined: &FxHashSet<Id>,
-    mut attempt: impl FnMut(&FxHashSet<Id>) -> Result<(Vec<Group>, [FxHashSet<Id>; 2]), Error>,
+    mut attempt: impl FnMut(&FxHashSet<Id>) -> Result<(Vec<Group>, Rare), Error>,
 ) -> Result<Option<Found>, Error> {
     for more in once.iter().filter(|more| !more.is_subset(inlined)) {
         let inlined: FxHashSet<Id> = inlined.union(more).copied().collect();
@@ -90,7 +106,8 @@ fn shorter(
     Ok(None)
 }
 
-/// Writes quantities with their values, with names for common parts except those `unnamed`. Returns the groups and the definitions.
+/// Writes quantities with their values, with names for common parts except those `unnamed`. Returns the groups and
+/// the definitions.
 fn written<'g, 'h>(
     writer: &mut Writer<'_, 'g>,
     (quantities, values): (&[Quantity<'g>], &[Expr<'g>]),

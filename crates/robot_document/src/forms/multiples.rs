@@ -5,8 +5,6 @@ use std::cell::RefCell;
 use robot_symbolic::{Expr, Graph, Id, Rational, View, walk};
 use rustc_hash::FxHashMap;
 
-use super::naming::named_length;
-
 /// The terms of a sum by their factors, in the order of the factors. Numbers are no factors.
 type Terms = Vec<(Vec<Id>, Rational)>;
 
@@ -78,23 +76,17 @@ impl<'g> Multiples<'g> {
 }
 
 /// Writes sums that are multiples of earlier sums, such as 0.5 cos q₂ q̈₁ − sin q₂ q̇₁ q̇₂ beside
-/// cos q₂ q̈₁ − 2 sin q₂ q̇₁ q̇₂, as these multiples, so that one name serves both, if this makes the equations shorter.
-/// Otherwise a parameter could seem to act that cancels between the two.
-pub(super) fn united<'g>(
-    values: &[Expr<'g>],
-    graph: &'g Graph,
-    digits: Option<usize>,
-) -> Vec<Expr<'g>> {
+/// cos q₂ q̈₁ − 2 sin q₂ q̇₁ q̇₂, as these multiples, so that one name serves both. Otherwise a parameter could seem to act
+/// that cancels between the two.
+pub(super) fn united<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     let known: RefCell<Multiples<'g>> = RefCell::default();
-    let united = walk::rebuild_upward(values, graph, |part| {
+    walk::rebuild_upward(values, graph, |part| {
         let found = known.borrow().of(part);
         if found.is_none() {
             known.borrow_mut().insert(part, part);
         }
         found.unwrap_or(part)
-    });
-    let is_shorter = named_length(&united, digits) < named_length(values, digits);
-    if is_shorter { united } else { values.to_vec() }
+    })
 }
 
 /// The terms divided by the coefficient of the first, and this coefficient; `None` of a single term.

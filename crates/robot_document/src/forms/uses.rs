@@ -67,11 +67,21 @@ pub(super) fn without_unused<'r, 'g, T>(
     Ok((best.groups, best.more))
 }
 
-/// The number of bytes of the equations as text.
+/// The number of bytes of the equations as text, with equals signs and ends of lines.
 pub(super) fn printed_length(groups: &[Group]) -> usize {
     let equations = groups.iter().flat_map(|group| &group.equations);
-    equations.map(|equation| equation.name.len() + equation.text.len()).sum()
+    equations.map(|equation| equation.name.len() + equation.text.len() + 4).sum()
 }
+
+/// The largest numbers of bytes of a part of a long expression that is written within it if it is used once.
+const INLINED: [usize; 2] = [120, 0];
+/// The largest number of uses of an expression, and of bytes of its text, that is written in each place.
+const FEW_USES: usize = 3;
+const FEW_BYTES: usize = 16;
+
+/// Sets of expressions that could be written where they are used. The first that does not make the equations longer is
+/// taken.
+pub(super) type Rare = [FxHashSet<Id>; 3];
 
 impl Definitions<'_, '_> {
     /// The expressions whose definitions are one too many or are missing in the equations.
@@ -93,9 +103,10 @@ impl Definitions<'_, '_> {
         Uses { unused, missing }
     }
 
-    /// The expressions whose names are used once in the equations, for each length in `longest`: of those that are named
-    /// because they are part of a long expression, the ones with at most so many bytes of text.
-    pub(super) fn used_once(&self, groups: &[Group], longest: [usize; 2]) -> [FxHashSet<Id>; 2] {
+    /// The expressions whose names are rarely used: those that are used once, for each length in [`INLINED`], and those
+    /// with a short text that are used a few times. Of those that are named because they are part of a long expression,
+    /// only the ones with at most so many bytes of text.
+    pub(super) fn rarely_used(&self, groups: &[Group]) -> Rare {
         let mut uses: FxHashMap<&str, usize> = FxHashMap::default();
         let equations = || groups.iter().flat_map(|group| &group.equations);
         for name in equations().flat_map(|equation| equation.right.symbols()) {
@@ -110,13 +121,19 @@ impl Definitions<'_, '_> {
         let whole: FxHashSet<Id> = whole.into_iter().map(Expr::id).collect();
         let cut = self.worthy.iter().filter(|one| one.is_cut).map(|one| one.expr.id());
         let cut: FxHashSet<Id> = cut.collect();
-        let once = equations().filter(|equation| uses.get(equation.name.as_str()) == Some(&1));
-        let mut found = longest.map(|_| FxHashSet::default());
-        for equation in once {
+        let mut found = Rare::default();
+        for equation in equations() {
+            let count = uses.get(equation.name.as_str()).copied().unwrap_or_default();
             let Some(source) = self.sources.get(&equation.name).copied() else { continue };
-            for (sources, longest) in found.iter_mut().zip(longest) {
-                let is_short = !cut.contains(&source) || equation.text.len() <= longest;
-                if is_short && !whole.contains(&source) {
+            let bytes = equation.text.len();
+            let is_chosen = |longest| count == 1 && (!cut.contains(&source) || bytes <= longest);
+            let is_chosen = [
+                is_chosen(INLINED[0]),
+                is_chosen(INLINED[1]),
+                (1..=FEW_USES).contains(&count) && bytes <= FEW_BYTES,
+            ];
+            for (sources, is_chosen) in found.iter_mut().zip(is_chosen) {
+                if is_chosen && !whole.contains(&source) {
                     sources.insert(source);
                 }
             }

@@ -65,6 +65,9 @@ fn gyroscopic(robot: &Robot) -> String {
     let names: Vec<&str> = links.map(|link| link.joint.name.as_str()).collect();
     match names.as_slice() {
         [] => String::new(),
+        [name] => {
+            format!(" The rotor of {name} also reacts to the rotation of the link that carries it.")
+        }
         names => format!(
             " The rotors of {} also react to the rotation of the links that carry them.",
             names.join(", ")

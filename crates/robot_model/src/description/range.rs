@@ -145,7 +145,7 @@ impl Range<'_, '_> {
     fn angle(&mut self, angle: &Formula, what: &str, at: &Span) {
         let known = self.reader.known(angle).filter(|angle| angle.abs() > ANGLE);
         if let Some(angle) = known {
-            let message = format!("{what} contains an angle of {} rad", significant(angle));
+            let message = format!("{what} contains an angle of {} rad", beyond(angle, ANGLE));
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
                     .at(at, format!("angles may be at most {ANGLE:e} rad"))
@@ -175,7 +175,7 @@ impl Range<'_, '_> {
             formulas.into_iter().map(|formula| self.reader.known(formula)).collect();
         let largest = known.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
         if largest != 0.0 && largest < LEAST {
-            let message = format!("{what} contains a value of {}", significant(largest));
+            let message = format!("{what} contains a value of {}", beyond(largest, LEAST));
             self.reader.report(
                 Diagnostic::error(code::NUMBER, message)
                     .at(at, format!("magnitudes must be 0 or at least {LEAST:e}"))
@@ -189,9 +189,15 @@ impl Range<'_, '_> {
     }
 }
 
+/// A value in a message, with all digits if it would otherwise be printed like the limit that it exceeds.
+fn beyond(value: f64, limit: f64) -> String {
+    let shown = significant(value);
+    if significant(value.abs()) == significant(limit) { format!("{value:e}") } else { shown }
+}
+
 /// The message about a number that is too large; `None` if it is in range.
 pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
-    let message = || format!("{what} contains a value of {}", significant(value));
+    let message = || format!("{what} contains a value of {}", beyond(value, LARGEST));
     (value.abs() > LARGEST).then(|| {
         Diagnostic::error(code::NUMBER, message())
             .at(at, format!("magnitudes may be at most {LARGEST:e}"))

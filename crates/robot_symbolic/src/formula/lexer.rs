@@ -154,7 +154,7 @@ impl<'t> Lexer<'t> {
             ),
             ',' => (
                 "`,` has no meaning in an expression".to_owned(),
-                "every function takes one argument",
+                "every function takes one argument; a value is one expression",
             ),
             '·' | '×' | '∗' | '⋅' => (unknown(character), "write a product as `a*b`"),
             '÷' | '∕' => (unknown(character), "write a quotient as `a/b`"),
