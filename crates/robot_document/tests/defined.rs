@@ -139,12 +139,13 @@ const CARRYING: &str = include_str!("carrying.toml");
 /// Parts that cancel and moments of inertia that do not act have no names.
 #[test]
 fn every_name_is_used() {
-    let files = [("carrying", CARRYING), ("skew", SKEW), ("gantry", GANTRY)];
+    let files = [("carrying", CARRYING), ("skew", SKEW), ("gantry", GANTRY), ("arrow", ARROW)];
     let own = files.map(|(name, text)| read_toml(name, text).unwrap().robot);
     let mut names = 0;
     for robot in robots().iter().chain(&own) {
         for form in [Form::Compact, Form::Grouped, Form::Recursive] {
-            let options = EquationOptions { form, ..EquationOptions::default() };
+            let friction = robot.has_friction();
+            let options = EquationOptions { form, friction, ..EquationOptions::default() };
             let printed = equations(robot, &options).unwrap();
             let all = || printed.groups.iter().flat_map(|group| &group.equations);
             let used: BTreeSet<&str> = all().flat_map(|one| one.right.symbols()).collect();
@@ -165,6 +166,9 @@ const SKEW: &str = include_str!("skew.toml");
 
 /// A chain of which one constant is named and not used, and used if it has no name.
 const GANTRY: &str = include_str!("gantry.toml");
+
+/// Skew axes with dry friction.
+const ARROW: &str = include_str!("arrow.toml");
 
 /// A Furuta pendulum, whose common parts are written where they are used.
 #[test]

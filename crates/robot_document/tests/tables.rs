@@ -92,5 +92,5 @@ fn drives_have_a_table() {
     }
     let gyroscopic =
         with(["", "drive = { rotor_inertia = 0.003, gear_ratio = 80, gyroscopic = true }"]);
-    assert!(gyroscopic.contains("The rotors of b also react"), "{gyroscopic}");
+    assert!(gyroscopic.contains("The rotor of b also reacts"), "{gyroscopic}");
 }

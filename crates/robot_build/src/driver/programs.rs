@@ -89,9 +89,12 @@ pub fn programs_of(robot: Robot, name: &str, options: &Options) -> Result<Progra
 /// Returns the plan of the options, or searches for one if the options request a search.
 pub(crate) fn plan_of(robot: &Robot, options: &Options) -> Option<Plan> {
     let searched = || {
+        let of_expressions = |measure| search(robot, &options.mechanism(robot), measure);
         let found = match options.fused {
-            true => search_code(robot, Measure::Instructions, options.snap).ok()?,
-            false => search(robot, &options.mechanism(robot), Measure::Operations),
+            // What makes code impossible is found again with the plan.
+            true => search_code(robot, Measure::Instructions, options.snap)
+                .unwrap_or_else(|_| of_expressions(Measure::Instructions)),
+            false => of_expressions(Measure::Operations),
         };
         found.map(|found| found.plan)
     };

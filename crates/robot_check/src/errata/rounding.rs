@@ -137,6 +137,8 @@ fn only_factor(text: &str, mut places: Vec<Range<usize>>) -> Option<Range<usize>
 
 #[cfg(test)]
 mod tests {
+    use super::super::mistake::Mistake;
+    use super::super::tests::{compared, link};
     use super::*;
 
     fn share(text: &str) -> Option<Number> {
@@ -219,5 +221,88 @@ mod tests {
         let of = |printed: &str| stands_for(&number(printed), &derived, &number("5e-10"));
         assert!(of("2.107104072") && of("2.107104073"));
         assert!(!of("2.107104071") && !of("2.107104074"));
+    }
+
+    /// The number of coefficients that agree only to the digits printed, and the mistakes.
+    fn rounded(inertia: &str, right: &str) -> (usize, Vec<String>) {
+        let found = compared(&link("1", "0", inertia), &format!("Q1 = {right}\n")).unwrap();
+        let mistakes = found.differences.iter().flat_map(|one| &one.mistakes);
+        (found.rounded, mistakes.map(Mistake::to_string).collect())
+    }
+
+    #[test]
+    fn a_decimal_agrees_with_what_rounds_to_it() {
+        let inertia = "1.126125000000000182";
+        let right = vec![];
+        for text in [
+            "1.126125*qdd1",
+            "1.1*qdd1",
+            "qdd1*1.13",
+            "(1.126)*qdd1",
+            "2*0.563*qdd1",
+            "1126.1e-3*qdd1",
+        ] {
+            assert_eq!(rounded(inertia, text), (1, right.clone()), "{text}");
+        }
+        assert_eq!(rounded(inertia, "1.126125000000000182*qdd1"), (0, right.clone()));
+        assert_eq!(rounded("1.255", "1.26*qdd1"), (1, right.clone()));
+        assert_eq!(rounded("1.255", "1.25*qdd1"), (1, right.clone()));
+        assert_eq!(rounded("1/3", "0.3333*qdd1"), (1, right.clone()));
+        // Like terms of which only one is rounded, and a term in front of another that is wrong.
+        assert_eq!(rounded("1.126125", "qdd1/4 + 0.876*qdd1"), (1, right));
+        assert_eq!(rounded("1.126125", "1.126*qdd1 + 3*qdd1"), (1, vec!["extra term".to_owned()]));
+    }
+
+    #[test]
+    fn a_wrong_digit_is_a_difference() {
+        for (inertia, printed, shown) in [
+            ("1.126125", "1.12*qdd1", "1.12 for 1.126125"),
+            ("1.126125", "1.126126*qdd1", "1.126126 for 1.126125"),
+            ("1.2551", "1.25*qdd1", "1.25 for 1.2551"),
+            ("0.0004", "0.00*qdd1", ""),
+            // Integers and quotients of integers are exact.
+            ("1.0001", "qdd1", "1 for 1.0001"),
+            ("2.9999", "3*qdd1", "3 for 2.9999"),
+            ("0.3333", "1/3*qdd1", "1/3 for 0.3333"),
+        ] {
+            let (count, mistakes) = rounded(inertia, printed);
+            let expected = match shown {
+                "" => "missing term".to_owned(),
+                shown => format!("coefficient: {shown}"),
+            };
+            assert_eq!((count, mistakes), (0, vec![expected]), "{inertia}, {printed}");
+        }
+        // Of two rounded numbers, one may be wrong although their sum is right to its digits.
+        assert_eq!(rounded("1.126125", "0.563*qdd1 + 0.563*qdd1").0, 0);
+        assert!(!rounded("1.126125", "0.563*qdd1 + 0.563*qdd1").1.is_empty());
+        // Decimals that programs print.
+        assert!(rounded("1.126125", "0.5630625001*qdd1 + 0.5630624999*qdd1").1.is_empty());
+        assert!(!rounded("1.126125", "0.5630625101*qdd1 + 0.5630624999*qdd1").1.is_empty());
+        // A difference of another kind is not also one of the coefficient.
+        assert_eq!(rounded("1.126125", "-1.126*qdd1").1, ["sign"]);
+        assert_eq!(rounded("1.126125", "1.126*qd1").1, ["dot: qd1 for qdd1"]);
+    }
+
+    /// A sum with cos(0.3) is printed as a decimal beside sin(π/5), which is not.
+    #[test]
+    fn a_constant_can_be_a_decimal_beside_another_that_is_not() {
+        let text = "format = 1\n[robot]\nname = \"one\"\ngravity = [0, -9.81, 0]\n[[link]]\nname = \"1\"\n\
+                    joint = { type = \"revolute\", axis = \"z\" }\norigin = { rpy = [0, 0, \"pi/5\"] }\n\
+                    mass = 2\ncenter_of_mass = [\"0.022 + 0.0045*cos(0.3)\", 0.1, 0]\n\
+                    inertia = { zz = 0.4, unchecked = true }\n";
+        let robot = robot_model::description::read_toml("one", text).unwrap().robot;
+        let options = robot_document::EquationOptions {
+            form: robot_document::Form::Expanded,
+            rounds_roots: true,
+            ..robot_document::EquationOptions::default()
+        };
+        let printed = robot_document::equations(&robot, &options).unwrap().readable(Some(10));
+        let texts: Vec<String> =
+            printed.quantities().map(|one| format!("{} = {}", one.name, one.text)).collect();
+        let text = texts.join("\n");
+        assert!(text.contains("sin(pi/5)") && !text.contains("cos(0.3)"), "{text}");
+        assert!(compared(&robot, &text).unwrap().differences.is_empty(), "{text}");
+        let wrong = compared(&robot, &text.replace("sin(pi/5)", "cos(pi/5)")).unwrap();
+        assert!(!wrong.differences.is_empty());
     }
 }

@@ -1,6 +1,6 @@
 //! The terms of expanded equations, and the differences between two sets of terms.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 use robot_symbolic::{
@@ -74,13 +74,17 @@ fn powers<'g>(factors: impl Iterator<Item = Power<'g>>) -> Vec<Power<'g>> {
     powers
 }
 
-/// The derived terms as they are printed: if no printed term contains a constant such as sin(0.7), those of the derived
-/// terms are multiplied into the coefficients.
+/// The derived terms as they are printed: constants such as sin(0.7) that no printed term contains are multiplied into the
+/// coefficients.
 pub(super) fn noted_like<'g>(derived: Vec<Term<'g>>, printed: &[Term<'g>]) -> Vec<Term<'g>> {
-    let is_constant = |power: &Power<'g>| walk::symbols(&[power.atom]).is_empty();
-    let has_constants =
-        |terms: &[Term<'g>]| terms.iter().flat_map(|term| &term.factors).any(is_constant);
-    if has_constants(printed) || !has_constants(&derived) {
+    let factors = |terms: &[Term<'g>]| -> HashSet<Id> {
+        terms.iter().flat_map(|term| &term.factors).map(|power| power.atom.id()).collect()
+    };
+    let known = factors(printed);
+    let is_constant = |power: &Power<'g>| {
+        !known.contains(&power.atom.id()) && walk::symbols(&[power.atom]).is_empty()
+    };
+    if !derived.iter().flat_map(|term| &term.factors).any(is_constant) {
         return derived;
     }
     let mut noted: Vec<Term<'g>> = Vec::with_capacity(derived.len());

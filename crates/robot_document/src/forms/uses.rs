@@ -19,6 +19,8 @@ pub(super) struct Attempt<T> {
 pub(super) struct Uses {
     /// Those whose names occur neither in the equations nor in a definition that they need.
     pub(super) unused: FxHashSet<Id>,
+    /// Their names.
+    names: FxHashSet<String>,
     /// Those that were omitted and whose names occur.
     pub(super) missing: FxHashSet<Id>,
 }
@@ -64,6 +66,11 @@ pub(super) fn without_unused<'r, 'g, T>(
             writer.symbols = known;
         }
     }
+    // Each attempt can make other names superfluous.
+    for group in best.groups.iter_mut().filter(|group| group.definitions) {
+        group.equations.retain(|equation| !best.uses.names.contains(&equation.name));
+    }
+    best.groups.retain(|group| !group.definitions || !group.equations.is_empty());
     Ok((best.groups, best.more))
 }
 
@@ -87,11 +94,12 @@ impl Definitions<'_, '_> {
     /// The expressions whose definitions are one too many or are missing in the equations.
     pub(super) fn uses(&self, groups: &[Group]) -> Uses {
         let mut needed: FxHashSet<&str> = FxHashSet::default();
-        let mut unused = FxHashSet::default();
+        let (mut unused, mut names) = (FxHashSet::default(), FxHashSet::default());
         for equation in groups.iter().rev().flat_map(|group| group.equations.iter().rev()) {
             match self.sources.get(&equation.name) {
                 Some(source) if !needed.contains(equation.name.as_str()) => {
                     unused.insert(*source);
+                    names.insert(equation.name.clone());
                 }
                 _ => needed.extend(equation.right.symbols()),
             }
@@ -100,7 +108,7 @@ impl Definitions<'_, '_> {
         let missing = equations.flat_map(|equation| equation.right.symbols());
         let missing = missing.filter(|name| is_omitted(name));
         let missing = missing.filter_map(|name| self.sources.get(name).copied()).collect();
-        Uses { unused, missing }
+        Uses { unused, names, missing }
     }
 
     /// The expressions whose names are rarely used: those that are used once, for each length in [`INLINED`], and those

@@ -85,8 +85,13 @@ impl<'g> Ratio<'g> {
         let factor = divisor.with_terms(vec![(common.inverse()?, number.recip())]);
         self.above = self.above.mul(&factor).ok()?;
         let divisor = divisor.mul(&factor).ok()?;
-        if divisor.len() > 1 {
-            self.below.push(divisor);
+        match divisor.terms.as_slice() {
+            // sin q − 1/sin q, multiplied by sin q, is −cos² q.
+            [(rest, number)] => {
+                let inverse = divisor.with_terms(vec![(rest.inverse()?, number.recip())]);
+                self.above = self.above.mul(&inverse).ok()?;
+            }
+            _ => self.below.push(divisor),
         }
         Some(self)
     }
@@ -163,6 +168,7 @@ mod tests {
             ("a*(b/(b + c) + c/(b + c))", "a"),
             ("(a*sin(q) + a*sin(q)*cos(q)^2)/(1 + cos(q)^2)/cos(q)", "a*sin(q)/cos(q)"),
             ("(a + sqrt(2)*b)*c/(a*c + sqrt(2)*b*c)", "1"),
+            ("x/(sin(q) - 1/sin(q))", "-x*sin(q)/cos(q)^2"),
         ] {
             let graph = Graph::new();
             let [from, to] = [given, expected].map(|text| graph.parse(text).unwrap());
