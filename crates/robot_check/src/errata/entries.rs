@@ -138,7 +138,10 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<D
         Notation::Latex => {
             let text = rejoined(&without_comments(text, notation));
             let displays = displays(&text);
-            if displays.is_empty() { lines(&text) } else { rows(&text, displays) }
+            match displays.is_empty() {
+                true => lines(&without_dollars(&text)),
+                false => rows(&text, displays),
+            }
         }
     }
 }
@@ -160,6 +163,18 @@ fn without_comments(text: &str, notation: Notation) -> String {
         clean.push_str(line.get(end..).unwrap_or_default());
     }
     clean
+}
+
+/// The text with a space for each dollar sign alone, which begins or ends a formula in a line.
+fn without_dollars(text: &str) -> String {
+    let bytes = text.as_bytes();
+    let is_dollar = |place: Option<usize>| place.and_then(|place| bytes.get(place)) == Some(&b'$');
+    let alone = (0..bytes.len()).filter(|place| {
+        let (before, after) = (place.checked_sub(1), place.checked_add(1));
+        let is_escaped = before.and_then(|place| bytes.get(place)) == Some(&b'\\');
+        is_dollar(Some(*place)) && !is_dollar(before) && !is_dollar(after) && !is_escaped
+    });
+    blanked(text, &alone.map(|place| place..place + 1).collect::<Vec<_>>())
 }
 
 /// The position of the first percent sign that begins a comment.

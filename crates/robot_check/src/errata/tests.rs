@@ -220,6 +220,7 @@ fn a_byte_order_mark_is_not_part_of_the_equations() {
         ("# The equations, \\emph{as printed}.\n(2) Q2 = I2*(qdd1 + qdd2)\n", Notation::Text),
         ("(2) Q2 = I2*(qdd1 + qdd2) # as \\emph{printed}\n", Notation::Text),
         ("Q_{2} = I_2*(qdd1 + qdd2)\n", Notation::Latex),
+        ("(2) $Q_2 = I_2 (\\ddot q_1 + \\ddot q_2)$\n", Notation::Latex),
         ("% As printed.\n\\[ Q_2 = I_2 (\\ddot q_1 + \\ddot q_2) \\]\n", Notation::Latex),
     ] {
         let marked = format!("\u{feff}{text}");
