@@ -16,7 +16,7 @@ const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
 
 /// The byte order mark that some editors put before a text.
-pub(super) const BYTE_ORDER_MARK: char = '\u{feff}';
+const BYTE_ORDER_MARK: char = '\u{feff}';
 /// The command that takes the place of a left side which the preceding display printed.
 const PHANTOM: &str = r"\phantom{";
 /// The maximum number of bytes of a left side in `\phantom`.
@@ -147,7 +147,7 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<D
 }
 
 /// The text with comments and a byte order mark replaced by the same number of spaces.
-fn without_comments(text: &str, notation: Notation) -> String {
+pub(super) fn without_comments(text: &str, notation: Notation) -> String {
     let mut clean = String::with_capacity(text.len());
     let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     clean.extend(std::iter::repeat_n(' ', text.len() - unmarked.len()));
@@ -167,14 +167,12 @@ fn without_comments(text: &str, notation: Notation) -> String {
 
 /// The text with a space for each dollar sign alone, which begins or ends a formula in a line.
 fn without_dollars(text: &str) -> String {
-    let bytes = text.as_bytes();
-    let is_dollar = |place: Option<usize>| place.and_then(|place| bytes.get(place)) == Some(&b'$');
-    let alone = (0..bytes.len()).filter(|place| {
-        let (before, after) = (place.checked_sub(1), place.checked_add(1));
-        let is_escaped = before.and_then(|place| bytes.get(place)) == Some(&b'\\');
-        is_dollar(Some(*place)) && !is_dollar(before) && !is_dollar(after) && !is_escaped
+    let alone = text.match_indices('$').map(|(place, _)| place..place + 1).filter(|dollar| {
+        let before = text.get(..dollar.start).unwrap_or_default();
+        let after = text.get(dollar.end..).unwrap_or_default();
+        !before.ends_with(['$', '\\']) && !after.starts_with('$')
     });
-    blanked(text, &alone.map(|place| place..place + 1).collect::<Vec<_>>())
+    blanked(text, &alone.collect::<Vec<_>>())
 }
 
 /// The position of the first percent sign that begins a comment.

@@ -7,7 +7,7 @@ use robot_model::description::is_finite;
 use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 use robot_symbolic::{Formula, ParseError};
 
-use super::entries::{BYTE_ORDER_MARK, Entry, entries, unnamed};
+use super::entries::{Entry, entries, unnamed, without_comments};
 use super::symbols::Symbols;
 
 /// The notation of equations.
@@ -24,10 +24,9 @@ impl Notation {
     /// comments.
     #[must_use]
     pub fn detect(text: &str) -> Notation {
-        let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-        let mut lines = text.lines().map(|line| line.split('#').next().unwrap_or_default());
-        let is_latex = |line: &str| ["\\", "$", "_{", "^{"].iter().any(|sign| line.contains(sign));
-        if lines.any(is_latex) { Notation::Latex } else { Notation::Text }
+        let text = without_comments(text, Notation::Text);
+        let is_latex = ["\\", "$", "_{", "^{"].iter().any(|sign| text.contains(sign));
+        if is_latex { Notation::Latex } else { Notation::Text }
     }
 }
 

@@ -77,10 +77,8 @@ fn powers<'g>(factors: impl Iterator<Item = Power<'g>>) -> Vec<Power<'g>> {
 /// The derived terms as they are printed: constants such as sin(0.7) that no printed term contains are multiplied into the
 /// coefficients.
 pub(super) fn noted_like<'g>(derived: Vec<Term<'g>>, printed: &[Term<'g>]) -> Vec<Term<'g>> {
-    let factors = |terms: &[Term<'g>]| -> HashSet<Id> {
-        terms.iter().flat_map(|term| &term.factors).map(|power| power.atom.id()).collect()
-    };
-    let known = factors(printed);
+    let factors = printed.iter().flat_map(|term| &term.factors);
+    let known: HashSet<Id> = factors.map(|power| power.atom.id()).collect();
     let is_constant = |power: &Power<'g>| {
         !known.contains(&power.atom.id()) && walk::symbols(&[power.atom]).is_empty()
     };

@@ -69,15 +69,15 @@ fn named<'r, 'g>(
         })
     };
     let mut inlined = FxHashSet::default();
-    let (mut groups, mut once) = attempt(writer, &inlined)?;
+    let (mut groups, mut rare) = attempt(writer, &inlined)?;
     // What is written in place can leave other names that are rarely used.
     for _ in 0..ROUNDS {
         let known = writer.symbols.clone();
-        let Some(found) = shorter(&groups, &once, &inlined, |more| attempt(writer, more))? else {
+        let Some(found) = shorter(&groups, &rare, &inlined, |more| attempt(writer, more))? else {
             writer.symbols = known;
             break;
         };
-        (groups, once, inlined) = found;
+        (groups, rare, inlined) = found;
     }
     Ok(groups)
 }
@@ -92,15 +92,15 @@ type Found = (Vec<Group>, Rare, FxHashSet<Id>);
 /// they are longer.
 fn shorter(
     groups: &[Group],
-    once: &Rare,
+    rare: &Rare,
     inlined: &FxHashSet<Id>,
     mut attempt: impl FnMut(&FxHashSet<Id>) -> Result<(Vec<Group>, Rare), Error>,
 ) -> Result<Option<Found>, Error> {
-    for more in once.iter().filter(|more| !more.is_subset(inlined)) {
+    for more in rare.iter().filter(|more| !more.is_subset(inlined)) {
         let inlined: FxHashSet<Id> = inlined.union(more).copied().collect();
-        let (shorter, once) = attempt(&inlined)?;
+        let (shorter, rare) = attempt(&inlined)?;
         if printed_length(&shorter) <= printed_length(groups) {
-            return Ok(Some((shorter, once, inlined)));
+            return Ok(Some((shorter, rare, inlined)));
         }
     }
     Ok(None)
