@@ -169,6 +169,66 @@ fn pivots_count_the_digits_that_a_decomposition_loses() {
     assert!((2..=6).contains(&near.digits), "{near:?}");
 }
 
+/// Equal links about axes `axes`, one after the other; the link `idle` has the same axis as the next one and nearly no
+/// inertia, and the last joint follows the one before it, so that M is decomposed.
+fn chain(joints: usize, axes: [&str; 3], idle: Option<usize>) -> Robot {
+    let link = |index: usize| {
+        let axis = axes[index % 3];
+        let (offset, mass) = match idle {
+            Some(idle) if index == idle => (0.1, 1e-24),
+            Some(idle) if index == idle + 1 => (0.0, 1.0),
+            _ => (0.1, 1.0),
+        };
+        let inertia = 0.01 * mass;
+        let mimic = match idle {
+            Some(_) if index + 1 == joints => format!(", mimic = {{ joint = \"{}\" }}", index - 1),
+            _ => String::new(),
+        };
+        format!(
+            "[[link]]\nname = \"{index}\"\njoint = {{ type = \"revolute\", axis = \"{axis}\"{mimic} }}\n\
+             origin = {{ xyz = [{offset}, 0, 0] }}\nmass = {mass}\ncenter_of_mass = [0.05, 0.01, 0]\n\
+             inertia = {{ xx = {inertia}, yy = {inertia}, zz = {inertia} }}\n"
+        )
+    };
+    let links: String = (0..joints).map(link).collect();
+    let text = format!("format = 1\n[robot]\nname = \"chain\"\n{links}");
+    robot_build::read(&Source { name: "chain.toml".to_owned(), text }).unwrap().robot
+}
+
+/// A bound that follows each operation grows by about one digit with each joint, and would leave no digit here. The
+/// condition numbers of M are about 10⁵.
+#[test]
+fn long_chains_keep_their_digits() {
+    for (joints, axes, digits) in [(16, ["z"; 3], 9), (30, ["z"; 3], 8), (30, ["z", "y", "x"], 8)] {
+        let robot = chain(joints, axes, None);
+        let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
+        let mechanism = Mechanism::nominal(&robot).unwrap();
+        let options = options(FunctionKind::ForwardDynamics(Effects::NONE));
+        let programs = robot_build::programs_of(robot, "chain", &options).unwrap();
+        let rest = vec![0.0; joints];
+        let other = Random::new(1).state(&mechanism).q;
+        for q in [rest.clone(), other] {
+            assert_eq!(pivots.smallest(&q).unwrap(), None, "{joints} {axes:?} {q:?}");
+            let tau: Vec<f64> = (0..joints).map(|joint| joint as f64 - 7.5).collect();
+            let found = call(&programs, &[], &[("q", &q), ("qd", &rest), ("tau", &tau)]);
+            let torques = mechanism.inverse_dynamics(&q, &rest, &found).unwrap();
+            assert!(error(torques.as_slice(), &tau) < 10.0_f64.powi(-digits), "{joints} {axes:?}");
+        }
+    }
+}
+
+/// The first of two joints with the same axis carries 10⁻²⁴ kg more than the second.
+#[test]
+fn long_chains_can_be_singular_to_within_rounding() {
+    for axes in [["z"; 3], ["z", "z", "y"]] {
+        let robot = chain(24, axes, Some(9));
+        let pivots = Pivots::new(&robot, &Options::default(), &[]).unwrap();
+        let found = pivots.smallest(&[0.1; 23]).unwrap().unwrap();
+        assert!(found.is_wrong() && found.joint == "9", "{found:?}");
+        assert!(found.to_string().contains("singular"), "{found}");
+    }
+}
+
 /// The code of arms does not check pivots with reciprocals of positive numbers. The numbers are the operations of
 /// forward dynamics without a search.
 #[test]

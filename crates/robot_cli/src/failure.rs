@@ -22,7 +22,7 @@ pub(crate) enum Failure {
     Usage(Vec<String>),
     /// A failure that has already been shown.
     Shown,
-    /// A failure with the exit code 2, because comparisons use 1 for differences.
+    /// A failure with the exit code 2: of arguments, or of comparisons, which use 1 for differences.
     Refused(Box<Failure>),
     /// Standard output cannot be written.
     Stream(io::Error),
@@ -62,7 +62,8 @@ impl Failure {
         Failure::Input(vec![message.into()])
     }
 
-    /// The failure of a command whose code 1 means that two things differ.
+    /// The failure with the exit code 2: because of arguments, or of a command whose code 1 means that two things
+    /// differ.
     pub(crate) fn refused(self) -> Failure {
         Failure::Refused(Box::new(self))
     }

@@ -146,16 +146,17 @@ impl Trajectory {
         let wrench_names = wrench_names(robot);
         let has_wrench = wrench_names.iter().any(|name| formulas.contains_key(name));
         let wrenches: Vec<Expr<'_>> = wrench_names.iter().map(lower).collect();
-        let sample = |exprs: &[Expr<'_>]| -> Result<Vec<Vec<f64>>, Error> {
+        let sample = |exprs: &[Expr<'_>]| -> Vec<Vec<f64>> {
             times.iter().map(|t| at(&graph, exprs, &values, *t)).collect()
         };
-        Ok(Trajectory {
-            q: sample(&q)?,
-            qd: sample(&qd)?,
-            qdd: sample(&qdd)?,
-            wrenches: if has_wrench { Some(sample(&wrenches)?) } else { None },
-            t: times,
-        })
+        let motion = [sample(&q), sample(&qd), sample(&qdd)];
+        let wrenches = has_wrench.then(|| sample(&wrenches));
+        let names = robot.symbols(JointVariable::Position);
+        let mut wrong =
+            infinite(&names, &times, &["position", "velocity", "acceleration"], &motion);
+        wrong.extend(infinite(&wrench_names, &times, &["value"], wrenches.as_slice()));
+        let [q, qd, qdd] = motion;
+        Error::check(wrong, Trajectory { q, qd, qdd, wrenches, t: times })
     }
 }
 
@@ -206,9 +207,7 @@ fn kinked<'g>(
     parameters: &BTreeMap<String, f64>,
     times: &[f64],
 ) -> Vec<String> {
-    let value = |exprs: &[Expr<'g>], t: f64| {
-        at(graph, exprs, parameters, t).unwrap_or_else(|_| vec![f64::NAN; exprs.len()])
-    };
+    let value = |exprs: &[Expr<'g>], t: f64| at(graph, exprs, parameters, t);
     let message = |kink: Kink| {
         let Kink { coordinate, what, .. } = kink;
         let [t, left, right] = [kink.t, kink.sides[0], kink.sides[1]].map(number);
@@ -232,22 +231,33 @@ fn kinked<'g>(
     kinks(q, qd, times, &value).into_iter().map(message).chain(poles).collect()
 }
 
-/// The values of expressions at a time; an error if they are not finite.
-fn at(
-    graph: &Graph,
-    exprs: &[Expr<'_>],
-    parameters: &BTreeMap<String, f64>,
-    t: f64,
-) -> Result<Vec<f64>, Error> {
-    let values = walk::evaluate(exprs, |symbol| {
+/// A message for each name at the first time at which one of `samples`, called `what`, is not finite.
+fn infinite(
+    names: &[String],
+    times: &[f64],
+    what: &[&str],
+    samples: &[Vec<Vec<f64>>],
+) -> Vec<String> {
+    let message = |(place, name): (usize, &String)| {
+        let is_infinite = |row: &Vec<f64>| row.get(place).is_some_and(|value| !value.is_finite());
+        let first = |(what, rows): (&&str, &Vec<Vec<f64>>)| {
+            rows.iter().position(is_infinite).map(|row| (row, what.to_string()))
+        };
+        let found = what.iter().zip(samples).filter_map(first);
+        let (row, what) = found.min_by_key(|(row, _)| *row)?;
+        let t = number(times.get(row).copied().unwrap_or_default());
+        Some(format!(
+            "`{name}`: the {what} is not finite at t = {t} s; look for a division by zero, for the square root of a \
+             number that is negative or, in a derivative, 0, and for an overflow"
+        ))
+    };
+    names.iter().enumerate().filter_map(message).collect()
+}
+
+/// The values of expressions at a time.
+fn at(graph: &Graph, exprs: &[Expr<'_>], parameters: &BTreeMap<String, f64>, t: f64) -> Vec<f64> {
+    walk::evaluate(exprs, |symbol| {
         let name = graph.symbol_name(symbol);
         if *name == *"t" { t } else { parameters.get(&*name).copied().unwrap_or(f64::NAN) }
-    });
-    match values.iter().all(|value| value.is_finite()) {
-        true => Ok(values),
-        false => Err(Error::input(format!(
-            "the expressions or their derivatives do not have finite values at t = {} s",
-            number(t)
-        ))),
-    }
+    })
 }

@@ -61,7 +61,11 @@ impl fmt::Display for Over {
         let Over { function, resource, found, limit } = self;
         match resource {
             Resource::Operations => {
-                write!(formatter, "`{function}` takes {found} operations; its budget is {limit}")
+                let plural = if *found == 1 { "" } else { "s" };
+                write!(
+                    formatter,
+                    "`{function}` takes {found} operation{plural}; its budget is {limit}"
+                )
             }
             Resource::Stack => write!(
                 formatter,

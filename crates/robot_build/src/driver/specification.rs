@@ -39,6 +39,11 @@ pub(crate) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
     ModuleSpec { functions, ..module(derivation, &[], &[], &[]) }
 }
 
+/// Makes the specification of a module with only the mass matrix.
+pub(crate) fn mass_matrix<'g>(derivation: &Derivation<'_, 'g>) -> ModuleSpec<'g> {
+    module(derivation, &[FunctionKind::MassMatrix], &[], &[])
+}
+
 /// The documentation of a module: the robot, its description in the file, the conventions, and further functions.
 pub(crate) fn module_doc(robot: &Robot, more: &[FunctionKind]) -> Vec<String> {
     let blank = || "\n".to_owned();

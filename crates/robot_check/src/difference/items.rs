@@ -2,8 +2,9 @@
 
 use robot_document::robot::rows::{self, FrameRow, LinkRow, ParameterRow};
 use robot_document::robot::words;
+use robot_model::diagnostic::number;
 use robot_model::robot::{Body, Inertia, Joint, Link, Payload, Placement, Robot};
-use robot_symbolic::{Formula, Graph, print};
+use robot_symbolic::{Formula, Graph, Rational, print};
 
 /// The kind of an item.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -196,9 +197,22 @@ fn frame(FrameRow { frame, link, wrench }: FrameRow<'_>) -> Item {
 /// are numbers, too.
 fn formula(formula: &Formula) -> String {
     let graph = Graph::new();
-    let number = formula.lower(&graph, &mut |name| graph.symbol(name)).as_number();
-    let rational = number.as_ref().and_then(|number| number.as_rational());
-    rational.map_or_else(|| formula.text().to_owned(), print::exact_text)
+    let value = formula.lower(&graph, &mut |name| graph.symbol(name)).as_number();
+    let rational = value.as_ref().and_then(|value| value.as_rational());
+    rational.map_or_else(|| formula.text().to_owned(), exact)
+}
+
+/// The longest text of a number that is not printed with a power of ten.
+const MAX_DIGITS: usize = 24;
+
+/// The exact text of a number, with a power of ten if it is long and this is exact too.
+fn exact(value: &Rational) -> String {
+    let text = print::exact_text(value);
+    if text.len() <= MAX_DIGITS {
+        return text;
+    }
+    let short = number(value.to_f64());
+    if Rational::from_decimal(&short).as_ref() == Some(value) { short } else { text }
 }
 
 fn vector(entries: &[Formula; 3]) -> String {
@@ -207,4 +221,23 @@ fn vector(entries: &[Formula; 3]) -> String {
 
 fn placement(placement: &Placement) -> String {
     words::pose(placement, formula)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_numbers_have_powers_of_ten_if_they_are_exact() {
+        for (text, expected) in [
+            ("0.1", "0.1"),
+            ("1e30", "1e30"),
+            ("-1.01e-100", "-1.01e-100"),
+            ("100000000000000000000", "100000000000000000000"),
+            ("1.00000000000000000000000001", "1.00000000000000000000000001"),
+        ] {
+            let value = Rational::from_decimal(text).unwrap();
+            assert_eq!(exact(&value), expected, "{text}");
+        }
+    }
 }

@@ -23,7 +23,7 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 
 use robot_model::functions::Effects;
-use robot_symbolic::{AngleSums, Expr, Graph, PolynomialOptions, walk};
+use robot_symbolic::{AngleSums, Expr, Formula, Graph, PolynomialOptions, walk};
 
 use dimension::Dimensions;
 pub use evidence::Evidence;
@@ -168,15 +168,33 @@ fn read(
     let printed = read_printed(source, notation, &Symbols::of(robot, &names, used))?;
     let known: BTreeSet<String> = names.iter().map(ToString::to_string).collect();
     let unknown = printed.iter().filter(|equation| !known.contains(&equation.quantity));
-    let unknown: Vec<Diagnostic> = unknown.map(|equation| no_quantity(equation, robot)).collect();
-    if unknown.is_empty() { Ok(printed) } else { Err(unknown) }
+    let unknown = unknown.map(|equation| no_quantity(equation, robot));
+    let empty = printed.iter().filter(|equation| is_empty(equation)).map(says_nothing);
+    let wrong: Vec<Diagnostic> = unknown.chain(empty).collect();
+    if wrong.is_empty() { Ok(printed) } else { Err(wrong) }
+}
+
+/// Whether the right side of an equation is its left side.
+fn is_empty(equation: &PrintedEquation) -> bool {
+    let graph = Graph::new();
+    let lower = |term: &Formula| term.lower(&graph, &mut |name| graph.symbol(name));
+    let sum = equation.terms.iter().map(lower).fold(graph.zero(), |sum, term| sum + term);
+    sum == graph.symbol(&equation.quantity)
+}
+
+fn says_nothing(equation: &PrintedEquation) -> Diagnostic {
+    let message =
+        format!("the right side is `{}` itself, so nothing is compared", quote(&equation.quantity));
+    Diagnostic::error(code::EXPRESSION, message)
+        .at(&equation.span, "")
+        .help("write the terms of the equation, or the name of another quantity")
 }
 
 /// Whether any equation contains a symbol of a tip's wrench.
 fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
     let names: BTreeSet<&str> = robot.tips().flat_map(|(_, wrench)| wrench.components()).collect();
     let terms = printed.iter().flat_map(|equation| &equation.terms);
-    terms.flat_map(robot_symbolic::Formula::symbols).any(|(name, _)| names.contains(name))
+    terms.flat_map(Formula::symbols).any(|(name, _)| names.contains(name))
 }
 
 fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
@@ -263,7 +281,7 @@ fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {
 }
 
 /// The terms of a printed formula, with the errors of their coefficients.
-fn rounded<'g>(mut terms: Vec<Term<'g>>, formula: &robot_symbolic::Formula) -> Vec<Term<'g>> {
+fn rounded<'g>(mut terms: Vec<Term<'g>>, formula: &Formula) -> Vec<Term<'g>> {
     let Some(share) = rounding::of_formula(formula) else { return terms };
     for term in &mut terms {
         let error = &share * &term.coefficient;

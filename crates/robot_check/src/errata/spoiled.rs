@@ -241,8 +241,7 @@ fn how_latex_is_read() {
         match read(&robot, &source, &options, &mechanism) {
             Ok(equations) => {
                 for one in equations {
-                    let terms: Vec<&str> =
-                        one.terms.iter().map(robot_symbolic::Formula::text).collect();
+                    let terms: Vec<&str> = one.terms.iter().map(Formula::text).collect();
                     let left = &text[one.span.clone()];
                     let (number, quantity) = (one.number, one.quantity);
                     let _ = writeln!(shown, "  `{left}` ({number}) {quantity}: {terms:?}");

@@ -444,3 +444,12 @@ fn a_joint_torque_in_text_may_be_tau() {
     let shown = compared(&robot("planar_2r"), "tau3 = 0\n").unwrap_err().to_string();
     assert!(shown.contains("does not have the quantity `tau3`"), "{shown}");
 }
+
+/// A table with `Q1 = Q1` would agree with every robot.
+#[test]
+fn an_equation_that_is_its_own_left_side_is_an_error() {
+    for text in ["Q1 = Q1", "Q1 = (Q1)", "Q1 = 2*Q1 - Q1", "$Q_1 = Q_1$"] {
+        let error = compared(&robot("planar_2r"), text).unwrap_err();
+        assert!(error.to_string().contains("the right side is `Q1` itself"), "{text}: {error}");
+    }
+}

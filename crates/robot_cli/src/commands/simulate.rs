@@ -22,7 +22,7 @@ use crate::progress::Progress;
 use crate::recording::{Recording, plot_path};
 use crate::robot::RobotArgument;
 use crate::settings::Settings;
-use crate::values::{self, of_joints, seconds, whole};
+use crate::values::{self, miscounted, of_joints, seconds, whole};
 
 /// The number of lines of the output that are in memory as text.
 const PART: usize = 1024;
@@ -141,10 +141,16 @@ impl Arguments {
         ];
         let [q, qd] = given.map(|(option, text, variable)| match text {
             None => vec![0.0; robot.degrees_of_freedom()],
-            Some(text) => of_joints(option, text, variable, robot).unwrap_or_else(|found| {
-                wrong.extend(found);
-                vec![]
-            }),
+            Some(text) => match of_joints(option, text, variable, robot) {
+                Ok(values) => {
+                    wrong.extend(miscounted(option, &values, &robot.symbols(variable)));
+                    values
+                }
+                Err(found) => {
+                    wrong.extend(found);
+                    vec![]
+                }
+            },
         });
         if wrong.is_empty() { Ok(State { q, qd }) } else { Err(Failure::Usage(wrong)) }
     }

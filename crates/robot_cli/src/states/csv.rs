@@ -53,6 +53,11 @@ pub(super) fn has_wrench(header: &str, layout: &Layout) -> bool {
     wrenches.any(|array| array.columns.iter().any(|name| cells.contains(&name.as_str())))
 }
 
+/// The column of the time, which no function of a robot takes, and the remedy if it is there.
+const TIME: &str = "t";
+const MOTION: &str = " For joint torques along a motion over time, use `torques --trajectory`; \
+    otherwise leave this column out";
+
 fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
     let mut errors = vec![];
     let columns = layout.columns();
@@ -62,7 +67,8 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
                 format!("unknown column `{}`.{}", quote(name), text::meant(name, &columns));
             let unit = unit(name);
             let unknown = if unit.is_empty() { &unknown } else { unknown.trim_end_matches('.') };
-            errors.push(format!("the header: {unknown}{unit}"));
+            let motion = if *name == TIME { MOTION } else { "" };
+            errors.push(format!("the header: {unknown}{unit}{motion}"));
         } else if header[..index].contains(name) {
             errors.push(format!("`{name}` appears twice in the header"));
         }

@@ -404,7 +404,7 @@ fn wrong_states_on_the_command_line_are_told_with_their_place() {
          error: --qdd: entry 2, qdd2: `90deg/s` is not a number; write one such as 0.5, pi/2 or 90deg/s^2\n"
     );
     assert!(wrong(2, &[]).contains("a state is needed"));
-    assert!(wrong(1, &["--q", "0,0"]).contains("`qd` is missing; inverse_dynamics needs it"));
+    assert!(wrong(2, &["--q", "0,0"]).contains("`qd` is missing; inverse_dynamics needs it"));
     assert!(wrong(2, &["--q", "0,0", "--states", "-"]).contains("cannot be used with"));
     assert!(wrong(2, &["--wrench", "1,2"]).contains("--wrench: 2 entries, not 6 (fx, fy"));
     assert!(wrong(2, &["--wrench", "hand=1,2,3,4,5,6"]).contains("leave out `hand=`"));
@@ -451,6 +451,31 @@ fn each_tip_has_one_wrench_on_the_command_line() {
         assert_eq!((done.code, done.output.as_str()), (2, ""), "{wrenches:?}");
         assert_eq!(lines, [format!("error: {message}")], "{wrenches:?}");
     }
+}
+
+/// An empty selection of a log is a file with a header, and so is what is computed for it.
+#[test]
+fn no_states_have_a_header_and_a_note() {
+    let file = robot("planar_2r");
+    let eval = |format: &str| {
+        let arguments = ["--function", "gravity", "--states", "-", "--format", format];
+        run_with(&[&["eval", &file], &arguments[..]].concat(), b"q1,q2\n")
+    };
+    let note = "note: standard input has no states\n";
+    for (format, output) in [("csv", "tau1,tau2\n"), ("json", "[]\n")] {
+        let done = eval(format);
+        assert_eq!((done.code, done.output.as_str(), done.errors.as_str()), (0, output, note));
+    }
+}
+
+/// `simulate` and recordings have a column of the time.
+#[test]
+fn a_column_of_the_time_has_a_remedy() {
+    let arguments = ["eval", &robot("planar_2r"), "--function", "gravity", "--states", "-"];
+    let done = run_with(&arguments, b"t,q1,q2\n0,0,0\n");
+    assert_eq!(done.code, 1);
+    assert!(done.errors.contains("unknown column `t`"), "{}", done.errors);
+    assert!(done.errors.contains("use `torques --trajectory`"), "{}", done.errors);
 }
 
 #[test]

@@ -372,7 +372,7 @@ fn compact_equations_are_in_terms_of_mechanics() {
     assert!(shown.lines().all(|line| !line.starts_with("Q1 = x_2")), "{shown}");
     let shown = output(&["equations", &robot("trttr1"), "--form", "compact"], "");
     assert!(
-        shown.contains("Jy5*qdd5") && shown.contains("(Jx5 - Jz5)*sin(q5)*cos(q5)*qd2^2"),
+        shown.contains("Jy5*qdd5") && shown.contains("(Jz5 - Jx5)*sin(q5)*cos(q5)*qd2^2"),
         "{shown}"
     );
     for idle in ["Jx2", "Jy2", "Jx3", "Jx4", "k_1"] {

@@ -107,12 +107,13 @@ fn steps_that_lead_nowhere_are_few() {
 fn everything_that_is_wrong_is_said() {
     let file = robot("planar_2r");
     let shown = |more: &[&str]| complaint(1, &[&["simulate", &file], more].concat(), "");
-    let start = shown(&["--q0", "1", "--qd0", "1,2,3", "--tolerance", "2"]);
+    let start = complaint(2, &["simulate", &file, "--q0", "1", "--qd0", "1,2,3"], "");
     assert_eq!(
         start,
-        "error: the tolerance is 2; it must be between 1e-14 and 0.1\n\
-         error: the initial state has 1 entry of q, not 2\nerror: the initial state has 3 entries of qd, not 2\n"
+        "error: --q0: 1 entry, not 2 (q1, q2)\nerror: --qd0: 3 entries, not 2 (qd1, qd2)\n"
     );
+    let tolerance = "error: the tolerance is 2; it must be between 1e-14 and 0.1\n";
+    assert_eq!(shown(&["--tolerance", "2"]), tolerance);
     assert!(shown(&["--torque", "3=1"]).starts_with("error: torque `3` does not match a joint"));
     assert!(shown(&["--torque", "1=1/(t-t)"]).contains("joint torques do not have finite values"));
     assert!(shown(&["--time", "0"]).contains("the duration is 0 s"));

@@ -7,7 +7,7 @@
 use std::cmp::Reverse;
 
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
-use robot_symbolic::{Expr, Graph, Number, View, walk};
+use robot_symbolic::{Expr, Function, Graph, Number, View, walk};
 use rustc_hash::FxHashMap;
 
 use crate::layout::{BRACKETS, Order, Rank};
@@ -43,7 +43,7 @@ pub(super) fn terms<'h>(expr: Expr<'h>, order: &Order<'_>) -> Terms<'h> {
 /// Sorts the terms of a sum by their factors, with numbers last.
 fn sorted<'h>(mut terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
     terms.sort_by_cached_key(|term| {
-        let factor = |(factor, exponent): &Power<'h>| (rank(factor, order), Reverse(*exponent));
+        let factor = |(factor, exponent): &Power<'h>| (place(factor, order), Reverse(*exponent));
         (term.factors.is_empty(), term.factors.iter().map(factor).collect::<Vec<_>>())
     });
     terms
@@ -57,8 +57,24 @@ pub(super) fn positive_first(mut terms: Terms<'_>) -> Terms<'_> {
     terms
 }
 
-fn rank(factor: &ArrangedFactor<'_>, order: &Order<'_>) -> Rank {
-    factor.as_atom().map_or(BRACKETS, |atom| order.rank(atom))
+fn sort_factors(factors: &mut [Power<'_>], order: &Order<'_>) {
+    factors.sort_by_cached_key(|(factor, _)| place(factor, order));
+}
+
+/// The place of a factor in a product: its rank, then the symbols of its angle, with sines before cosines, as in sums
+/// that are collected.
+fn place(factor: &ArrangedFactor<'_>, order: &Order<'_>) -> (Rank, Vec<Rank>, bool) {
+    let Some(atom) = factor.as_atom() else { return (BRACKETS, vec![], false) };
+    let View::Call(function @ (Function::Sin | Function::Cos), angle) = atom.view() else {
+        return (order.rank(atom), vec![], false);
+    };
+    let symbols = walk::symbols(&[angle]).into_iter().map(|symbol| {
+        let graph = angle.graph();
+        order.rank(graph.symbol(&graph.symbol_name(symbol)))
+    });
+    let mut symbols: Vec<Rank> = symbols.collect();
+    symbols.sort_unstable();
+    (order.rank(atom), symbols, function == Function::Cos)
 }
 
 /// Counts the operations of a sum of terms, with every factor of a power. Sines and cosines and their angles do not
@@ -99,7 +115,7 @@ pub(super) fn factored<'h>(terms: Terms<'h>, order: &Order<'_>) -> Terms<'h> {
                 }
             }
         });
-        found.factors.sort_by_key(|(factor, _)| rank(factor, order));
+        sort_factors(&mut found.factors, order);
         found
     };
     let terms = joined_terms(terms.into_iter().map(inside).collect(), order);
@@ -150,7 +166,7 @@ fn extracted<'h>(
     let rest = sorted(terms.iter().map(rest).collect(), order);
     let mut product = ArrangedTerm::product(&rest, common.factors);
     product.coefficient = &product.coefficient * &common.coefficient;
-    product.factors.sort_by_key(|(factor, _)| rank(factor, order));
+    sort_factors(&mut product.factors, order);
     product
 }
 
@@ -206,7 +222,7 @@ fn joined<'h>(
     let common = one.factors.iter().filter(|factor| other.factors.contains(factor));
     let mut term = ArrangedTerm::product(&sum, common.cloned().collect());
     term.coefficient = &term.coefficient * &one.coefficient;
-    term.factors.sort_by_key(|(factor, _)| rank(factor, order));
+    sort_factors(&mut term.factors, order);
     term
 }
 
@@ -219,7 +235,7 @@ fn constant<'h>(number: &Number) -> Terms<'h> {
     vec![ArrangedTerm { negative: number.is_negative(), coefficient, factors: vec![] }]
 }
 
-fn negated(mut terms: Terms<'_>) -> Terms<'_> {
+pub(super) fn negated(mut terms: Terms<'_>) -> Terms<'_> {
     for term in &mut terms {
         term.negative = !term.negative;
     }
@@ -253,7 +269,7 @@ fn times<'h>(a: Terms<'h>, b: Terms<'h>, power: i32, order: &Order<'_>) -> Arran
         b.factors.iter_mut().for_each(|(_, exponent)| *exponent = -*exponent);
     }
     let mut product = multiplied(a, b);
-    product.factors.sort_by_key(|(factor, _)| rank(factor, order));
+    sort_factors(&mut product.factors, order);
     product
 }
 

@@ -3,21 +3,55 @@
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
-use robot_symbolic::{AngleSums, Expr, Graph, Id, PolynomialOptions, View, walk};
+use robot_symbolic::{AngleSums, Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
 use super::naming::is_leaf;
 use super::uses::{Attempt, Rare, Unnamed, printed_length, without_unused};
 use super::{
-    Equation, Group, Writer, angle_sums, arranged, canceled, independent, multiples, numbers,
-    of_joint_torque, residues, vectors,
+    Equation, Group, Writer, angle_sums, arranged, canceled, coefficients, independent, multiples,
+    numbers, of_joint_torque, residues, vectors,
 };
 use crate::error::Error;
-use crate::layout::{BRACKETS, is_motion};
+use crate::layout::{BRACKETS, SymbolTable, is_motion};
 use crate::math::Math;
 
 pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, Error> {
+    let mut quantities = quantities(writer);
+    let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+    let expansion = expansion(&values);
+    let values = with_short_parameters(writer, &values);
+    let values = numbers::rounded(writer, &values);
+    let values = canceled::with_single_terms(&values, writer.graph);
+    let values = canceled::without_canceled_terms(&values, writer.graph);
+    let symbols = writer.symbols.clone();
+    let mut groups = named(writer, &mut quantities, &values)?;
+    let united = multiples::united(&values, writer.graph);
+    if united != values {
+        groups =
+            shorter_of(writer, groups, &symbols, |writer| named(writer, &mut quantities, &united))?;
+    }
+    let bytes = printed_length(&groups, writer.options.digits);
+    let Some(expansion) = expansion.filter(|all| could_be_shorter(all, bytes)) else {
+        return Ok(groups);
+    };
+    let terms: Vec<Vec<ArrangedTerm<'_>>> =
+        expansion.iter().map(|value| writer.collected(value)).collect();
+    let values: Vec<Expr<'_>> =
+        terms.iter().map(|terms| arranged_value(terms, writer.graph)).collect();
+    let groups =
+        shorter_of(writer, groups, &symbols, |writer| named(writer, &mut quantities, &values))?;
+    shorter_of(writer, groups, &symbols, |writer| {
+        let all = quantities.iter().zip(&terms).map(|(quantity, terms)| {
+            writer.of_terms(quantity.symbol.to_string(), writer.look(quantity.symbol), terms)
+        });
+        Ok(vec![group(writer, &quantities, all.collect::<Result<_, _>>()?)])
+    })
+}
+
+/// The requested quantities, with joint torques from the economical recursion.
+fn quantities<'g>(writer: &Writer<'_, 'g>) -> Vec<Quantity<'g>> {
     let mut quantities = writer.quantities(writer.options.friction);
     let forces = writer.economical_forces(writer.options.friction);
     let mut forces = independent::without_velocities(writer, forces);
@@ -27,24 +61,48 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
     for quantity in &mut quantities {
         quantity.value = of_joint_torque(quantity, &forces).unwrap_or(quantity.value);
     }
-    let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
-    let values = with_short_parameters(writer, &values);
-    let values = numbers::rounded(writer, &values);
-    let values = canceled::with_single_terms(&values, writer.graph);
-    let values = canceled::without_canceled_terms(&values, writer.graph);
-    let symbols = writer.symbols.clone();
-    let groups = named(writer, &mut quantities, &values)?;
-    let united = multiples::united(&values, writer.graph);
-    if united == values {
-        return Ok(groups);
-    }
-    let known = std::mem::replace(&mut writer.symbols, symbols);
-    let shorter = named(writer, &mut quantities, &united)?;
-    if printed_length(&shorter) < printed_length(&groups) {
-        return Ok(shorter);
+    quantities
+}
+
+/// The values, multiplied out: in the structure of the recursion, terms of different links can cancel that are in
+/// different parts. `None` if one is too long.
+fn expansion<'g>(values: &[Expr<'g>]) -> Option<Vec<Polynomial<'g>>> {
+    let expanded = values.iter().map(|value| residues::polynomial(*value, &coefficients::LIMITS));
+    expanded.collect::<Result<_, _>>().ok()
+}
+
+/// The largest number of terms of all quantities that are collected as wholes, which takes up to a second.
+const MAX_COLLECTED: usize = 300;
+/// A number of bytes that nearly each term of an expansion needs at least when the terms are collected.
+const TERM_BYTES: usize = 8;
+
+/// Whether collected quantities could be shorter than equations with so many bytes.
+fn could_be_shorter(expansion: &[Polynomial<'_>], bytes: usize) -> bool {
+    let terms: usize = expansion.iter().map(Polynomial::len).sum();
+    terms <= MAX_COLLECTED && TERM_BYTES * terms <= bytes
+}
+
+/// The shorter equations: these, or those that `write` writes with the symbols that are known before.
+fn shorter_of<'r, 'g>(
+    writer: &mut Writer<'r, 'g>,
+    groups: Vec<Group>,
+    symbols: &SymbolTable,
+    write: impl FnOnce(&mut Writer<'r, 'g>) -> Result<Vec<Group>, Error>,
+) -> Result<Vec<Group>, Error> {
+    let known = std::mem::replace(&mut writer.symbols, symbols.clone());
+    let (others, digits) = (write(writer)?, writer.options.digits);
+    if printed_length(&others, digits) < printed_length(&groups, digits) {
+        return Ok(others);
     }
     writer.symbols = known;
     Ok(groups)
+}
+
+/// The group of the quantities.
+fn group(writer: &Writer<'_, '_>, quantities: &[Quantity<'_>], all: Vec<Equation>) -> Group {
+    let arrays = vectors::of_quantities(quantities, &all, writer.options.paper);
+    let group = Group::of_quantities("Equations of motion, compact", String::new(), all);
+    Group { arrays, ..group }
 }
 
 /// Writes quantities with these values, with names for common parts.
@@ -70,10 +128,13 @@ fn named<'r, 'g>(
     };
     let mut inlined = FxHashSet::default();
     let (mut groups, mut rare) = attempt(writer, &inlined)?;
+    let digits = writer.options.digits;
     // What is written in place can leave other names that are rarely used.
     for _ in 0..ROUNDS {
         let known = writer.symbols.clone();
-        let Some(found) = shorter(&groups, &rare, &inlined, |more| attempt(writer, more))? else {
+        let Some(found) =
+            shorter(&groups, &rare, (&inlined, digits), |more| attempt(writer, more))?
+        else {
             writer.symbols = known;
             break;
         };
@@ -93,13 +154,13 @@ type Found = (Vec<Group>, Rare, FxHashSet<Id>);
 fn shorter(
     groups: &[Group],
     rare: &Rare,
-    inlined: &FxHashSet<Id>,
+    (inlined, digits): (&FxHashSet<Id>, Option<usize>),
     mut attempt: impl FnMut(&FxHashSet<Id>) -> Result<(Vec<Group>, Rare), Error>,
 ) -> Result<Option<Found>, Error> {
     for more in rare.iter().filter(|more| !more.is_subset(inlined)) {
         let inlined: FxHashSet<Id> = inlined.union(more).copied().collect();
         let (shorter, rare) = attempt(&inlined)?;
-        if printed_length(&shorter) <= printed_length(groups) {
+        if printed_length(&shorter, digits) <= printed_length(groups, digits) {
             return Ok(Some((shorter, rare, inlined)));
         }
     }
@@ -127,11 +188,10 @@ fn written<'g, 'h>(
             None => list.tidy(writer, name, left, list.named.rewritten(quantity.value))?,
         });
     }
-    let arrays = vectors::of_quantities(quantities, &equations, writer.options.paper);
     let symbols: Vec<Symbol> = quantities.iter().map(|quantity| quantity.symbol).collect();
-    let equations = list.remaining(&symbols, equations);
-    let group = Group::of_quantities("Equations of motion, compact", String::new(), equations);
-    groups.push(Group { arrays, ..group });
+    let group = group(writer, quantities, equations);
+    let equations = list.remaining(&symbols, group.equations);
+    groups.push(Group { equations, ..group });
     Ok((groups, list))
 }
 

@@ -27,6 +27,7 @@ mod regrouped;
 mod residues;
 mod roots;
 mod shapes;
+mod signs;
 mod uses;
 mod vectors;
 
@@ -375,7 +376,7 @@ impl<'g> Writer<'_, 'g> {
     /// The terms of a polynomial as the form requires: collected or multiplied out, in both cases with the sums of
     /// angles that make it shortest.
     ///
-    /// In the form [`Form::Collected`], the terms of inertia and gravity, of friction, and of the wrenches of the tips
+    /// In the forms [`Form::Collected`] and [`Form::Compact`], the terms of inertia and gravity, of friction, and of the wrenches of the tips
     /// are collected separately. Long numbers with roots become decimals if that is shorter or the
     /// numbers below the roots are long, and [`EquationOptions::rounds_roots`] is set.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
@@ -407,7 +408,7 @@ impl<'g> Writer<'_, 'g> {
             collector.collect(part, |atom| self.order.rank(atom), &BRACKETS)
         };
         match self.options.form {
-            Form::Collected => {
+            Form::Collected | Form::Compact => {
                 let parts = value.split_by(|factors| parts::of(factors, &self.order, self.graph));
                 let part = |part: &Polynomial<'g>| match part.len() <= MAX_WHOLE {
                     true => collect(part),
@@ -451,9 +452,12 @@ impl<'g> Writer<'_, 'g> {
         left: Math,
         terms: &[ArrangedTerm<'_>],
     ) -> Result<Equation, Error> {
-        let terms = &roots::reduced(terms);
-        let text = arranged_text(terms)?;
-        let right = self.symbols.terms(terms)?;
+        let mut terms = roots::reduced(terms);
+        if !self.options.paper && self.options.order.is_empty() {
+            terms = signs::fewer(&terms);
+        }
+        let text = arranged_text(&terms)?;
+        let right = self.symbols.terms(&terms)?;
         Ok(Equation { name, text, left, right })
     }
 

@@ -6,6 +6,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::definitions::{Definitions, is_omitted};
 use super::{Group, Writer};
 use crate::error::Error;
+use crate::layout::tidied_text;
 
 /// Equations with names for common parts.
 pub(super) struct Attempt<T> {
@@ -43,7 +44,7 @@ pub(super) fn without_unused<'r, 'g, T>(
     writer: &mut Writer<'r, 'g>,
     write: impl Fn(&mut Writer<'r, 'g>, Unnamed) -> Result<Attempt<T>, Error>,
 ) -> Result<(Vec<Group>, T), Error> {
-    let symbols = writer.symbols.clone();
+    let (symbols, digits) = (writer.symbols.clone(), writer.options.digits);
     let mut best = write(writer, Unnamed::default())?;
     let mut unnamed = Unnamed { omitted: best.uses.unused.clone(), inlined: FxHashSet::default() };
     for _ in 0..ATTEMPTS {
@@ -54,7 +55,7 @@ pub(super) fn without_unused<'r, 'g, T>(
         let Attempt { groups, uses, more } = write(writer, unnamed.clone())?;
         let is_better = uses.missing.is_empty()
             && uses.unused.len() < best.uses.unused.len()
-            && printed_length(&groups) <= printed_length(&best.groups);
+            && printed_length(&groups, digits) <= printed_length(&best.groups, digits);
         unnamed.omitted.extend(&uses.unused);
         // Without some names, the others have another order, in which factors and terms are collected otherwise, and a
         // name can be used that was not.
@@ -74,10 +75,14 @@ pub(super) fn without_unused<'r, 'g, T>(
     Ok((best.groups, best.more))
 }
 
-/// The number of bytes of the equations as text, with equals signs and ends of lines.
-pub(super) fn printed_length(groups: &[Group]) -> usize {
+/// The number of bytes of the equations as text, with equals signs, ends of lines, and titles if there are several, if
+/// decimals have so many significant digits.
+pub(super) fn printed_length(groups: &[Group], digits: Option<usize>) -> usize {
+    let titles = groups.iter().map(|group| group.title.len() + 4).filter(|_| groups.len() > 1);
     let equations = groups.iter().flat_map(|group| &group.equations);
-    equations.map(|equation| equation.name.len() + equation.text.len() + 4).sum()
+    let equations = equations
+        .map(|equation| equation.name.len() + tidied_text(&equation.text, digits).len() + 4);
+    titles.chain(equations).sum()
 }
 
 /// The largest numbers of bytes of a part of a long expression that is written within it if it is used once.

@@ -40,7 +40,9 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
         let span = order.last().and_then(|last| links.get(*last)).map(|link| &link.name.span);
         let diagnostic = Diagnostic::error(code::LIMIT, message);
         let diagnostic = diagnostic.at(span.unwrap_or(&(0..0)), "the last one");
-        reader.report(diagnostic.help("describe one arm per file"));
+        reader.report(
+            diagnostic.help("describe one arm or limb per file, or fix joints that do not move"),
+        );
         return None;
     }
     Some(order)

@@ -83,6 +83,8 @@ fn errors_name_their_place() {
         (r"q_1 (q_2 + q_3", "q_2 + q_3".split(' ').next().unwrap(), "not closed"),
         (r"l_6 q_10", "10", "without braces"),
         (r"\sin q_2^2", "q_2^2", "a power of the function"),
+        (r"\sin^{-1} q_2", "^{-1}", "the inverse function or a quotient?"),
+        (r"0{,}5 q_2", ",", "is not supported here"),
         (r"q_1^{a}^2", "^", "second subscript"),
         (r"(q_1)^{x}", "^{x}", "integer"),
         // The operators of an exponent or an index are not lost: none of these is m_{12} or q_{12}.

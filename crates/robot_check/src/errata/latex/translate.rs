@@ -375,6 +375,14 @@ impl<'t> Translator<'t, '_> {
     fn function(&mut self, name: &str, start: Range<usize>) -> Result<(), ParseError> {
         let here = self.here();
         let exponent = if self.take("^") { Some((self.capture()?, here)) } else { None };
+        if let Some((exponent, place)) = exponent.as_ref().filter(|(text, _)| text.starts_with('-'))
+        {
+            let message =
+                format!(r"`\{name}^{{{}}}`: the inverse function or a quotient?", quote(exponent));
+            let help =
+                format!(r"write `\frac{{1}}{{\{name} x}}`; inverse functions are not supported");
+            return Err(ParseError::new(place.start..self.before(), message).help(help));
+        }
         self.applied(name, start, exponent)
     }
 
@@ -424,7 +432,8 @@ pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
     };
     ParseError::new(span, message).help(match text.starts_with(',') {
         true => {
-            "write out what a function such as h(q, \\dot q) stands for: equations of matrices and vectors are not compared"
+            "write decimals with a point, and write out what a function such as h(q, \\dot q) stands for: equations of \
+             matrices and vectors are not compared"
         }
         false => {
             "write symbols, numbers, + - * /, \\cdot, \\frac, \\sqrt, \\sin, \\cos, parentheses, subscripts and powers"

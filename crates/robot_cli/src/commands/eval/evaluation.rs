@@ -82,11 +82,16 @@ impl Wrong {
         [before, read, loaded, missing].iter().all(|complaints| complaints.is_empty())
     }
 
-    fn result(self) -> Result<(), Failure> {
+    /// The errors, which are those of the command line if `of_arguments`.
+    fn result(self, of_arguments: bool) -> Result<(), Failure> {
         let computed = self.is_none();
         let Wrong { before, read, loaded, missing, infinite } = self;
-        let all = if computed { infinite } else { before.and(read).and(loaded).and(missing) };
-        if all.is_empty() { Ok(()) } else { Err(Failure::Inputs(all)) }
+        if computed {
+            return if infinite.is_empty() { Ok(()) } else { Err(Failure::Inputs(infinite)) };
+        }
+        let all = before.and(read).and(loaded).and(missing);
+        let failure = Failure::Inputs(all);
+        Err(if of_arguments { failure.refused() } else { failure })
     }
 }
 
@@ -124,8 +129,11 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
             return Err(failure);
         }
         self.compute()?;
-        std::mem::take(&mut self.wrong).result()?;
+        std::mem::take(&mut self.wrong).result(self.task.source.is_none())?;
         self.note_wrench();
+        if let (true, Some(source)) = (self.is_empty, &self.task.source) {
+            self.outgoing.warn(&format!("note: {source} has no states\n"));
+        }
         let Evaluation { mut outgoing, is_empty, task, .. } = self;
         outgoing.push(|text| task.printer.end(is_empty, text))?;
         outgoing.end(|_| Ok(()))

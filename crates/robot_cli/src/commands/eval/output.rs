@@ -10,7 +10,7 @@ pub(super) enum Printer {
     Json(Vec<Field>),
     /// A header and a line for each state.
     Csv {
-        /// The line above the first state.
+        /// The line above the first state; it is printed even if there are no states.
         header: String,
     },
 }
@@ -77,7 +77,11 @@ impl Printer {
     /// Appends the text after the last state.
     pub(super) fn end(&self, is_empty: bool, text: &mut String) {
         match self {
-            Printer::Json(_) => text.push_str(if is_empty { "[\n\n]\n" } else { "\n]\n" }),
+            Printer::Json(_) => text.push_str(if is_empty { "[]\n" } else { "\n]\n" }),
+            Printer::Csv { header } if is_empty => {
+                text.push_str(header);
+                text.push('\n');
+            }
             Printer::Csv { .. } => {}
         }
     }

@@ -1,9 +1,13 @@
 //! The pivots of the mass matrix at given states, which show how many correct digits forward dynamics has.
 
-use std::fmt;
+mod perturbed;
 
-use robot_codegen::{Interpreter, Module, Rounded, Trigonometry};
+use std::fmt;
+use std::sync::OnceLock;
+
+use robot_codegen::{Interpreter, Module, ModuleSpec, Rounded, Trigonometry};
 use robot_dynamics::functions::Derivation;
+use robot_model::functions::FunctionKind;
 use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
 use robot_symbolic::Graph;
@@ -25,6 +29,17 @@ const DIGITS: f64 = 15.0;
 pub struct Pivots {
     interpreter: Interpreter<'static>,
     joints: Vec<String>,
+    matrix: MassMatrix,
+}
+
+/// A program for the mass matrix, which is made when it is first needed: that of a long chain takes seconds.
+#[derive(Clone, Debug)]
+struct MassMatrix {
+    robot: Robot,
+    options: Options,
+    given: Vec<(String, f64)>,
+    trigonometry: Trigonometry,
+    interpreter: OnceLock<Option<Interpreter<'static>>>,
 }
 
 /// A pivot at a state for which forward dynamics has few correct digits or none.
@@ -48,28 +63,25 @@ impl Pivots {
     ///
     /// A robot that is too large for code, or parameters without a value.
     pub fn new(robot: &Robot, options: &Options, given: &[(&str, f64)]) -> Result<Pivots, Errors> {
-        let (name, limit) = (&robot.name, MAX_NODES);
-        let graph = Graph::limited(limit);
-        let derivation =
-            Derivation::new(robot, &graph, &options.mechanism(robot), options.plan.clone());
-        let specification = specification::pivots(&derivation);
-        if graph.is_full() {
-            return Err(Errors::from(Error::TooLarge { name: name.clone(), limit }));
-        }
-        let module = Module::compile(&specification, &robot_codegen::Options::none())
-            .map_err(|errors| Errors::of_code(name, &errors))?;
-        let interpreter = Interpreter::owned(module, given)
-            .map_err(|errors| Errors::of_code(name, &errors))?
-            .with_trigonometry(Trigonometry::Standard);
+        let interpreter = interpreter(robot, options, given, specification::pivots)?;
         let joints = robot.coordinates.iter().map(|coordinate| coordinate.joint.clone()).collect();
-        Ok(Pivots { interpreter, joints })
+        let given = given.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        let matrix = MassMatrix {
+            robot: robot.clone(),
+            options: options.clone(),
+            given,
+            trigonometry: Trigonometry::Standard,
+            interpreter: OnceLock::new(),
+        };
+        Ok(Pivots { interpreter, joints, matrix })
     }
 
     /// Uses sines and cosines from this source instead of the standard library.
     #[must_use]
     pub fn with_trigonometry(self, trigonometry: Trigonometry) -> Pivots {
         let interpreter = self.interpreter.with_trigonometry(trigonometry);
-        Pivots { interpreter, ..self }
+        let matrix = MassMatrix { trigonometry, interpreter: OnceLock::new(), ..self.matrix };
+        Pivots { interpreter, matrix, ..self }
     }
 
     /// Returns the first pivot at these positions that is not positive and finite, or is only rounding error. If there is
@@ -80,9 +92,15 @@ impl Pivots {
     ///
     /// The number of positions is wrong.
     pub fn smallest(&self, q: &[f64]) -> Result<Option<Pivot>, robot_codegen::Errors> {
-        let values =
-            self.interpreter.call_rounded("pivots", &[(JointVariable::Position.name(), q)])?;
-        let (pivots, diagonal) = values.split_at(values.len() / 2);
+        let positions = [(JointVariable::Position.name(), q)];
+        let mut values = self.interpreter.call_rounded("pivots", &positions)?;
+        let (pivots, diagonal) = values.split_at_mut(self.joints.len());
+        if pivots.iter().any(|pivot| pivot.value > 0.0 && f64::from(digits(pivot)) < DIGITS / 2.0) {
+            let errors = self.matrix.errors_of_pivots(q).into_iter().flatten();
+            for (pivot, error) in pivots.iter_mut().zip(errors) {
+                pivot.error = pivot.error.min(error);
+            }
+        }
         let found = pivots.iter().zip(diagonal).zip(&self.joints).map(|((pivot, whole), joint)| {
             let part = pivot.value / whole.value.abs();
             Pivot { joint: joint.clone(), part, digits: digits(pivot) }
@@ -99,6 +117,45 @@ impl Pivots {
         }
         Ok(smallest.filter(|pivot| pivot.part < SMALL || f64::from(pivot.digits) < DIGITS / 2.0))
     }
+}
+
+impl MassMatrix {
+    /// The bounds on the errors of the pivots that follow from the mass matrix at these positions; `None` if it is not
+    /// positive definite or too large for code.
+    fn errors_of_pivots(&self, q: &[f64]) -> Option<Vec<f64>> {
+        let interpreter = self.interpreter.get_or_init(|| {
+            let given: Vec<(&str, f64)> =
+                self.given.iter().map(|(name, value)| (name.as_str(), *value)).collect();
+            let made =
+                interpreter(&self.robot, &self.options, &given, specification::mass_matrix).ok()?;
+            Some(made.with_trigonometry(self.trigonometry))
+        });
+        let positions = [(JointVariable::Position.name(), q)];
+        let name = FunctionKind::MassMatrix.name();
+        perturbed::errors(&interpreter.as_ref()?.call_rounded(name, &positions).ok()?)
+    }
+}
+
+/// An interpreter of the module that `specify` specifies.
+fn interpreter(
+    robot: &Robot,
+    options: &Options,
+    given: &[(&str, f64)],
+    specify: impl for<'g> Fn(&Derivation<'_, 'g>) -> ModuleSpec<'g>,
+) -> Result<Interpreter<'static>, Errors> {
+    let (name, limit) = (&robot.name, MAX_NODES);
+    let graph = Graph::limited(limit);
+    let derivation =
+        Derivation::new(robot, &graph, &options.mechanism(robot), options.plan.clone());
+    let specification = specify(&derivation);
+    if graph.is_full() {
+        return Err(Errors::from(Error::TooLarge { name: name.clone(), limit }));
+    }
+    let module = Module::compile(&specification, &robot_codegen::Options::none())
+        .map_err(|errors| Errors::of_code(name, &errors))?;
+    let interpreter =
+        Interpreter::owned(module, given).map_err(|errors| Errors::of_code(name, &errors))?;
+    Ok(interpreter.with_trigonometry(Trigonometry::Standard))
 }
 
 impl Pivot {
