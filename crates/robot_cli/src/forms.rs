@@ -284,6 +284,7 @@ impl EquationArguments {
             }
             Error::LikeSine { .. } => "--trig named",
             Error::TakenLetter { .. } => "--letters",
+            Error::TakenArray { .. } => "--layout scalars",
             Error::Narrow { .. } => "--width, or --form compact, which has the shortest parts",
             _ => return failed(robot, error),
         };

@@ -69,7 +69,7 @@ pub enum Error {
     /// A symbol of the robot has the name of a vector or matrix.
     #[error(
         "these equations name a vector `{name}`, like a symbol of this robot; rename the symbol in \
-         the robot file, or, without a style, print the equations with components (the layout `scalars`)"
+         the robot file, or, without a style, print the equations with components"
     )]
     TakenArray {
         /// The name.

@@ -453,31 +453,6 @@ fn each_tip_has_one_wrench_on_the_command_line() {
     }
 }
 
-/// An empty selection of a log is a file with a header, and so is what is computed for it.
-#[test]
-fn no_states_have_a_header_and_a_note() {
-    let file = robot("planar_2r");
-    let eval = |format: &str| {
-        let arguments = ["--function", "gravity", "--states", "-", "--format", format];
-        run_with(&[&["eval", &file], &arguments[..]].concat(), b"q1,q2\n")
-    };
-    let note = "note: standard input has no states\n";
-    for (format, output) in [("csv", "tau1,tau2\n"), ("json", "[]\n")] {
-        let done = eval(format);
-        assert_eq!((done.code, done.output.as_str(), done.errors.as_str()), (0, output, note));
-    }
-}
-
-/// `simulate` and recordings have a column of the time.
-#[test]
-fn a_column_of_the_time_has_a_remedy() {
-    let arguments = ["eval", &robot("planar_2r"), "--function", "gravity", "--states", "-"];
-    let done = run_with(&arguments, b"t,q1,q2\n0,0,0\n");
-    assert_eq!(done.code, 1);
-    assert!(done.errors.contains("unknown column `t`"), "{}", done.errors);
-    assert!(done.errors.contains("use `torques --trajectory`"), "{}", done.errors);
-}
-
 #[test]
 fn a_wrench_of_0_by_default_is_noted() {
     let file = robot("planar_2r");

@@ -213,6 +213,10 @@ fn tables_of_other_programs_have_a_remedy() {
         ("t\tq1\tq2\n0\t0\t0\n", "the header has tabs instead of commas"),
         ("t,q1,q2\r0,0,0\r", "the lines end with carriage returns alone; end them with line feeds"),
         (
+            "# log of today\nt,q1,q2\n0,0,0\n",
+            "the first line is a comment, which CSV does not have",
+        ),
+        (
             "t,q1 [deg],q2\n0,0,0\n",
             "the column `q1 [deg]` is unknown; write the name without a unit",
         ),

@@ -177,10 +177,31 @@ fn numbers_keep_their_bytes() {
     ] {
         let eval = ["eval", &file, "--function", "gravity", "--states", "-", "--format", format];
         assert_eq!(output(&eval, states), expected);
-        let empty = if format == "csv" { "" } else { "[\n\n]\n" };
-        assert_eq!(output(&eval, "q1,q2\n"), empty);
-        assert_eq!(output(&eval, "[]"), empty);
     }
+}
+
+/// An empty selection of a log is a file with a header, and so is what is computed for it.
+#[test]
+fn no_states_have_a_header_and_a_note() {
+    let file = robot("planar_2r");
+    let note = "note: standard input has no states\n";
+    for (format, output) in [("csv", "tau1,tau2\n"), ("json", "[]\n")] {
+        let eval = ["eval", &file, "--function", "gravity", "--states", "-", "--format", format];
+        for states in ["q1,q2\n", "[]"] {
+            let done = run_with(&eval, states.as_bytes());
+            assert_eq!((done.code, done.output.as_str(), done.errors.as_str()), (0, output, note));
+        }
+    }
+}
+
+/// `simulate` and recordings have a column of the time.
+#[test]
+fn a_column_of_the_time_has_a_remedy() {
+    let arguments = ["eval", &robot("planar_2r"), "--function", "gravity", "--states", "-"];
+    let done = run_with(&arguments, b"t,q1,q2\n0,0,0\n");
+    assert_eq!(done.code, 1);
+    assert!(done.errors.contains("unknown column `t`"), "{}", done.errors);
+    assert!(done.errors.contains("use `torques --trajectory`"), "{}", done.errors);
 }
 
 /// A wrench at the last of many states determines the function for all of them, from a file and from a stream.

@@ -3,6 +3,7 @@
 use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::definitions::positive;
 use crate::layout::tidied_text;
 
 /// The names of expressions of one graph, as symbols of another graph.
@@ -38,6 +39,11 @@ impl<'h> Named<'h> {
             (value, expr) = (-value, inside);
         }
         self.symbols.entry(expr.id()).or_insert(value);
+    }
+
+    /// Whether an expression or its negative is replaced by a name or another expression.
+    pub(super) fn has(&self, expr: Expr<'_>) -> bool {
+        self.symbols.contains_key(&positive(expr).id())
     }
 
     /// Rewrites an expression with the names of its parts.

@@ -32,7 +32,8 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
 }
 
 /// The masses that are short numbers, with the symbols that replace them in the mechanism: the moment of a force is then
-/// the product of a lever and the force, and not that of a number and an acceleration.
+/// the product of a lever and the force, and not that of a number and an acceleration, and the force of 1 kg is not
+/// the acceleration.
 fn masses_by_name<'g>(
     writer: &Writer<'_, 'g>,
     mechanism: &mut Mechanism<'g>,
@@ -40,7 +41,7 @@ fn masses_by_name<'g>(
     let digits = writer.options.digits;
     let mut masses = vec![];
     for (link, place) in mechanism.links.iter_mut().zip(1..) {
-        let number = link.mass.as_number().filter(|number| !number.is_zero() && !number.is_one());
+        let number = link.mass.as_number().filter(|number| !number.is_zero());
         if let Some(number) = number.filter(|_| !is_long_constant(link.mass, digits)) {
             // Symbols of the robot contain no spaces.
             link.mass = writer.graph.symbol(&format!("mass {place}"));
@@ -217,7 +218,9 @@ impl Vectors {
         for (component, expr) in vector.0.into_iter().enumerate() {
             let name = format!("{name}{number}.{}", shapes::axis_name(component));
             let value = named.rewritten(expr);
-            let is_plain = is_known(writer, value);
+            // A force that is a mass of 1 kg times an acceleration is not another name of the acceleration.
+            let is_named = value.is_zero() || is_leaf(expr) || named.has(expr);
+            let is_plain = is_named && is_known(writer, value);
             writer.define(&name, look.shape(number, component))?;
             let left = writer.symbols.look(&name);
             let equation = sum(writer, name.clone(), left, value)?;

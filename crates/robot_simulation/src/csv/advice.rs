@@ -3,13 +3,17 @@
 /// Separators of other formats, with their names.
 const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
 
-/// The remedy if a header is separated by other characters than commas, or if its lines end with carriage returns
-/// alone; `None` if neither is so.
+/// The remedy if a header is a comment or is separated by other characters than commas, or if its lines end with
+/// carriage returns alone; `None` otherwise.
 #[must_use]
 pub fn separators(header: &str) -> Option<String> {
     let header = header.trim();
     if header.contains('\r') {
         let message = "the lines end with carriage returns alone; end them with line feeds";
+        return Some(message.to_owned());
+    }
+    if header.starts_with('#') {
+        let message = "the first line is a comment, which CSV does not have; remove it, so that the header is first";
         return Some(message.to_owned());
     }
     let found = SEPARATORS.iter().find(|(separator, _)| header.contains(*separator));

@@ -9,7 +9,7 @@ pub(super) fn figure(figure: &Figure, scale: f64) -> String {
     let [width, height] = figure.size().map(|side| hundredths(side * scale));
     let pen = Pen { scale, corner: figure.bounds[0] };
     let mut typst = format!(
-        "#block(breakable: false)[
+        "#block(breakable: false, below: 1.5em)[
 #let label(x, y, body) = context {{ let size = measure(body); place(dx: x - size.width / 2, dy: y - size.height / 2, box(width: size.width, fill: white, outset: 0.5pt, body)) }}
 #box(width: {width}pt, height: {height}pt)[
 "
