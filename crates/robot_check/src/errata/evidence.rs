@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::collections::HashMap;
 use std::fmt;
 
+use robot_dynamics::quantity::Kind;
 use robot_model::unit::Dimension;
 use robot_symbolic::Number;
 
@@ -66,11 +67,21 @@ impl fmt::Display for Evidence {
                 "the derived term appears, except for the factor {factor}, in {}",
                 equations.join(", ")
             ),
+            Evidence::UnknownSymbol(symbol) if is_quantity(symbol) => {
+                write!(formatter, "{symbol} is another quantity and not a symbol of the robot")
+            }
             Evidence::UnknownSymbol(symbol) => {
                 write!(formatter, "the robot does not have the symbol {symbol}")
             }
         }
     }
+}
+
+/// Whether a name is that of a quantity, such as `Q1` or `F_l5.x`.
+fn is_quantity(name: &str) -> bool {
+    let number = |kind: Kind| name.strip_prefix(kind.name());
+    let mut numbers = Kind::ALL.into_iter().filter_map(number);
+    numbers.any(|number| number.starts_with(|first: char| first.is_ascii_digit()))
 }
 
 /// The place at which a product of factors is printed: the index of the equation, and the coefficient.

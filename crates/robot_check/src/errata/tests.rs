@@ -170,6 +170,8 @@ fn terms_that_are_not_torques_are_reported() {
         ["has units kg m s^-2, but a torque has kg m^2 s^-2"]
     );
     assert_eq!(evidence("+ k*l1*r2*cos(q2)*qdd1"), ["the robot does not have the symbol k"]);
+    let quantity = "Q1 is another quantity and not a symbol of the robot";
+    assert_eq!(evidence("+ Q1"), [quantity]);
     for (wrong, unit, dots) in [
         ("", "kg m^2", "2 time derivatives are missing"),
         ("*qd1*qdd1", "kg m^2 s^-3", "one time derivative too many"),

@@ -30,7 +30,9 @@ pub(super) fn read<'l>(
     }
     let columns = Columns::of(&header, layout);
     let (mut state, mut found) = (State::new(layout), vec![]);
+    let mut is_empty = true;
     while let Some((number, line)) = lines.next_line()? {
+        is_empty = false;
         state.clear(Place::Line(number));
         let is_right = numbers(line, &mut found) && found.len() == columns.names.len();
         let is_state = if is_right {
@@ -42,6 +44,11 @@ pub(super) fn read<'l>(
         if is_state && sink.state(&mut state).is_break() {
             break;
         }
+    }
+    if is_empty {
+        state.clear(Place::Header);
+        columns.set(&vec![0.0; columns.names.len()], &mut state);
+        sink.header(&state);
     }
     Ok(())
 }

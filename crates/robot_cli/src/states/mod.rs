@@ -51,6 +51,8 @@ struct Entries {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Place {
     CommandLine,
+    /// The header of a table.
+    Header,
     /// The line of a file, from 1.
     Line(usize),
     /// The element of an array, from 1.
@@ -61,6 +63,7 @@ impl fmt::Display for Place {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Place::CommandLine => formatter.write_str("the command line"),
+            Place::Header => formatter.write_str("the header"),
             Place::Line(number) => write!(formatter, "line {number}"),
             Place::Element(number) => write!(formatter, "state {number}"),
         }
@@ -75,6 +78,9 @@ pub(crate) trait Sink<'l> {
 
     /// Receives a message about an error in the whole input, or in a state before that state is received.
     fn error(&mut self, message: String);
+
+    /// Receives what each state of a table without states would have, at the place of the header.
+    fn header(&mut self, _: &State<'l>) {}
 
     /// Receives the reason why there are no states at all; all earlier states and messages become invalid.
     fn no_states(&mut self, message: String);

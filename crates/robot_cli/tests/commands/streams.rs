@@ -194,6 +194,14 @@ fn no_states_have_a_header_and_a_note() {
     }
 }
 
+/// Such a file does not hide what the function lacks.
+#[test]
+fn a_header_is_checked_without_states() {
+    let arguments = ["eval", &robot("planar_2r"), "--function", "bias", "--states", "-"];
+    let expected = "error: standard input: the header: `qd` is missing; bias needs it\n";
+    assert_eq!(complaint(1, &arguments, "q1,q2\n"), expected);
+}
+
 /// `simulate` and recordings have a column of the time.
 #[test]
 fn a_column_of_the_time_has_a_remedy() {

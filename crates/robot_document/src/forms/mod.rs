@@ -376,8 +376,8 @@ impl<'g> Writer<'_, 'g> {
     /// The terms of a polynomial as the form requires: collected or multiplied out, in both cases with the sums of
     /// angles that make it shortest.
     ///
-    /// In the forms [`Form::Collected`] and [`Form::Compact`], the terms of inertia and gravity, of friction, and of the wrenches of the tips
-    /// are collected separately. Long numbers with roots become decimals if that is shorter or the
+    /// In the forms [`Form::Collected`] and [`Form::Compact`], the terms of inertia and gravity, of friction, and of the
+    /// wrenches of the tips are collected separately. Long numbers with roots become decimals if that is shorter or the
     /// numbers below the roots are long, and [`EquationOptions::rounds_roots`] is set.
     fn collected(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
         let exact = self.collected_exactly(value);

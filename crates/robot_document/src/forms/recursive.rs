@@ -215,12 +215,14 @@ impl Vectors {
         printed: &mut FxHashSet<Vec<String>>,
     ) -> Result<(), Error> {
         let (mut cells, mut leaves) = (vec![], vec![]);
+        let mut has_own_names = false;
         for (component, expr) in vector.0.into_iter().enumerate() {
             let name = format!("{name}{number}.{}", shapes::axis_name(component));
             let value = named.rewritten(expr);
             // A force that is a mass of 1 kg times an acceleration is not another name of the acceleration.
-            let is_named = value.is_zero() || is_leaf(expr) || named.has(expr);
-            let is_plain = is_named && is_known(writer, value);
+            let is_own = !(value.is_zero() || is_leaf(expr) || named.has(expr));
+            has_own_names |= is_own;
+            let is_plain = !is_own && is_known(writer, value);
             writer.define(&name, look.shape(number, component))?;
             let left = writer.symbols.look(&name);
             let equation = sum(writer, name.clone(), left, value)?;
@@ -236,7 +238,7 @@ impl Vectors {
         let is_short = leaves.len() == cells.len();
         let is_zero = leaves.iter().all(|text| text == "0");
         let is_other = is_zero || cells.iter().any(is_name);
-        let is_known = is_short && (is_other || !printed.insert(leaves));
+        let is_known = is_short && !has_own_names && (is_other || !printed.insert(leaves));
         if let Some(arrays) = self.0.arrays.as_mut().filter(|_| !is_known) {
             let left = look.vector(number);
             arrays.push(column(format!("{name}{number}"), left, cells.into_iter()));

@@ -4,7 +4,8 @@ use robot_symbolic::print::{ArrangedFactor, ArrangedTerm};
 
 use super::arranged::{negated, positive_first};
 
-/// Writes subtracted products with the opposite sum if that needs fewer minus signs: `c*(b - a)` and not `-c*(a - b)`.
+/// Writes subtracted products with the opposite of their first sum for which that needs fewer minus signs: `c*(b - a)`
+/// and not `-c*(a - b)`.
 pub(super) fn fewer<'h>(terms: &[ArrangedTerm<'h>]) -> Vec<ArrangedTerm<'h>> {
     terms.iter().map(term).collect()
 }
@@ -13,7 +14,7 @@ fn term<'h>(term: &ArrangedTerm<'h>) -> ArrangedTerm<'h> {
     let mut term = term.clone();
     let opposite =
         term.factors.iter_mut().filter(|_| term.negative).find_map(|power| match power {
-            (ArrangedFactor::Sum(terms), 1) if is_shorter_opposite(terms) => Some(terms),
+            (ArrangedFactor::Sum(terms), 1) if saves_a_sign(terms) => Some(terms),
             _ => None,
         });
     if let Some(terms) = opposite {
@@ -29,7 +30,7 @@ fn term<'h>(term: &ArrangedTerm<'h>) -> ArrangedTerm<'h> {
 }
 
 /// Whether the opposite of a subtracted sum has fewer minus signs than the sum with the one before it.
-fn is_shorter_opposite(terms: &[ArrangedTerm<'_>]) -> bool {
+fn saves_a_sign(terms: &[ArrangedTerm<'_>]) -> bool {
     let negative = terms.iter().filter(|term| term.negative).count();
     terms.len() - negative < negative + 1
 }

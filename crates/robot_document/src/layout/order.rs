@@ -2,9 +2,10 @@
 //!
 //! The factors of a term come in this order: roots of numbers, components of wrenches, masses and inertias, other
 //! parameters, sines and cosines, symbols that a form defines, and last coordinates, velocities and accelerations.
-//! Within each group they are ordered by number; sines and cosines by the symbols in their angles, the sine of an angle
-//! before its cosine. Terms are ordered by their factors, higher powers of the first factor
-//! first: by `compare_powers` of `robot_symbolic`, and by `forms/arranged.rs` in the compact form.
+//! Within each group they are ordered by number; sines and cosines, in sums that are collected and in the compact form,
+//! by the symbols in their angles, the sine of an angle before its cosine. Terms are ordered by their factors, higher
+//! powers of the first factor first: by `compare_powers` of `robot_symbolic`, and by `forms/arranged.rs` in the compact
+//! form.
 
 use robot_model::robot::{Parameter, Robot};
 use robot_model::variable::JointVariable;

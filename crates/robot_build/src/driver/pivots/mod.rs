@@ -50,7 +50,7 @@ pub struct Pivot {
     /// The pivot as a fraction of the joint's entry on the diagonal of M. If the accelerations do not exist at the
     /// state, it is not above 0, or NaN.
     pub part: f64,
-    /// The number of correct decimal digits of the pivot, and of the accelerations: 0 to 15. If it is 0, the
+    /// The fewest correct decimal digits of a pivot, about as many as the accelerations have: 0 to 15. If it is 0, this
     /// pivot is only rounding error, and the accelerations do not exist.
     pub digits: u32,
 }
@@ -86,7 +86,7 @@ impl Pivots {
 
     /// Returns the first pivot at these positions that is not positive and finite, or is only rounding error. If there is
     /// none, returns the pivot that is the smallest part of its joint's entry on the diagonal of M, if this part is below
-    /// 10⁻⁸ or the pivot has fewer than eight correct digits.
+    /// 10⁻⁸ or a pivot has fewer than eight correct digits.
     ///
     /// # Errors
     ///
@@ -97,7 +97,8 @@ impl Pivots {
         let (pivots, diagonal) = values.split_at_mut(self.joints.len());
         if pivots.iter().any(|pivot| pivot.value > 0.0 && f64::from(digits(pivot)) < DIGITS / 2.0) {
             let errors = self.matrix.errors_of_pivots(q).into_iter().flatten();
-            for (pivot, error) in pivots.iter_mut().zip(errors) {
+            let pairs = pivots.iter_mut().zip(errors).filter(|(pivot, _)| pivot.value > 0.0);
+            for (pivot, error) in pairs {
                 pivot.error = pivot.error.min(error);
             }
         }
@@ -106,16 +107,18 @@ impl Pivots {
             Pivot { joint: joint.clone(), part, digits: digits(pivot) }
         });
         // Starts with the last row of M, in the order of its decomposition: all pivots after a wrong one are wrong.
-        let mut smallest: Option<Pivot> = None;
+        let (mut smallest, mut fewest): (Option<Pivot>, _) = (None, u32::MAX);
         for pivot in found.collect::<Vec<_>>().into_iter().rev() {
             if pivot.is_wrong() {
                 return Ok(Some(pivot));
             }
+            fewest = fewest.min(pivot.digits);
             if smallest.as_ref().is_none_or(|smallest| pivot.part < smallest.part) {
                 smallest = Some(pivot);
             }
         }
-        Ok(smallest.filter(|pivot| pivot.part < SMALL || f64::from(pivot.digits) < DIGITS / 2.0))
+        let smallest = smallest.map(|pivot| Pivot { digits: fewest, ..pivot });
+        Ok(smallest.filter(|pivot| pivot.part < SMALL || f64::from(fewest) < DIGITS / 2.0))
     }
 }
 

@@ -220,6 +220,10 @@ pub(super) fn failed(file: &str, errors: &Errors) -> Failure {
 }
 
 impl<'l> Sink<'l> for Evaluation<'_, 'l, '_> {
+    fn header(&mut self, state: &State<'l>) {
+        self.check(state);
+    }
+
     fn state(&mut self, state: &mut State<'l>) -> ControlFlow<()> {
         self.check(state);
         if !self.wrong.is_none() {
