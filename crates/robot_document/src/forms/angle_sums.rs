@@ -7,7 +7,8 @@ use rustc_hash::FxHashMap;
 /// The sine or the cosine of an angle.
 type Circular<'g> = (Function, Expr<'g>);
 
-/// Replaces sin a cos b + cos a sin b by sin(a + b), and cos a cos b − sin a sin b by cos(a + b).
+/// Replaces sin a cos b + cos a sin b by sin(a + b), and cos a cos b − sin a sin b and its negative by cos(a + b) and its
+/// negative.
 pub(super) fn joined<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     let mut known: FxHashMap<Id, Circular<'g>> = FxHashMap::default();
     let mut sums: FxHashMap<Id, Expr<'g>> = FxHashMap::default();
@@ -18,17 +19,30 @@ pub(super) fn joined<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>>
         } else if let Some((function, angle)) = of_sum(expr, &known) {
             known.insert(expr.id(), (function, angle));
             sums.insert(expr.id(), angle.apply(function));
+        } else if let View::Sub(first, second) = expr.view()
+            && let Some((function, angle)) = of_terms(second, first, Cos, &known)
+        {
+            sums.insert(expr.id(), -angle.apply(function));
         }
     }
     walk::rebuild_above(values, graph, |part| sums.get(&part.id()).copied())
 }
 
 fn of_sum<'g>(expr: Expr<'g>, known: &FxHashMap<Id, Circular<'g>>) -> Option<Circular<'g>> {
-    let (first, second, function) = match expr.view() {
-        View::Add(first, second) => (first, second, Sin),
-        View::Sub(first, second) => (first, second, Cos),
-        _ => return None,
-    };
+    match expr.view() {
+        View::Add(first, second) => of_terms(first, second, Sin, known),
+        View::Sub(first, second) => of_terms(first, second, Cos, known),
+        _ => None,
+    }
+}
+
+/// The sum of angles whose sine is the sum of two products, or whose cosine is their difference.
+fn of_terms<'g>(
+    first: Expr<'g>,
+    second: Expr<'g>,
+    function: Function,
+    known: &FxHashMap<Id, Circular<'g>>,
+) -> Option<Circular<'g>> {
     let factors = |product: Expr<'g>| match product.view() {
         View::Mul(a, b) => Some([*known.get(&a.id())?, *known.get(&b.id())?]),
         _ => None,
@@ -66,6 +80,7 @@ mod tests {
             ("m*(cos(b)*sin(a) + sin(b)*cos(a))", "m*sin(b + a)"),
             ("cos(a)*cos(b) - sin(a)*sin(b)", "cos(a + b)"),
             ("cos(a)*cos(b) - sin(b)*sin(a)", "cos(a + b)"),
+            ("m*(sin(a)*sin(b) - cos(a)*cos(b))", "-m*cos(a + b)"),
         ] {
             assert_eq!(joined_text(source), expected, "{source}");
         }

@@ -22,7 +22,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     if coordinates > MAX_COORDINATES {
         return Err(Error::TooMany { coordinates, limit: MAX_COORDINATES });
     }
-    let forces = writer.economical_forces(false);
+    let forces = writer.exact_forces();
     // For each joint torque, its coefficients and their factors.
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
     let mut sections = vec![

@@ -34,6 +34,7 @@ mod vectors;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use robot_dynamics::economical::plan::{LinkPlan, Plan, Turn};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
@@ -44,7 +45,7 @@ use robot_model::snap;
 use robot_model::variable::JointVariable;
 use robot_symbolic::collected::{Collector, ParallelAngles, length};
 use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
-use robot_symbolic::{AngleSums, Expr, Graph, Polynomial};
+use robot_symbolic::{AngleSums, Expr, Graph, Polynomial, walk};
 
 use crate::document::NumberedEquation;
 use crate::error::Error;
@@ -310,9 +311,21 @@ impl<'g> Writer<'_, 'g> {
             true => FunctionKind::InverseDynamics(Effects::BOTH),
             false => FunctionKind::InverseDynamics(Effects::WRENCH),
         };
-        let functions = self.derivation().functions(kind);
-        let outputs = functions.into_iter().flat_map(|function| function.outputs);
-        outputs.flat_map(|output| output.values).collect()
+        forces_of(&self.derivation(), kind)
+    }
+
+    /// The joint torques like [`Writer::economical_forces`], but with the exact numbers of the file: without the turns of
+    /// frames by rounded angles, which the recursion can need.
+    fn exact_forces(&self) -> Vec<Expr<'g>> {
+        let kind = FunctionKind::InverseDynamics(Effects::WRENCH);
+        let derivation = self.derivation();
+        let forces = forces_of(&derivation, kind);
+        let numbers = walk::reachable(&forces).into_iter().filter_map(Expr::as_number);
+        if numbers.into_iter().all(|number| number.as_rational().is_some()) {
+            return forces;
+        }
+        let own = LinkPlan { turn: Turn::File, ..LinkPlan::DEFAULT };
+        forces_of(&derivation.with_plan(&Plan::uniform(self.robot.links.len(), &own)), kind)
     }
 
     /// The requested quantities, with or without friction.
@@ -467,6 +480,12 @@ impl<'g> Writer<'_, 'g> {
         let right = self.symbols.expression(value)?;
         Ok(Equation { name, text, left, right })
     }
+}
+
+/// The joint torques of a function.
+fn forces_of<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Expr<'g>> {
+    let outputs = derivation.functions(kind).into_iter().flat_map(|function| function.outputs);
+    outputs.flat_map(|output| output.values).collect()
 }
 
 /// The symbol of a joint torque.

@@ -35,7 +35,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         }
     }
     let (mut groups, parameters) = definitions(writer, &found, &values, &equal)?;
-    let forces = writer.economical_forces(false);
+    let forces = writer.exact_forces();
     let mut sums: Vec<Sum<'_>> = forces.iter().map(|_| vec![]).collect();
     let mut sections = vec![
         coefficients(writer, &columns, &parameters, &mut sums),

@@ -56,7 +56,7 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
     let solution = if derivation.recursion_for_small_pivots().is_some() {
         "Uses the articulated-body algorithm: at the nominal parameters the mass matrix is \
          nearly singular in some configurations, where its decomposition would lose digits that this \
-         algorithm keeps."
+         algorithm keeps, above all in wrists."
     } else {
         "Digits are lost if a pivot of the mass matrix (the inertia of a joint with the joints \
          farther out free) is much smaller than the diagonal entry of the joint: as many digits \

@@ -211,11 +211,12 @@ fn what_is_wrong_with_a_trajectory_is_named() {
     assert_eq!(lines.len(), 3, "{shown}");
     let error = Trajectory::from_expressions(robot, &[], &["q2 = t"], 1.0, 0.1).unwrap_err();
     assert!(error.to_string().starts_with("there is no expression for `q1`"), "{error}");
-    let roots = ["q1 = sqrt(t)", "q2 = sqrt(0.55 - t)"];
-    let error = Trajectory::from_expressions(robot, &[], &roots, 1.0, 0.1).unwrap_err().to_string();
+    let roots = ["q1 = sqrt(t)", "q2 = sqrt(0.6 - t)"];
+    let error =
+        Trajectory::from_expressions(robot, &[], &roots, 1.0, 0.25).unwrap_err().to_string();
     let lines: Vec<&str> = error.lines().collect();
     let first = "`q1`: the velocity is not finite at t = 0 s; look for";
-    let second = "`q2`: the position is not finite at t = 0.6 s; look for";
+    let second = "`q2`: the position is not finite at t = 0.75 s; look for";
     assert!(
         lines.len() == 2 && lines[0].starts_with(first) && lines[1].starts_with(second),
         "{error}"

@@ -197,11 +197,12 @@ impl fmt::Display for Pivot {
                  unless this happens in every configuration"
             );
         }
+        let plural = if *digits == 1 { "" } else { "s" };
         write!(
             formatter,
             "the mass matrix is nearly singular: with the joints farther out free, joint \
              `{joint}` has only {part:.1e} of its inertia; the accelerations have about {digits} \
-             correct digits"
+             correct digit{plural}"
         )
     }
 }
@@ -226,7 +227,7 @@ mod tests {
                 false,
                 "is nearly singular: with the joints farther out free, joint `a` has only 1.0e-9 of",
             ),
-            (0.5, 1, false, "the accelerations have about 1 correct digits"),
+            (0.5, 1, false, "the accelerations have about 1 correct digit"),
             (1e-9, 0, true, "is singular to within rounding"),
             (-1e-9, 0, true, "is singular to within rounding"),
             (-0.5, 0, true, "is singular to within rounding"),
