@@ -286,3 +286,45 @@ pub(super) fn moving(roots: &[Expr<'_>]) -> FxHashSet<Id> {
     }
     moving
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_model::description::read_toml;
+
+    use crate::{EquationOptions, Form, equations};
+
+    /// Two links; `second` has the joint and the origin of the second one.
+    fn robot(second: &str) -> robot_model::robot::Robot {
+        let text = format!(
+            "format = 1\n[robot]\nname = \"two\"\ngravity = [0, -9.81, 0]\n[parameters]\nm = 1\nl = 0.4\n\
+             [[link]]\nname = \"1\"\njoint = {{ type = \"revolute\", axis = [1, 2, 2] }}\nmass = \"m\"\n\
+             center_of_mass = [0.1, 0, 0.2]\ninertia = {{ xx = 0.1, yy = 0.2, zz = 0.25 }}\n\
+             [[link]]\nname = \"2\"\n{second}mass = 2\ncenter_of_mass = [0, \"l\", 0]\n\
+             inertia = {{ xx = 0.1, yy = 0.12, zz = 0.15 }}\n"
+        );
+        read_toml("two.toml", &text).unwrap().robot
+    }
+
+    #[test]
+    fn compact_equations_are_not_longer_than_collected_ones() {
+        let mut shorter = 0;
+        for second in [
+            "joint = { type = \"revolute\", axis = \"z\" }\norigin = { xyz = [\"l\", 0, 0] }\n",
+            "joint = { type = \"prismatic\", axis = [1, 1, 0] }\n",
+            "joint = { type = \"prismatic\", axis = \"x\" }\norigin = { xyz = [0, \"l\", 0.1] }\n",
+            "joint = { type = \"revolute\", axis = [0, 0.6, 0.8] }\n",
+        ] {
+            let robot = robot(second);
+            let bytes = |form| {
+                let digits = Some(10);
+                let options = EquationOptions { form, digits, ..EquationOptions::default() };
+                let found = equations(&robot, &options).unwrap();
+                super::printed_length(&found.groups, digits)
+            };
+            let [compact, collected] = [Form::Compact, Form::Collected].map(bytes);
+            assert!(compact <= collected, "{second}: {compact} > {collected}");
+            shorter += usize::from(compact < collected);
+        }
+        assert!(shorter > 0);
+    }
+}

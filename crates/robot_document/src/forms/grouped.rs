@@ -166,3 +166,29 @@ fn velocities<'g>(
     }
     Section { title, by_symbols: false, coefficients }
 }
+
+#[cfg(test)]
+mod tests {
+    use robot_model::description::read_toml;
+
+    use crate::{EquationOptions, Form, equations};
+
+    /// The frames of the code are turned to the line between the joints, by atan(0.05/0.4).
+    #[test]
+    fn coefficients_have_the_numbers_of_the_file() {
+        let link = |name: &str, origin: &str, mass: f64, inertia: f64| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = \"z\" }}\n{origin}mass = {mass}\n\
+                 center_of_mass = [0.15, 0, 0]\ninertia = {{ zz = {inertia}, unchecked = true }}\n"
+            )
+        };
+        let links =
+            [link("1", "", 3.0, 0.05), link("2", "origin = { xyz = [0.4, 0.05, 0] }\n", 2.0, 0.03)];
+        let text = format!("format = 1\n[robot]\nname = \"arm\"\n{}", links.concat());
+        let robot = read_toml("arm.toml", &text).unwrap().robot;
+        let options = EquationOptions { form: Form::Grouped, ..EquationOptions::default() };
+        let found = equations(&robot, &options).unwrap();
+        let mass = found.definitions().find(|one| one.name == "M_1_1").unwrap();
+        assert_eq!(mass.text, "0.03*sin(q2) + 0.24*cos(q2) + 0.5175");
+    }
+}
