@@ -3,7 +3,9 @@
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
-use robot_symbolic::{AngleSums, Expr, Graph, Id, Polynomial, PolynomialOptions, View, walk};
+use robot_symbolic::{
+    AngleSums, Expr, Function, Graph, Id, Polynomial, PolynomialOptions, View, walk,
+};
 use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
@@ -34,7 +36,7 @@ pub(super) fn groups<'r, 'g>(writer: &mut Writer<'r, 'g>) -> Result<Vec<Group>, 
             shorter_of(writer, groups, &symbols, |writer| named(writer, &mut quantities, &united))?;
     }
     let bytes = printed_length(&groups, writer.options.digits);
-    let Some(expansion) = expansion.filter(|all| could_be_shorter(all, bytes)) else {
+    let Some(expansion) = expansion.filter(|all| could_be_shorter(writer, all, bytes)) else {
         return Ok(groups);
     };
     let collected: Vec<Vec<ArrangedTerm<'_>>> =
@@ -64,12 +66,15 @@ fn take_economical_torques<'g>(writer: &Writer<'_, 'g>, quantities: &mut [Quanti
 }
 
 /// The quantities, multiplied out: in the structure of the recursion, terms of different links can cancel that are in
-/// different parts. `None` if one is too long or has functions of sums, such as the force in a joint with dry friction.
+/// different parts. `None` if one is too long or has the root of a sum, such as the force in a joint with dry friction.
 fn expansion<'g>(quantities: &[Quantity<'g>]) -> Option<Vec<Polynomial<'g>>> {
     let expanded = quantities.iter().map(|quantity| {
         let expanded = residues::polynomial(quantity.value, &coefficients::LIMITS).ok()?;
-        let has_sums = expanded.atoms().into_iter().any(is_of_sum);
-        (!has_sums).then_some(expanded)
+        let is_root = |atom: Expr<'_>| {
+            matches!(atom.view(), View::Call(Function::Sqrt, argument) if !is_leaf(argument))
+        };
+        let has_root = expanded.atoms().into_iter().any(is_root);
+        (!has_root).then_some(expanded)
     });
     expanded.collect()
 }
@@ -80,10 +85,17 @@ const MAX_COLLECTED: usize = 300;
 /// Of 180 random robots, those whose collected terms were shorter had at least 8.5.
 const TERM_BYTES: usize = 8;
 
+/// The number of terms of all quantities that are always collected, because it takes no time.
+const FEW_TERMS: usize = 40;
+
 /// Whether collected quantities could be shorter than equations with so many bytes.
-fn could_be_shorter(expansion: &[Polynomial<'_>], bytes: usize) -> bool {
-    let terms: usize = expansion.iter().map(Polynomial::len).sum();
-    terms <= MAX_COLLECTED && TERM_BYTES * terms <= bytes
+fn could_be_shorter<'g>(
+    writer: &Writer<'_, 'g>,
+    expansion: &[Polynomial<'g>],
+    bytes: usize,
+) -> bool {
+    let terms: usize = expansion.iter().map(|value| writer.with_decimals(value).len()).sum();
+    terms <= MAX_COLLECTED && (terms <= FEW_TERMS || TERM_BYTES * terms <= bytes)
 }
 
 /// The shorter equations: these, or those that `write` writes with the symbols that are known before.

@@ -50,8 +50,8 @@ pub struct Pivot {
     /// The pivot as a fraction of the joint's entry on the diagonal of M. If the accelerations do not exist at the
     /// state, it is not above 0, or NaN.
     pub part: f64,
-    /// The fewest correct decimal digits of a pivot, about as many as the accelerations have: 0 to 15. If it is 0, this
-    /// pivot is only rounding error, and the accelerations do not exist.
+    /// The fewest correct decimal digits of a pivot: 0 to 15. The accelerations have at most as many: fewer if forces
+    /// cancel. If it is 0, this pivot is only rounding error, and the accelerations do not exist.
     pub digits: u32,
 }
 
@@ -201,8 +201,8 @@ impl fmt::Display for Pivot {
         write!(
             formatter,
             "the mass matrix is nearly singular: with the joints farther out free, joint \
-             `{joint}` has only {part:.1e} of its inertia; the accelerations have about {digits} \
-             correct digit{plural}"
+             `{joint}` has only {part:.1e} of its inertia; the inertias have about {digits} correct \
+             digit{plural}, and accelerations at most as many"
         )
     }
 }
@@ -227,7 +227,7 @@ mod tests {
                 false,
                 "is nearly singular: with the joints farther out free, joint `a` has only 1.0e-9 of",
             ),
-            (0.5, 1, false, "the accelerations have about 1 correct digit"),
+            (0.5, 1, false, "the inertias have about 1 correct digit, and accelerations at most"),
             (1e-9, 0, true, "is singular to within rounding"),
             (-1e-9, 0, true, "is singular to within rounding"),
             (-0.5, 0, true, "is singular to within rounding"),
