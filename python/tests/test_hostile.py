@@ -162,7 +162,7 @@ def test_calls_from_many_threads(puma, given):
         (lambda r: r.document("arm.tex", by="latex"), "by"),
         (lambda r: r.document("arm.pdf", by="word"), "word"),
         (lambda r: r.arrow("gravity", output="rows"), "output must be"),
-        (lambda r: r.simulate(1.0, q0=[0.0]), "1 entry of q, not 2"),
+        (lambda r: r.simulate(1.0, q0=[0.0]), "1 entry, not 2"),
         (lambda r: r.simulate(1.0, torques={"3": "1"}), "3"),
         (lambda r: r.source("cobol"), "cobol"),
         (lambda r: r.source("cpp"), "several files"),
