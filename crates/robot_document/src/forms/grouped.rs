@@ -86,15 +86,13 @@ fn introduction(writer: &Writer<'_, '_>, is_united: bool) -> String {
         }
     };
     let equal = match is_united {
-        true => {
-            " A coefficient that equals an earlier one, perhaps with the opposite sign, is replaced by it."
-        }
+        true => ", and those that equal an earlier one, perhaps with the opposite sign,",
         false => "",
     };
     format!(
         "These are the entries of the symmetric mass matrix, which multiply the accelerations, the {rates}, and the \
-         gravity terms. Entries and coefficients depend only on the coordinates; those that are zero have no \
-         equation of their own.{equal}"
+         gravity terms. Entries and coefficients depend only on the coordinates; those that are zero{equal} have no \
+         equation of their own."
     )
 }
 

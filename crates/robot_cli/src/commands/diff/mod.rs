@@ -32,7 +32,7 @@ const TERMS: usize = 20;
 Links, joints, frames and parameters are matched by name, joint torques by the number of the coordinate, terms
 by their symbols. Robot names and comments are ignored. Terms are those of the joint torques without friction;
 torques are compared at the nominal parameters, with friction and without wrenches at the tips. If a part
-cannot be compared, the reason is shown.
+cannot be compared, the reason is shown. Text rounds numbers of more than 24 characters.
 
 Exit codes: 0 if nothing differs; 1 if something differs; 2 if a file or the command line is wrong.")]
 pub(crate) struct Arguments {

@@ -1,5 +1,7 @@
 //! Printing of a difference as text and JSON.
 
+mod rounded;
+
 use std::fmt::Write as _;
 
 use robot_check::difference::{
@@ -74,14 +76,16 @@ fn arrow<T: ToString>(sides: &[Option<T>; 2]) -> String {
 fn change(change: &Change) -> String {
     let whole = |sign: char, item: &Item| {
         let said = item.properties.iter().filter(|(name, value)| !is_usual(item.kind, name, value));
-        let said: Vec<String> = said.map(|(name, value)| format!("{name} {value}")).collect();
+        let said: Vec<String> =
+            said.map(|(name, value)| format!("{name} {}", rounded::one(value))).collect();
         format!("{sign} {} {}: {}\n", item.kind.name(), item.name, said.join("; "))
     };
     match change {
         Change::Added(item) => whole('+', item),
         Change::Removed(item) => whole('-', item),
         Change::Changed { kind, name, properties } => {
-            let one = |one: &Property| format!("{} {}", one.name, arrow(&one.values));
+            let one =
+                |one: &Property| format!("{} {}", one.name, arrow(&rounded::pair(&one.values)));
             let properties: Vec<String> = properties.iter().map(one).collect();
             let name = if name.is_empty() { String::new() } else { format!(" {name}") };
             format!("~ {}{name}: {}\n", kind.name(), properties.join("; "))
@@ -111,7 +115,7 @@ fn equation(equation: &Equation, most: usize) -> String {
     let mut shown = format!("  {}\n", equation.name);
     for Term { powers, coefficients } in terms.iter().take(most) {
         // Writing to a string does not fail.
-        let _ = match coefficients {
+        let _ = match &rounded::pair(coefficients) {
             [Some(gone), None] => writeln!(shown, "  - {}", product(gone, powers)),
             [None, Some(come)] => writeln!(shown, "  + {}", product(come, powers)),
             both => writeln!(shown, "  ~ ({}) {powers}", arrow(both)),

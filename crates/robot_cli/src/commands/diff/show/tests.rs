@@ -37,6 +37,34 @@ fn properties_that_files_do_not_mention_are_left_out() {
 }
 
 #[test]
+fn long_numbers_are_rounded_as_far_as_they_still_differ() {
+    let third = "1/3000000000000000000000000000000";
+    let long = "0.38847736995884759176954739917696";
+    let longer = "0.38847736995884759176954739917697";
+    for (pair, expected) in [
+        ([third, "1"], ["3.333333333e-31", "1"]),
+        ([long, "-0.1234567890123456"], ["0.38847737", "-0.1234567890123456"]),
+        ([long, "0.38847736995884859176954739917696"], ["0.388477369958848", "0.388477369958849"]),
+        ([long, longer], [long, longer]),
+        // A vector, and names as long as a number.
+        ([&format!("to ({long}, -{long}, 1)"), "x"], ["to (0.38847737, -0.38847737, 1)", "x"]),
+        (["a_123456789012345678901234567890", "y"], ["a_123456789012345678901234567890", "y"]),
+    ] {
+        let values = pair.map(|text| Some(owned(text)));
+        assert_eq!(rounded::pair(&values), expected.map(|text| Some(owned(text))));
+    }
+    assert_eq!(rounded::pair(&[None, Some(owned(long))]), [None, Some(owned("0.38847737"))]);
+    // What f64 cannot hold keeps its digits.
+    let huge = "1".repeat(400);
+    assert_eq!(rounded::one(&huge), huge);
+    let whole = equation(
+        &Equation { name: owned("Q1"), terms: Ok(vec![term("qdd1", [Some(long), None])]) },
+        20,
+    );
+    assert_eq!(whole, "  Q1\n  - 0.38847737 qdd1\n");
+}
+
+#[test]
 fn items_have_a_line_with_a_sign() {
     let property = |name: &str, value: &str| (owned(name), owned(value));
     let properties = vec![property("mass", "m3"), property("Ixx", "0"), property("Izz", "I3")];
