@@ -1,6 +1,6 @@
 //! Sums in which terms cancel, also in their shared parts.
 
-use robot_symbolic::{Expr, Graph, Id, Number, PolynomialOptions, View, walk};
+use robot_symbolic::{Expr, Graph, Id, Number, View, walk};
 use rustc_hash::FxHashMap;
 
 use super::residues;
@@ -14,10 +14,8 @@ const MAX_TERMS: usize = 40;
 /// Writes sums that are numbers, such as that of the squares of a sine and a cosine, as these numbers, and a value of which
 /// one term is left if it is multiplied out as this term.
 pub(super) fn with_single_terms<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
-    let limits =
-        PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
     let left = |sum: Expr<'g>, most: usize| {
-        let left = residues::polynomial(sum, &limits).ok();
+        let left = residues::short_polynomial(sum, MAX_TERMS);
         left.filter(|left| left.len() <= most || left.as_number().is_some())
             .map_or(sum, |left| left.to_expr())
     };
@@ -65,10 +63,8 @@ fn shortened<'g>(sum: Expr<'g>, uses: &FxHashMap<Id, usize>, graph: &'g Graph) -
         false => sum + *term * graph.number(count.clone()),
     });
     // What is left can be a square of a sine and one of a cosine.
-    let limits =
-        PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
-    match residues::polynomial(short, &limits) {
-        Ok(polynomial) if polynomial.len() < rest.len() => Some(polynomial.to_expr()),
+    match residues::short_polynomial(short, MAX_TERMS) {
+        Some(polynomial) if polynomial.len() < rest.len() => Some(polynomial.to_expr()),
         _ => Some(short),
     }
 }

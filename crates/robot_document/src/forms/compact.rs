@@ -3,9 +3,7 @@
 use robot_dynamics::quantity::{Quantity, Symbol};
 use robot_symbolic::collected::{Collector, length};
 use robot_symbolic::print::{ArrangedTerm, arranged_text, arranged_value};
-use robot_symbolic::{
-    AngleSums, Expr, Function, Graph, Id, Polynomial, PolynomialOptions, View, walk,
-};
+use robot_symbolic::{AngleSums, Expr, Function, Graph, Id, Polynomial, View, walk};
 use rustc_hash::FxHashSet;
 
 use super::definitions::{Definitions, Root};
@@ -246,13 +244,11 @@ pub(super) fn tidy(
 /// operations, collected.
 pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
     let built = arranged::factored(arranged::terms(value, &writer.order), &writer.order);
-    let limits =
-        PolynomialOptions { max_terms: MAX_TERMS, ..PolynomialOptions::keeping_angle_sums() };
+    let Some(polynomial) = residues::short_polynomial(value, MAX_TERMS) else { return built };
     // An expression with functions of sums keeps its structure.
     if walk::reachable(&[value]).iter().any(|part| is_of_sum(*part)) {
         return built;
     }
-    let Ok(polynomial) = residues::polynomial(value, &limits) else { return built };
     let collector = Collector { angles: &[], factors: true, double_angles: false };
     let collected = collector.collect(&polynomial, |atom| writer.order.rank(atom), &BRACKETS);
     // Among equally long forms, the collector can choose one with an additional product.

@@ -3,7 +3,7 @@
 use robot_dynamics::quantity::{Kind, Quantity, Symbol};
 use robot_symbolic::collected::length;
 use robot_symbolic::print::{ArrangedTerm, arranged_value};
-use robot_symbolic::{Expr, Graph, Id, PolynomialOptions, View, walk};
+use robot_symbolic::{Expr, Graph, Id, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::arranged::{is_short_product, known};
@@ -233,8 +233,11 @@ impl<'g, 'h> Definitions<'g, 'h> {
         writer: &mut Writer<'_, '_>,
         section: &mut Section,
     ) -> Result<(), Error> {
-        let within = walk::reachable(&[expr]);
-        let is_part = |one: &Expr<'g>| *one != expr && within.contains(one);
+        if self.pending.is_empty() {
+            return Ok(());
+        }
+        let within: FxHashSet<Id> = walk::reachable(&[expr]).into_iter().map(Expr::id).collect();
+        let is_part = |one: &Expr<'g>| *one != expr && within.contains(&one.id());
         let (parts, others): (Vec<_>, Vec<_>) = self.pending.iter().copied().partition(is_part);
         self.pending = others;
         if parts.is_empty() {
@@ -447,9 +450,7 @@ fn unfolded<'h>(
     expr: Expr<'_>,
     target: &'h Graph,
 ) -> Option<Vec<ArrangedTerm<'h>>> {
-    let limits =
-        PolynomialOptions { max_terms: MAX_UNFOLDED, ..PolynomialOptions::keeping_angle_sums() };
-    let value = residues::polynomial(expr, &limits).ok()?.to_expr();
+    let value = residues::short_polynomial(expr, MAX_UNFOLDED)?.to_expr();
     let value = walk::rebuild(&[value], target, |name| target.symbol(name)).pop()?;
     Some(short_terms(writer, value))
 }

@@ -17,6 +17,8 @@ pub(super) struct Multiples<'g> {
     known: FxHashMap<Terms, (Expr<'g>, Rational)>,
     /// The keys of the known ones, in their order.
     keys: Vec<Terms>,
+    /// The places of the keys whose first term has these factors.
+    places: FxHashMap<Vec<Id>, Vec<usize>>,
 }
 
 impl<'g> Multiples<'g> {
@@ -24,6 +26,8 @@ impl<'g> Multiples<'g> {
     pub(super) fn insert(&mut self, sum: Expr<'_>, name: Expr<'g>) {
         if let Some((terms, factor)) = terms(sum).and_then(primitive) {
             self.known.entry(terms).or_insert_with_key(|terms| {
+                let first = terms.first().map(|(factors, _)| factors.clone()).unwrap_or_default();
+                self.places.entry(first).or_default().push(self.keys.len());
                 self.keys.push(terms.clone());
                 (name, factor)
             });
@@ -54,7 +58,12 @@ impl<'g> Multiples<'g> {
             };
             (key.len() < terms.len() && key.iter().all(is_same)).then_some(ratio)
         };
-        let (key, ratio) = self.keys.iter().find_map(|key| Some((key, ratio(key)?)))?;
+        // The first of the keys that are part of the sum.
+        let begin = terms.iter().filter_map(|(factors, _)| self.places.get(factors));
+        let mut places: Vec<usize> = begin.flatten().copied().collect();
+        places.sort_unstable();
+        let keys = places.into_iter().filter_map(|place| self.keys.get(place));
+        let (key, ratio) = keys.clone().find_map(|key| Some((key, ratio(key)?)))?;
         let (name, own) = self.known.get(key)?;
         let is_left = |factors: &Vec<Id>| !key.iter().any(|(known, _)| known == factors);
         let left = terms.iter().filter(|(factors, _)| is_left(factors));

@@ -5,7 +5,7 @@ use robot_dynamics::newton_euler::{NewtonEuler, newton_euler};
 use robot_dynamics::quantity::{Kind, Symbol};
 use robot_dynamics::vector::Vector;
 use robot_model::functions::Effects;
-use robot_symbolic::{Expr, Graph, Number, PolynomialOptions, View};
+use robot_symbolic::{Expr, Graph, Number, View};
 use rustc_hash::FxHashSet;
 
 use super::compact::{definitions, tidy};
@@ -275,6 +275,9 @@ fn joint_torques(
     Ok(Group::of_quantities("Joint torques", String::new(), equations))
 }
 
+/// The largest number of terms of an equation that is multiplied out.
+const MAX_TERMS: usize = 40;
+
 /// The equation with a short sum of products or, if the sum is long, with the expression as it was built.
 fn sum(
     writer: &Writer<'_, '_>,
@@ -282,10 +285,9 @@ fn sum(
     left: Math,
     value: Expr<'_>,
 ) -> Result<Equation, Error> {
-    let limits = PolynomialOptions { max_terms: 40, ..PolynomialOptions::keeping_angle_sums() };
-    match residues::polynomial(value, &limits) {
-        Ok(polynomial) => writer.of_polynomial(name, left, &polynomial),
-        Err(_) => {
+    match residues::short_polynomial(value, MAX_TERMS) {
+        Some(polynomial) => writer.of_polynomial(name, left, &polynomial),
+        None => {
             let rounded = numbers::rounded(writer, &[value]).pop().unwrap_or(value);
             writer.of_expression(name, left, rounded)
         }

@@ -49,6 +49,20 @@ pub(super) fn polynomial<'g>(
     Ok(kept.remove(&true).unwrap_or_else(|| Polynomial::zero(graph, limits)))
 }
 
+/// The largest number of expressions in one that is multiplied out, for each term that it may have. Longer ones have more
+/// terms, and finding this out would take a walk through all of each.
+const PARTS_OF_TERM: usize = 20;
+
+/// The polynomial of an expression, with sums of angles as they are; `None` if it has more than `most` terms or the
+/// expression has too many parts for so few.
+pub(super) fn short_polynomial(expr: Expr<'_>, most: usize) -> Option<Polynomial<'_>> {
+    if walk::is_longer_than(expr, PARTS_OF_TERM * most) {
+        return None;
+    }
+    let limits = PolynomialOptions { max_terms: most, ..PolynomialOptions::keeping_angle_sums() };
+    polynomial(expr, &limits).ok()
+}
+
 /// The value of a number with as many digits as a rounded root or sine.
 fn rounded(part: Expr<'_>) -> Option<f64> {
     part.as_number().filter(|number| digits(number) >= ROUNDED_DIGITS).map(|number| number.to_f64())
