@@ -155,6 +155,22 @@ impl Room {
         symbols + CROSSED * lines
     }
 
+    /// The first of the places where a label costs least.
+    pub(crate) fn cheapest<'c>(&self, places: &'c [Candidate]) -> Option<&'c Candidate> {
+        let mut best: Option<(&Candidate, f64)> = None;
+        for place in places {
+            // The shapes only add to the cost of a place.
+            if best.is_some_and(|(_, least)| place.cost >= least) {
+                continue;
+            }
+            let cost = place.cost + self.cost(&place.label);
+            if best.is_none_or(|(_, least)| cost < least) {
+                best = Some((place, cost));
+            }
+        }
+        best.map(|(place, _)| place)
+    }
+
     /// The length of lines through a label.
     #[cfg(test)]
     pub(crate) fn length_within(&self, label: &Rectangle) -> f64 {

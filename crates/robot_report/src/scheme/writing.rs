@@ -126,10 +126,7 @@ impl Drawing<'_> {
             [ends, [from, ends[0] + over], [to, ends[1] + over]]
         };
         let places = |offset: f64| beside(&lines(offset)[0], size);
-        let best_of = |label: &Label| {
-            let cost = |place: &Candidate| place.cost + self.room.cost(&place.label);
-            label.places.iter().min_by(|a, b| cost(a).total_cmp(&cost(b))).map(|place| place.label)
-        };
+        let best_of = |label: &Label| self.room.cheapest(&label.places).map(|place| place.label);
         let lengths: Vec<Rectangle> = before.iter().filter_map(best_of).collect();
         let covered = |line: &[Point; 2]| {
             CROSSED * lengths.iter().map(|length| length.length_within(line)).sum::<f64>()
