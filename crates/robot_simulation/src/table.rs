@@ -4,7 +4,9 @@ use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
 
-use crate::csv::{Lines, cells, miscounted, number, numbers, push_number, separators};
+use crate::csv::{
+    Lines, cells, decimal_comma, miscounted, number, numbers, push_number, separators,
+};
 use crate::error::Error;
 
 /// Named columns of numbers, all with the same length.
@@ -170,7 +172,8 @@ fn wrong_cells(place: &str, names: &[String], line: &str) -> Vec<String> {
     let wrong = names.iter().zip(cells).filter(|(_, cell)| number(cell).is_none());
     wrong
         .map(|(name, cell)| {
-            format!("{place}: `{}` is `{}`, not a number", quote(name), quote(cell))
+            let remedy = decimal_comma(cell);
+            format!("{place}: `{}` is `{}`, not a number{remedy}", quote(name), quote(cell))
         })
         .collect()
 }

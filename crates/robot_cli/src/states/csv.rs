@@ -3,7 +3,9 @@
 use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
-use robot_simulation::csv::{Lines, cells, miscounted, number, numbers, separators, unit};
+use robot_simulation::csv::{
+    Lines, cells, decimal_comma, miscounted, number, numbers, separators, unit,
+};
 
 use super::{Layout, Place, Sink, State};
 use crate::failure::Failure;
@@ -134,8 +136,9 @@ impl Columns {
                         // A number such as 1e999, which no double can hold.
                         let is_number = cell.parse::<f64>().is_ok_and(f64::is_infinite);
                         let finite = if is_number { "finite " } else { "" };
-                        let cell = quote(cell);
-                        sink.error(format!("{place}: `{name}` is `{cell}`, not a {finite}number"));
+                        let (cell, remedy) = (quote(cell), decimal_comma(cell));
+                        let message = format!("`{name}` is `{cell}`, not a {finite}number{remedy}");
+                        sink.error(format!("{place}: {message}"));
                     }
                 }
             }

@@ -34,12 +34,21 @@ pub fn unit(name: &str) -> &'static str {
     }
 }
 
+/// The remedy, to be appended to a message about a cell that is not a number, if the cell seems to have a decimal comma;
+/// otherwise empty.
+#[must_use]
+pub fn decimal_comma(cell: &str) -> &'static str {
+    if cell.contains(',') { "; write decimals with points" } else { "" }
+}
+
 /// The message about a line whose number of entries is not that of the header. `place` is the line.
 #[must_use]
 pub fn miscounted(place: &str, line: &str, found: usize, expected: usize) -> String {
     let entries = if found == 1 { "entry" } else { "entries" };
     let remedy = if SEPARATORS.iter().any(|(separator, _)| line.trim().contains(*separator)) {
         "; separate them with commas"
+    } else if line.contains('"') {
+        "; a comma in quotes does not separate entries, and decimals have points"
     } else {
         ""
     };
@@ -70,6 +79,11 @@ mod tests {
             "line 2: 1 entry, but the header has 3; separate them with commas"
         );
         assert_eq!(miscounted("line 2", "0,1\n", 2, 3), "line 2: 2 entries, but the header has 3");
+        assert!(
+            miscounted("line 2", "\"0,1\"", 1, 2)
+                .ends_with("quotes does not separate entries, and decimals have points")
+        );
+        assert_eq!(["0,1", "x"].map(decimal_comma), ["; write decimals with points", ""]);
     }
 
     #[test]

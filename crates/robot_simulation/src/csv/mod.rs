@@ -1,24 +1,43 @@
 //! CSV files as this project reads and writes them, line by line, with only one line in memory.
 //!
-//! Cells are separated by commas and can have spaces and quotes around them; they cannot contain commas. Blank lines
-//! are ignored.
+//! Cells are separated by commas and can have spaces and quotes around them; a comma in quotes does not separate. Blank
+//! lines are ignored.
 
 mod advice;
 mod lines;
 mod number;
 
-pub use self::advice::{miscounted, separators, unit};
+pub use self::advice::{decimal_comma, miscounted, separators, unit};
 pub use self::lines::{Lines, is_blank, not_utf8};
 pub use self::number::push_number;
 
 /// The cells of a line.
 #[must_use]
 pub fn cells(line: &str) -> Vec<&str> {
-    line.split(',').map(cell).collect()
+    let mut found = vec![];
+    let mut rest = Some(line);
+    while let Some(line) = rest {
+        let text = first(line);
+        found.push(cell(text));
+        rest = line.get(text.len() + 1..);
+    }
+    found
 }
 
+/// The text before the first comma that is not in quotes.
+fn first(line: &str) -> &str {
+    let mut is_quoted = false;
+    let end = line.find(|character| {
+        is_quoted ^= character == '"';
+        character == ',' && !is_quoted
+    });
+    line.split_at(end.unwrap_or(line.len())).0
+}
+
+/// A cell without the spaces and the quotes around it. Quotes without a partner stay.
 fn cell(text: &str) -> &str {
-    text.trim().trim_matches('"')
+    let text = text.trim();
+    text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(text)
 }
 
 /// The number in a cell; `None` if it is not a finite number.
@@ -43,7 +62,7 @@ pub fn numbers(line: &str, found: &mut Vec<f64>) -> bool {
             }
             // The cell has spaces or quotes around it, or is not a number.
             _ => {
-                let text = rest.split(',').next().unwrap_or_default();
+                let text = first(rest);
                 let Some(number) = number(cell(text)) else { return false };
                 found.push(number);
                 text.len()

@@ -110,6 +110,31 @@ fn numbers_are_read_as_the_standard_library_does() {
     }
 }
 
+/// A quote without a partner is part of its cell, which is then not a number.
+#[test]
+fn commas_in_quotes_do_not_separate() {
+    for (line, expected) in [
+        ("a,b", &["a", "b"][..]),
+        ("\"a\", \"b\" ,c\n", &["a", "b", "c"]),
+        ("\"0\",\"1,5\"", &["0", "1,5"]),
+        ("0,\"1", &["0", "\"1"]),
+        ("\"1,2,3", &["\"1,2,3"]),
+        ("\"1\"\"", &["1\""]),
+        ("1\",2", &["1\",2"]),
+        ("\"\"", &[""]),
+        ("\"", &["\""]),
+        ("", &[""]),
+        ("1,", &["1", ""]),
+        (",,", &["", "", ""]),
+    ] {
+        assert_eq!(cells(line), expected, "{line:?}");
+        let mut found = vec![];
+        let is_right = numbers(line, &mut found);
+        let expected: Option<Vec<f64>> = expected.iter().map(|cell| number(cell)).collect();
+        assert_eq!(is_right.then_some(found), expected, "{line:?}");
+    }
+}
+
 /// The lines with their numbers, or the error.
 fn lines(bytes: &[u8]) -> Result<Vec<(usize, String)>, String> {
     // The ends of a buffer of three bytes are in all kinds of places in the text.
