@@ -176,7 +176,7 @@ pub(crate) fn write(
 
 /// The name of an output; that of a symbolic link with its target, which is the file that is replaced.
 pub(crate) fn named(path: &Path) -> String {
-    match path.read_link().ok().filter(|_| path.is_file()) {
+    match path.read_link().ok().filter(|_| path.exists()) {
         Some(target) => format!("{}, a symbolic link to {}", shown(path), shown(&target)),
         None => shown(path),
     }
@@ -220,7 +220,7 @@ pub(crate) fn deliver_folder(
     let (changed, all) = (writer.write_folder(folder, files)?, files.len());
     let count = if changed == all { String::new() } else { format!("{changed} of ") };
     if changed > 0 {
-        writeln!(terminal.errors, "wrote {}: {count}{all} files", shown(folder))?;
+        writeln!(terminal.errors, "wrote {}: {count}{all} files", named(folder))?;
     }
     warn_of_remaining(folder, &remaining(folder, files), terminal)
 }

@@ -140,7 +140,7 @@ fn missing_at(path: &Path, given: &Path) -> String {
     format!("there is no such file{place}{}", near.unwrap_or_default())
 }
 
-/// The most similar name of a file in the same folder, or else a name that differs only in its extension.
+/// The file in the same folder whose name, without its extension, is most similar.
 fn nearest(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
@@ -152,10 +152,15 @@ fn nearest(path: &Path) -> Option<String> {
     });
     let mut names: Vec<String> = names.take(MOST_NAMES).collect();
     names.sort();
-    let stem = |name: &str| Path::new(name).file_stem()?.to_str().map(str::to_owned);
-    let name = path.file_name()?.to_str()?;
-    let whole = nearest_word(name, names.iter().map(String::as_str)).map(str::to_owned);
-    whole.or_else(|| names.iter().find(|known| stem(known) == stem(name)).cloned())
+    let stem = |name: &'_ str| Some(Path::new(name).file_stem()?.to_str()?.to_owned());
+    let stems: Vec<String> = names.iter().filter_map(|name| stem(name)).collect();
+    let near = nearest_word(&stem(path.file_name()?.to_str()?)?, stems.iter().map(String::as_str))?;
+    let is_near = |name: &&String| stem(name).is_some_and(|stem| stem == near);
+    // With the same extension, if there is such a file.
+    let extension = path.extension();
+    let of_near = || names.iter().filter(is_near);
+    let same = of_near().find(|name| Path::new(name).extension() == extension);
+    same.or_else(|| of_near().next()).cloned()
 }
 
 /// The largest number of files of a folder that are examined for a similar name.
@@ -186,6 +191,8 @@ mod tests {
             ("left.plen", "; did you mean F/left.toml?"),
             // Another ending of the same name.
             ("puma.toml", "; did you mean F/puma.urdf?"),
+            // The same ending does not make short names alike.
+            ("nope.toml", ""),
             ("nothing_like_it.toml", ""),
             ("none/left.toml", "; there is no folder F/none"),
         ] {

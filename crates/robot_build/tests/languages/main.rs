@@ -423,3 +423,19 @@ fn languages_are_found_by_their_names_alone() {
         assert_eq!(Language::ALL.iter().filter(same).count(), 1);
     }
 }
+
+/// The compiler refuses such characters in comments.
+#[test]
+fn the_name_of_the_file_does_not_change_the_direction_of_text() {
+    let source = Source { name: "\u{202e}\u{2066}\nlmot.toml".to_owned(), text: ARM.to_owned() };
+    for language in Language::ALL {
+        // Some have only this scalar.
+        let single = matches!(language, Language::Arduino | Language::Wgsl);
+        let scalar = if single { Scalar::F32 } else { Scalar::F64 };
+        let options = Options { scalar, ..Options::default() };
+        for file in package(&source, &options, *language).unwrap() {
+            let found = String::from_utf8_lossy(file.contents.bytes());
+            assert!(!found.contains(['\u{202e}', '\u{2066}']), "{}", file.path);
+        }
+    }
+}

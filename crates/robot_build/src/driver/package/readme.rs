@@ -14,7 +14,7 @@ pub(super) fn readme(parts: &Parts<'_>) -> String {
         unnamed_header(),
         robot.name,
         robot.name,
-        plain(file_name(parts.source))
+        plain(&file_name(parts.source))
     );
     if let Some(description) = &robot.description {
         paragraph(&mut text, &plain(description));

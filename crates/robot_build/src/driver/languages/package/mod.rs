@@ -106,7 +106,7 @@ impl Parts<'_> {
     /// Prints the README: what the package is, how it is used, and the sections that all READMEs share.
     fn readme(&self, tree: &Tree<'_>, what: &str, usage: &str, constructor: &str) -> String {
         let robot = &self.programs.robot;
-        let from = plain(file_name(self.source));
+        let from = plain(&file_name(self.source));
         let mut text = format!(
             "<!-- {} -->\n\n# {}\n\nThe dynamics of the robot {} in {what}, generated from `{from}`.\n",
             unnamed_header(),
