@@ -2,7 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test that fails panics")]
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::{Mutex, OnceLock};
 
 use robot_build::{Options, Programs, Source};
 use robot_report::{Accuracy, Compiled, Input, reloading, report};
@@ -26,9 +27,17 @@ fn page_with(name: &str, text: &str, live: bool) -> String {
     report(&input).unwrap()
 }
 
-fn page_of(robot: &str) -> String {
+fn text_of(robot: &str) -> String {
     let path = format!("{}/../../robots/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
-    page(&format!("{robot}.toml"), &std::fs::read_to_string(path).unwrap())
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The page of a robot of the project, which all tests share: that of an arm with seven joints takes seconds.
+fn page_of(robot: &str) -> &'static str {
+    static PAGES: Mutex<BTreeMap<String, &OnceLock<String>>> = Mutex::new(BTreeMap::new());
+    let new = || Box::leak(Box::default());
+    let own = *PAGES.lock().unwrap().entry(robot.to_owned()).or_insert_with(|| new());
+    own.get_or_init(|| page(&format!("{robot}.toml"), &text_of(robot)))
 }
 
 fn parsed(page: &str) -> Document<'_> {
@@ -315,16 +324,15 @@ fn forms_that_are_too_long_say_so() {
 
 #[test]
 fn the_same_file_gives_the_same_page() {
-    assert_eq!(page_of("scara"), page_of("scara"));
+    assert_eq!(page("scara.toml", &text_of("scara")), page_of("scara"));
 }
 
 /// The page with the moving robot is the page without it and a hidden section, which adds at most 80 kB.
 #[test]
 fn robots_move_in_pages_that_stay_short() {
     for robot in ["trttr1", "puma560", "panda", "planar_2r"] {
-        let path = format!("{}/../../robots/{robot}.toml", env!("CARGO_MANIFEST_DIR"));
-        let text = std::fs::read_to_string(path).unwrap();
-        let (moving, still) = (page_of(robot), page_with(&format!("{robot}.toml"), &text, false));
+        let still = page_with(&format!("{robot}.toml"), &text_of(robot), false);
+        let moving = page_of(robot);
         assert!(moving.len() - still.len() <= 80_000, "{robot}: {}", moving.len() - still.len());
         assert!(!still.contains("wasm") && !still.contains("data-live"), "{robot}");
         let document = parsed(&moving);
