@@ -28,6 +28,7 @@ mod residues;
 mod roots;
 mod shapes;
 mod signs;
+mod size;
 mod uses;
 mod vectors;
 
@@ -58,6 +59,7 @@ pub(crate) use numbers::{with_values, without_functions};
 
 pub use options::{EquationOptions, Form};
 pub use published::{Differences, TermOrder};
+pub(crate) use size::MAX_NODES;
 
 pub use arrays::{Array, Cell, Room, Written};
 pub use paper::Relation;
@@ -214,9 +216,6 @@ impl Equations {
     }
 }
 
-/// The largest number of expressions for which equations are derived; the equations of arms need some thousands.
-pub(crate) const MAX_NODES: usize = 300_000;
-
 /// The largest number of terms of a sum that is collected as a whole. In longer sums, each coefficient of an
 /// acceleration or of a product of velocities is collected by itself. A joint torque of a 6-joint arm has thousands of terms.
 const MAX_WHOLE: usize = 200;
@@ -250,9 +249,7 @@ pub fn equations(robot: &Robot, options: &EquationOptions) -> Result<Equations, 
         Form::Compact => compact::groups(&mut writer),
         Form::Regrouped => regrouped::groups(&mut writer),
     };
-    if graph.is_full() {
-        return Err(Error::TooManyExpressions { limit: MAX_NODES });
-    }
+    writer.check_size()?;
     let groups = groups.map_err(|error| writer.blamed(error))?;
     // A column can have entries that are all defined in other groups.
     let is_shown = |group: &Group| !group.equations.is_empty() || group.arrays.is_some();

@@ -44,6 +44,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     if writer.options.friction {
         sections.extend(frictions(writer, "Coulomb friction", dry, &mut sums));
     }
+    writer.check_size()?;
     let introduction = introduction(&found);
     let mut shown = shown(writer, &sections);
     let lengths: Option<Vec<usize>> = shown.first().into_iter().flatten().map(length_of).collect();

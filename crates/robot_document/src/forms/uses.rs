@@ -44,6 +44,7 @@ pub(super) fn without_unused<'r, 'g, T>(
     writer: &mut Writer<'r, 'g>,
     write: impl Fn(&mut Writer<'r, 'g>, Unnamed) -> Result<Attempt<T>, Error>,
 ) -> Result<(Vec<Group>, T), Error> {
+    writer.check_size()?;
     let (symbols, digits) = (writer.symbols.clone(), writer.options.digits);
     let mut best = write(writer, Unnamed::default())?;
     let mut unnamed = Unnamed { omitted: best.uses.unused.clone(), inlined: FxHashSet::default() };
