@@ -5,7 +5,8 @@ use robot_dynamics::functions::Derivation;
 use robot_model::functions::out_of_reach;
 use robot_model::robot::Robot;
 use robot_symbolic::{
-    AngleSums, Expr, Id, Number, Polynomial, PolynomialOptions, Random, Rational, walk,
+    AngleSums, Expr, Id, Number, Polynomial, PolynomialError, PolynomialOptions, Random, Rational,
+    walk,
 };
 use rustc_hash::FxHashMap;
 
@@ -127,8 +128,7 @@ pub(crate) fn polynomials<'g>(
     values: &[Expr<'g>],
     robot: &Robot,
 ) -> Result<Vec<Polynomial<'g>>, Error> {
-    let expanded = Polynomial::of_all(values, &LIMITS)
-        .map_err(|error| Error::Base { reason: format!("{error}; {SHORTER}") })?;
+    let expanded = Polynomial::of_all(values, &LIMITS).map_err(too_long)?;
     let is_kept = |one: &Polynomial<'g>| one.is_exact() && without_functions(one).is_none();
     let rounded = |one: Polynomial<'g>| if is_kept(&one) { one } else { one.in_decimals(RESIDUE) };
     let expanded: Vec<_> = expanded.into_iter().map(rounded).collect();
@@ -203,6 +203,11 @@ pub(super) fn coefficients<'g>(
     let coefficients: Vec<Expr<'g>> =
         parameter.terms.iter().map(|(_, coefficient)| *coefficient).collect();
     polynomials(&coefficients, robot)
+}
+
+/// The error for formulas that exceed a limit of expansions.
+pub(super) fn too_long(error: PolynomialError) -> Error {
+    Error::Base { reason: format!("{error}; {SHORTER}") }
 }
 
 #[cfg(test)]

@@ -8,14 +8,16 @@ use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::robot::Robot;
 use robot_model::signs::Font;
 use robot_model::snap;
-use robot_symbolic::{Expr, Graph, Polynomial};
+use robot_symbolic::collected::{Collector, length};
+use robot_symbolic::print::{ArrangedFactor, ArrangedTerm, arranged_text};
+use robot_symbolic::{Expr, Function, Graph, Polynomial, View};
 
-use self::coefficients::coefficients;
+use self::coefficients::{coefficients, too_long};
 pub(crate) use self::coefficients::{expanded_values, found, polynomials};
 use crate::error::Error;
 use crate::forms::{Equation, Group, MAX_NODES};
 use crate::latex;
-use crate::layout::{Order, SymbolTable, Trigonometry, has_longer, tidied, tidied_text};
+use crate::layout::{BRACKETS, Order, SymbolTable, Trigonometry, has_longer, tidied, tidied_text};
 use crate::math::{Fence, Math};
 
 /// The remedy for formulas of base parameters that are too long.
@@ -233,8 +235,29 @@ pub(crate) struct Formulas<'w> {
 impl Formulas<'_> {
     /// Writes a value in terms of the parameters of the robot file.
     pub(crate) fn of_polynomial(&self, value: &Polynomial<'_>) -> Result<Written, Error> {
-        let text = value.to_text_by(|atom| self.order.rank(atom))?;
-        Ok(Written { text, math: self.symbols.polynomial(value, self.order)? })
+        self.of_terms(&self.terms(value))
+    }
+
+    fn of_terms(&self, terms: &[ArrangedTerm<'_>]) -> Result<Written, Error> {
+        Ok(Written { text: arranged_text(terms)?, math: self.symbols.terms(terms)? })
+    }
+
+    /// The terms of a polynomial, multiplied out. With squares of cosines they are collected if that is shorter:
+    /// 1 - cos² β is sin² β.
+    fn terms<'g>(&self, value: &Polynomial<'g>) -> Vec<ArrangedTerm<'g>> {
+        let rank = |atom: Expr<'g>| self.order.rank(atom);
+        let terms = value.arranged(rank);
+        let is_square = |(factor, exponent): &(ArrangedFactor<'_>, i32)| {
+            let atom = factor.as_atom();
+            let is_cosine = |atom: Expr<'_>| matches!(atom.view(), View::Call(Function::Cos, _));
+            *exponent > 1 && atom.is_some_and(is_cosine)
+        };
+        if !terms.iter().any(|term| term.factors.iter().any(is_square)) {
+            return terms;
+        }
+        let collector = Collector { angles: &[], factors: true, double_angles: false };
+        let collected = collector.collect(value, rank, &BRACKETS);
+        if length(&collected) < length(&terms) { collected } else { terms }
     }
 
     /// Writes the formula of a base parameter in standard parameters, whose names are given by `standard`; a parameter
@@ -245,11 +268,20 @@ impl Formulas<'_> {
         standard: &[Option<Written>],
     ) -> Result<Written, Error> {
         let coefficients = coefficients(parameter, self.robot)?;
-        let mut groups: Vec<(Term, Vec<&Written>)> = vec![];
-        let mut terms: Vec<_> = parameter.terms.iter().zip(&coefficients).collect();
+        let mut terms: Vec<_> = parameter.terms.iter().zip(coefficients).collect();
         terms.sort_by_key(|((place, _), _)| *place != parameter.column);
+        // Different parameters can be the same symbol of the robot file, such as the mass of links that are alike.
+        let mut by_name: Vec<(&Written, Polynomial<'_>)> = vec![];
         for ((place, _), coefficient) in terms {
             let Some(Some(name)) = standard.get(*place) else { continue };
+            match by_name.iter_mut().find(|(known, _)| known.text == name.text) {
+                Some((_, sum)) => *sum = sum.add(&coefficient).map_err(too_long)?,
+                None => by_name.push((name, coefficient)),
+            }
+        }
+        by_name.retain(|(_, coefficient)| !coefficient.is_zero());
+        let mut groups: Vec<(Term, Vec<&Written>)> = vec![];
+        for (name, coefficient) in &by_name {
             let factor = self.factor(coefficient)?;
             match groups.iter_mut().find(|(known, _)| *known == factor) {
                 Some((_, names)) => names.push(name),
@@ -263,8 +295,9 @@ impl Formulas<'_> {
 
     /// Writes a coefficient as a factor: a coefficient 1 is empty, and sums are in parentheses.
     fn factor(&self, coefficient: &Polynomial<'_>) -> Result<Term, Error> {
-        let written = self.of_polynomial(coefficient)?;
-        if coefficient.len() > 1 {
+        let terms = self.terms(coefficient);
+        let written = self.of_terms(&terms)?;
+        if terms.len() > 1 {
             let math = Math::Fenced(Fence::Parentheses, Box::new(written.math));
             let written = Written { text: format!("({})", written.text), math };
             return Ok(Term { negative: false, written });
@@ -348,6 +381,7 @@ mod tests {
     use robot_model::description::read_toml;
 
     use super::*;
+    use crate::{EquationOptions, Form, equations};
     use robot_dynamics::base_parameters::base_parameters;
 
     /// Two links with skew axes; the first is turned and displaced by `origin`.
@@ -366,6 +400,37 @@ mod tests {
         let first = link("a", "[1, 2, 3]", origin);
         let text = format!("format = 1\n[robot]\nname = \"skew\"\n{first}{second}");
         read_toml("skew.toml", &text).unwrap().robot
+    }
+
+    /// The mass m of two links is one symbol, and 1 - cos² β is sin² β.
+    #[test]
+    fn equal_symbols_are_added_and_squares_are_short() {
+        let inertia =
+            "center_of_mass = [\"0.5*l\", 0, 0]\ninertia = { zz = 0.1, yy = 0.1, xx = 0.1 }\n";
+        let link = |name: &str, joint: &str, mass: &str| {
+            format!("[[link]]\nname = \"{name}\"\n{joint}\nmass = \"{mass}\"\n{inertia}")
+        };
+        let revolute = "joint = { type = \"revolute\", axis = \"z\" }";
+        let along = format!("{revolute}\norigin = {{ xyz = [\"l\", 0, 0] }}");
+        let oblique = format!("{revolute}\norigin = {{ rpy = [\"beta\", 0, 0] }}");
+        let robot = |links: &[String]| {
+            let text = format!(
+                "format = 1\n[robot]\nname = \"two\"\n[parameters]\nl = 0.5\nm = 1\n\
+                 beta = {{ value = 0.4, unit = \"rad\" }}\n{}",
+                links.concat()
+            );
+            read_toml("two.toml", &text).unwrap().robot
+        };
+        let twins = [("1", revolute), ("2", &along), ("3", &along)];
+        let options = EquationOptions { form: Form::Regrouped, ..EquationOptions::default() };
+        let twins = robot(&twins.map(|(name, joint)| link(name, joint, "m")));
+        let found = equations(&twins, &options).unwrap();
+        let texts: Vec<&str> = found.definitions().map(|one| one.text.as_str()).collect();
+        assert!(texts.contains(&"ZZ_1 + 2*l^2*m"), "{texts:?}");
+        let skew = robot(&[link("1", revolute, "m"), link("2", &oblique, "m")]);
+        let set = base(&skew, None).unwrap();
+        let first = set.list.iter().find(|entry| entry.name == "ZZR_1").unwrap();
+        assert_eq!(first.formula.text, "ZZ_1 + sin(beta)^2*YY_2");
     }
 
     /// Exact coefficients are quotients of thousands of terms here, most of which cancel.

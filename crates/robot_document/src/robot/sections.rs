@@ -12,7 +12,7 @@ pub(super) fn blocks(form: Form, part: &Equations, options: &EquationOptions) ->
     let mut blocks = vec![Block::Heading(1, format!("Equations of motion, {}", form.name()))];
     let own = part.groups.iter().find(|group| !group.definitions);
     match own.map_or("", |group| &group.introduction) {
-        "" => blocks.extend(introduction(form)),
+        "" => blocks.extend(introduction(form, part)),
         text => blocks.push(paragraph(text)),
     }
     for group in &part.groups {
@@ -87,10 +87,11 @@ fn title(form: Form, group: &Group, options: &EquationOptions) -> String {
 }
 
 /// The text at the beginning of a section whose groups have no introduction.
-fn introduction(form: Form) -> Option<Block> {
+fn introduction(form: Form, part: &Equations) -> Option<Block> {
+    let has_names = part.definitions().next().is_some();
     match form {
         Form::Recursive => Some(recursion()),
-        Form::Compact => Some(paragraph(
+        Form::Compact if has_names => Some(paragraph(
             "Expressions that occur several times have names, each defined before it is used.",
         )),
         _ => None,
@@ -123,7 +124,7 @@ fn recursion() -> Block {
         text(" and the moment "),
         indexed('M', 'l'),
         text(
-            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame; a bar marks the column of the components along x, y and z. Quantities that are 0 or equal to an earlier one are left out.",
+            " about the origin of the frame that a link receives through its joint follow from those of the links that it carries. Gravity is included as an acceleration of the base. Components are in the axes of the link's own frame; a bar marks the column of the components along x, y and z. The upper index of a quantity of a link, and of its components, is the number of the link and not a power. Quantities that are 0 or equal to an earlier one are left out.",
         ),
     ])
 }
