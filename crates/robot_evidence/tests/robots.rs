@@ -5,7 +5,7 @@
 
 use std::path::{Path, PathBuf};
 
-use robot_build::{Functions, Options, RobotFile, Trigonometry, programs};
+use robot_build::{Functions, Options, RobotFile, Scalar, Source, Trigonometry, programs};
 use robot_codegen::backend::rust::stack;
 use robot_evidence::{Compiler, Evidence, Module, Profile, Violation, prove};
 
@@ -150,4 +150,24 @@ fn more_stack_than_the_budget_is_a_violation_of_release_builds() {
     let of_dynamics = violations.iter().find(|(name, _)| *name == "Model::inverse_dynamics");
     let (_, violation) = of_dynamics.unwrap();
     assert!(matches!(violation, Violation::Stack { bytes: 91.., limit: 90 }), "{violation}");
+}
+
+/// A constructor computes the sines of angles that are parameters.
+#[test]
+fn a_model_with_an_angle_as_parameter_is_flat() {
+    let path = Path::new("tilted.toml");
+    let text = "format = 1\n[robot]\nname = \"tilted\"\n[parameters]\n\
+        beta = { value = 0.6, unit = \"rad\" }\n[[link]]\nname = \"1\"\n\
+        joint = { type = \"revolute\", axis = \"z\" }\norigin = { rpy = [\"beta\", 0, 0] }\nmass = 1\n\
+        center_of_mass = [0.5, 0, 0]\ninertia = { xx = 0.01, yy = 0.1, zz = 0.1 }\n";
+    let source = Source { name: "tilted.toml".to_owned(), text: text.to_owned() };
+    for trigonometry in [Trigonometry::Standard, Trigonometry::Polynomial] {
+        for scalar in [Scalar::F64, Scalar::F32] {
+            let options = Options { trigonometry, scalar, ..Options::default() };
+            for module in prove(&source, &options, &Compiler::default(), &PROFILES).unwrap() {
+                assert!(module.functions.iter().any(|one| one.name == "Model::new"));
+                assert_flat(path, &module);
+            }
+        }
+    }
 }

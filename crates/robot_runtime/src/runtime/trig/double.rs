@@ -59,7 +59,9 @@ pub const COSINE: [f64; 6] = [
 ];
 
 /// Sine and cosine of `angle` (radians).
-#[inline(always)]
+// Without optimization it is a function, so that what calls it has none of its checks.
+#[cfg_attr(debug_assertions, inline)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
     compute::<FUSED, _>(angle)
 }

@@ -31,7 +31,9 @@ pub const SINE: [f32; 3] = [-1.6666655e-1, 8.332188e-3, -1.9518078e-4];
 pub const COSINE: [f32; 3] = [4.1666646e-2, -1.3887301e-3, 2.443067e-5];
 
 /// Sine and cosine of `angle` (radians).
-#[inline(always)]
+// Without optimization it is a function, so that what calls it has none of its checks.
+#[cfg_attr(debug_assertions, inline)]
+#[cfg_attr(not(debug_assertions), inline(always))]
 pub fn sin_cos(angle: f32) -> (f32, f32) {
     compute::<FUSED, _>(angle)
 }
