@@ -317,7 +317,7 @@ fn proved(number: usize) -> usize {
     let recipe = Recipe { mimic: number % 5 == 4, ..Recipe::tree(joints) };
     let first = 1 + number % 3;
     let robot = with_parallel_axes(robots::robot(&mut random, &recipe), first);
-    let robot = if number % 7 == 0 { robots::parameterized(&robot) } else { robot };
+    let robot = if number.is_multiple_of(7) { robots::parameterized(&robot) } else { robot };
     let graph = Graph::new();
     let derivation = Derivation::new(&robot, &graph, &MechanismOptions::EXACT, None);
     let kind = FunctionKind::InverseDynamics(Effects::WRENCH);

@@ -8,9 +8,8 @@ pub const RUST_VERSION: &str = env!("CARGO_PKG_RUST_VERSION");
 /// A generator of self-contained crates writes them unchanged into a folder `runtime` next to
 /// its crate root and declares `pub mod runtime;` (if it were private, the compiler would warn of unused functions).
 /// The manifest declares an empty feature `std`. With it, code is chosen for the current processor and the module
-/// offers
-/// `StdTrig`; without it, the module needs only `core`. Otherwise the crate must only use the edition 2024 and not
-/// forbid `unsafe`; it needs no dependencies.
+/// offers `StdTrig`; without it, the module needs only `core`. Beyond that, the crate only has to use the edition 2024
+/// and must not forbid `unsafe`; it needs no dependencies.
 pub const SOURCES: &[(&str, &str)] = &[
     ("mod.rs", include_str!("runtime/mod.rs")),
     ("batch.rs", include_str!("runtime/batch.rs")),

@@ -14,11 +14,10 @@ use crate::dynamics::Features;
 const LEAST: usize = 1 << 16;
 /// The smallest average number of examined times between two samples.
 const PARTS: usize = 16;
-/// The smallest bend of a pulse: the second difference of its values at three successive times, as a fraction of the
-/// largest value. A pulse of a hundredth of the largest value that lasts for a hundred of these times bends twice as
-/// much.
-const BEND: f64 = 1e-6;
-/// The length of pulses that bend by about this much, in units of the distance between the examined times.
+/// The smallest second difference of the values of a pulse at three successive times, as a fraction of the largest value.
+/// That of a pulse of a hundredth of the largest value that lasts for a hundred of these times is twice as large.
+const SECOND_DIFFERENCE: f64 = 1e-6;
+/// The length of pulses with about this second difference, in units of the distance between the examined times.
 const REACH: f64 = 100.0;
 /// The factor by which examined times are farther apart in the search for longer pulses.
 const STRIDE: usize = 32;
@@ -194,7 +193,8 @@ fn peaks(parts: &Parts, times: impl Iterator<Item = f64> + Clone) -> Vec<f64> {
             let bend = if look < 2 { 0.0 } else { (value - 2.0 * between + before).abs() };
             let [first, middle] = bends[index];
             // `middle` is the bend two times before the current one.
-            is_peak |= middle > BEND * largest[index] && middle > first && middle >= bend;
+            is_peak |=
+                middle > SECOND_DIFFERENCE * largest[index] && middle > first && middle >= bend;
             last[index] = [between, value];
             bends[index] = [middle, bend];
         }

@@ -7,8 +7,8 @@ use robot_model::functions::FunctionKind;
 use crate::driver::check::{check_value, is_finite};
 use crate::driver::programs::Programs;
 
-/// The warning if constants that the module computes from the parameters are infinite or NaN at their nominal values;
-/// `None` if a parameter has no nominal value.
+/// The warning if constants that the module computes from the parameters are infinite or NaN at the nominal
+/// values of these; `None` if all are finite or a parameter has no nominal value.
 pub(crate) fn infinite(programs: &Programs) -> Option<Diagnostic> {
     let interpreter = Interpreter::new(&programs.module, &[]).ok()?;
     if interpreter.fields().iter().all(|value| value.is_finite()) {

@@ -1,5 +1,6 @@
-//! Checks for gravity that points up, joints that move no mass, and bodies without extent.
+//! Checks for gravity that points up, joints that move no mass or the same mass as others, and bodies without extent.
 
+use robot_dynamics::functions::undetermined;
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, Span, code};
 use robot_model::robot::JointKind;
@@ -18,7 +19,11 @@ const SEED: u64 = 1;
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     gravity(facts, found);
     points(facts, found);
+    let before = found.len();
     idle(facts, found);
+    if found.len() == before {
+        together(facts, found);
+    }
 }
 
 fn gravity(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
@@ -118,8 +123,56 @@ fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     }
 }
 
+/// Reports coordinates that move mass, but of which several move the same mass in the same way.
+fn together(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
+    let coordinates = undetermined(facts.robot);
+    let Some(first) = coordinates.first() else { return };
+    let of_robot = coordinates.iter().filter_map(|index| facts.robot.coordinates.get(*index));
+    let names: Vec<String> = of_robot.map(|one| format!("`{}`", one.joint)).collect();
+    let message =
+        format!("joint torques do not determine the accelerations of {}", names.join(", "));
+    found.push(
+        Diagnostic::warning(code::MOVES_NOTHING, message)
+            .at(&place(facts, *first), "the first of these joints")
+            .because(
+                "the mass matrix is singular in every configuration, so forward dynamics has no \
+                 solution",
+            )
+            .help(
+                "give mass or inertia to each link that these joints move, or `armature` to their \
+                 drives",
+            ),
+    );
+}
+
 fn place(facts: &RobotFacts<'_>, coordinate: usize) -> Span {
     let links = facts.links.iter();
     let mut moved = links.filter(|link| link.link.joint.coordinate == coordinate);
     moved.next().map(|link| link.place.joint.clone()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_model::diagnostic::code;
+
+    use crate::doctor::{Options, check};
+
+    #[test]
+    fn joints_that_move_the_same_mass_are_reported_once() {
+        let sliders = |axis: &str| {
+            format!(
+                "format = 1\n[robot]\nname = \"two\"\n[[link]]\nname = \"1\"\n\
+                 joint = {{ type = \"prismatic\", axis = \"x\" }}\nmassless = true\n[[link]]\nname = \"2\"\n\
+                 joint = {{ type = \"prismatic\", axis = \"{axis}\" }}\nmass = 1\ncenter_of_mass = [0, 0, 0]\n\
+                 inertia = {{ xx = 0.01, yy = 0.01, zz = 0.01 }}\n"
+            )
+        };
+        let found = check("two.toml", &sliders("x"), &Options::default()).found;
+        assert_eq!(found.iter().map(|one| one.code).collect::<Vec<_>>(), [code::MOVES_NOTHING]);
+        assert!(
+            found.to_string().contains("do not determine the accelerations of `1`, `2`"),
+            "{found}"
+        );
+        assert!(check("two.toml", &sliders("y"), &Options::default()).found.is_empty());
+    }
 }

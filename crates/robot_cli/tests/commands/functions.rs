@@ -134,7 +134,7 @@ const HEAD: &str = "| function | arguments | result |\n|---|---|---|\n";
 fn table() -> String {
     let row = |kind: &FunctionKind| {
         let mut inputs: Vec<&str> = kind.inputs().iter().map(|input| input.name()).collect();
-        if kind.effects().wrench {
+        if kind.effects().wrench || *kind == FunctionKind::LinkWrenches {
             inputs.push("wrenches of the tips");
         }
         let inputs = if inputs.is_empty() { "none".to_owned() } else { inputs.join(", ") };

@@ -48,8 +48,8 @@ impl Constant {
     }
 }
 
-/// The expressions as they are printed: the parts that are long sums with functions of numbers are the nearest doubles
-/// if [`rounds_roots`](super::EquationOptions::rounds_roots) is set.
+/// The expressions as they are printed: roots of long numbers and long expressions with functions of numbers are the
+/// nearest doubles if [`rounds_roots`](super::EquationOptions::rounds_roots) is set.
 pub(super) fn rounded<'h>(writer: &Writer<'_, '_>, roots: &[Expr<'h>]) -> Vec<Expr<'h>> {
     match roots.first().filter(|_| writer.options.rounds_roots) {
         Some(root) => with_decimals(roots, root.graph()),

@@ -67,7 +67,7 @@ impl Placed {
 const HEAD: f64 = 4.0;
 
 /// The tables of a document in their order, for columns of `column` points on a page of `page` points, in which each
-/// column of a table needs `gap` points for its distance.
+/// column of a table needs `gap` points for the space between columns.
 pub(super) fn tables(document: &Document, column: f64, page: f64, gap: f64) -> Vec<Placed> {
     let tables = document.blocks.iter().filter_map(|block| match block {
         Block::Table(table) => Some(table),
@@ -86,14 +86,14 @@ pub(super) fn tables(document: &Document, column: f64, page: f64, gap: f64) -> V
 struct Space {
     /// The width of lines, in pt.
     width: f64,
-    /// The width that each column needs for its distance, in pt.
+    /// The space between columns, in pt, for each column.
     gap: f64,
     /// The largest number of lines of a table that is never broken across pages.
     lines: f64,
 }
 
 /// Splits a table into parts for a column of a page. A table whose own columns would be divided among parts spans the
-/// page if it then has fewer.
+/// page if it then has fewer parts.
 fn placed(table: &Table, column: Space, page: Space) -> Placed {
     let narrow = parts(table, column);
     let is_divided = narrow.iter().any(|part| part.table.head.len() < table.head.len());

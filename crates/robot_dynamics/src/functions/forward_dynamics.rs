@@ -168,7 +168,8 @@ pub(super) fn solve_all<'g>(
     }
 }
 
-/// The pivots D of M = Lᵀ D L, ordered by coordinates, as forward dynamics uses them.
+/// The pivots D of M = Lᵀ D L, ordered by coordinates, as forward dynamics uses them. Where it chooses by the number of
+/// operations, they are those of M, which equal the other ones up to rounding.
 pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Vec<Expr<'g>> {
     let small = derivation.recursion_for_small_pivots();
     let small = small.and_then(|recursion| recursion.pivots(Solver::SmallPivots));

@@ -1,5 +1,6 @@
 //! The temporary folders in which the compiler works.
 
+use core::time::Duration;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -31,15 +32,20 @@ impl Drop for Folder {
     }
 }
 
+/// The number of attempts to remove a folder, and the time between them.
+const TRIES: usize = 100;
+const PAUSE: Duration = Duration::from_millis(20);
+
 /// Removes the temporary folders of all compilers that run in this process. For programs that end at a signal, where no
 /// value is dropped.
 pub fn remove_temporary_folders() {
     for path in folders().drain(..) {
         // The compiler can write into it until it ends.
-        for _ in 0..10 {
+        for _ in 0..TRIES {
             if std::fs::remove_dir_all(&path).is_ok() || !path.exists() {
                 break;
             }
+            std::thread::sleep(PAUSE);
         }
     }
 }

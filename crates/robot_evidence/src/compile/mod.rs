@@ -96,6 +96,10 @@ impl Compiler {
             std::fs::write(path, file.contents.bytes())?;
         }
         let mut command = Command::new(self.path());
+        // The compiler's own temporary files are removed with the folder.
+        for variable in ["TMPDIR", "TMP", "TEMP"] {
+            command.env(variable, folder.path());
+        }
         // With one codegen unit, all code is in one file.
         command.args([
             "--crate-type=lib",

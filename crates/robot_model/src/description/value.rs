@@ -285,11 +285,11 @@ impl Reader<'_> {
         &mut self,
         value: Value<'_>,
         quantity: Quantity,
-        figure: impl Fn(&mut Self, Value<'_>, Quantity) -> Formula,
+        read_entry: impl Fn(&mut Self, Value<'_>, Quantity) -> Formula,
     ) -> [Formula; 3] {
         let expected = format!("{} as `[x, y, z]`", quantity.what);
         match self.entries::<3>(value, &expected) {
-            Some(entries) => entries.map(|entry| figure(self, entry, quantity)),
+            Some(entries) => entries.map(|entry| read_entry(self, entry, quantity)),
             None => array::from_fn(|_| Reader::unknown()),
         }
     }

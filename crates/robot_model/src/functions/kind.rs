@@ -143,7 +143,7 @@ functions! {
     JacobianDotQdOf(_frame: FrameRef) = FunctionKind::JacobianDotQd.declaration();
     /// The kinetic and potential energy from q, q̇.
     Energies = Declaration::of_both("energies", STATE)
-        .with_result("kinetic and potential energy");
+        .with_result("kinetic and potential energy of the links that move");
     /// The Coriolis matrix C from q, q̇, by Christoffel symbols.
     CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE)
         .with_result("C (n × n)");

@@ -109,7 +109,11 @@ pub(super) fn payload(robot: &Robot) -> Option<Element> {
     let mut sliders = vec![one(&payload.mass, "mass, kg", [0.0, MASS.max(2.0 * mass)])];
     for (name, axis) in payload.center_of_mass.iter().zip(["x", "y", "z"]) {
         let nominal = robot.nominal_value(name);
-        sliders.push(one(name, &format!("center {axis}, m"), [nominal - CENTER, nominal + CENTER]));
+        sliders.push(one(
+            name,
+            &format!("center of mass {axis}, m"),
+            [nominal - CENTER, nominal + CENTER],
+        ));
     }
     let legend = "Payload; its moments of inertia keep their values from the file";
     Some(

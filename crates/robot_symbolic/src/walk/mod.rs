@@ -73,8 +73,8 @@ pub fn rebuild<'h>(
     })
 }
 
-/// Rebuilds `roots` in `graph`, with every expression for which `replace` returns a replacement replaced. The operands
-/// of a replaced expression are not visited. The local rules apply again.
+/// Rebuilds `roots` in `graph` and substitutes what `replace` returns for an expression. The operands of a replaced
+/// expression are not visited. The local rules apply again.
 ///
 /// ```
 /// use robot_symbolic::{Graph, print, walk};

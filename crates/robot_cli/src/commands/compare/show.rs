@@ -34,7 +34,29 @@ pub(super) fn text(comparison: &Comparison) -> String {
             let _ = writeln!(shown, "    {evidence}");
         }
     }
-    shown + &summary(comparison) + "\n"
+    shown + &summary(comparison) + "\n" + &hint(comparison)
+}
+
+/// The relative difference of coefficients below which they may be the same number with other digits.
+const CLOSE: f64 = 1e-6;
+
+/// A line about coefficients that may differ only because printed decimals are rounded; empty if there are none.
+fn hint(comparison: &Comparison) -> String {
+    let is_close = |difference: &&Difference| {
+        let [mistake] = difference.mistakes.as_slice() else { return false };
+        let number = |text: &Option<String>| text.as_ref()?.parse::<f64>().ok();
+        let pair = number(&mistake.printed).zip(number(&mistake.derived));
+        mistake.kind == MistakeKind::Coefficient
+            && pair
+                .is_some_and(|(printed, derived)| (printed - derived).abs() < CLOSE * derived.abs())
+    };
+    match comparison.differences.iter().filter(is_close).count() {
+        0 => String::new(),
+        count => format!(
+            "note: {count} of these differ by less than a millionth, as rounded decimals do; \
+             equations printed with `--digits 17` have more digits\n"
+        ),
+    }
 }
 
 /// Colors the text: published terms as removed ones, derived terms as added ones.
@@ -135,6 +157,34 @@ mod tests {
     use robot_check::errata::Mistake;
 
     use super::*;
+
+    #[test]
+    fn coefficients_that_may_be_rounded_are_counted() {
+        let one = |printed: &str, derived: &str| {
+            let [printed, derived] = [printed, derived].map(|text| Some(text.to_owned()));
+            let mistakes = vec![Mistake { kind: MistakeKind::Coefficient, printed, derived }];
+            Difference { mistakes, ..difference("", MistakeKind::Coefficient) }
+        };
+        let differences = vec![
+            one("0.01194004998", "0.01194004998333631"),
+            one("-0.005970024992", "-0.005970024991668155"),
+            one("1.00001", "1"),
+            one("1", "-1"),
+            difference("", MistakeKind::Index),
+        ];
+        let comparison = |differences| Comparison {
+            equations: 1,
+            names: 0,
+            terms: 5,
+            wrench: false,
+            rounded: 0,
+            differences,
+        };
+        let shown = text(&comparison(differences));
+        assert!(shown.contains("\nnote: 2 of these differ by less than a millionth"), "{shown}");
+        let shown = text(&comparison(vec![difference("", MistakeKind::Index)]));
+        assert!(!shown.contains("note"), "{shown}");
+    }
 
     fn difference(number: &str, kind: MistakeKind) -> Difference {
         let some = |text: &str| Some(text.to_owned());

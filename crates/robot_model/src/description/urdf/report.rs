@@ -64,7 +64,10 @@ fn whole(reader: &mut Reader<'_>, root: &Element<'_, '_>, draft: &Draft, order: 
     reader.report(
         Diagnostic::note(
             code::TAKEN_COORDINATE,
-            format!("the coordinates are {}", names.join(", ")),
+            match names.as_slice() {
+                [alone] => format!("the coordinate is {alone}"),
+                names => format!("the coordinates are {}", names.join(", ")),
+            },
         )
         .at(&root.tag(), "")
         .because("joints are numbered in the order of the file, parents before children"),
@@ -109,7 +112,7 @@ fn fixed(draft: &Draft, link: &DraftLink) -> Diagnostic {
 fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
     let name = &joint.name.named.name;
     if joint.is_continuous && joint.mimic.is_none() {
-        let message = format!("`{name}` is a single angle without limits");
+        let message = format!("the position of `{name}` is one angle without limits");
         reader
             .report(Diagnostic::note(code::TAKEN_COORDINATE, message).at(&joint.tag, "continuous"));
     }

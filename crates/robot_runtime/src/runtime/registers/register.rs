@@ -1,6 +1,6 @@
 //! Defines register types for any processor from the names of its instructions.
 
-/// Defines a register type, whose multiply-adds and sines round once if `ONCE`.
+/// Defines a register type, whose multiply-adds, also those in its sines, round once if `ONCE`.
 ///
 /// SAFETY of every `unsafe` block below: the instructions need a processor that has them. The type is
 /// compiled only for such processors, or used only by code that has queried the processor. Loads and
