@@ -118,6 +118,11 @@ fn crates_depend_on_those_before_them() {
             if place(&other) >= place(name) {
                 wrong.push(format!("{name} depends on {other}, which stands after it"));
             }
+            if name == "robot_codegen"
+                && !["robot_symbolic", "robot_runtime"].contains(&other.as_str())
+            {
+                wrong.push(format!("{name} depends on {other}: programs know nothing of robots"));
+            }
             if other == "robot_numeric" && !JUDGES.contains(&name.as_str()) {
                 wrong.push(format!("{name} depends on the numeric solver"));
             }
@@ -126,24 +131,53 @@ fn crates_depend_on_those_before_them() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
-/// The modules of its own crate that a source names, as in `crate::unit::Unit` and `crate::{unit, robot}`.
-fn named(text: &str) -> Vec<String> {
+/// The modules of its own crate that a source names, as in `crate::unit::Unit`, `crate::{unit, robot}` and, at `depth`
+/// modules below the crate's root, so many times `super::`.
+fn named(text: &str, depth: usize) -> Vec<String> {
+    let root = "super::".repeat(depth);
+    // In a module of tests, `super` is the file itself.
+    let code = text.split("\nmod tests {").next().unwrap_or_default();
+    let mut found = after(text, "crate::");
+    found.extend(after(code, &root));
+    found
+}
+
+/// The first names of the paths that begin with `prefix`.
+fn after(text: &str, prefix: &str) -> Vec<String> {
     let word = |text: &str| -> String {
         text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
     };
     let mut found = vec![];
-    for (start, _) in text.match_indices("crate::") {
+    for (start, _) in text.match_indices(prefix) {
         let before = text[..start].chars().next_back();
-        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == '$') {
+        if before.is_some_and(|c| c.is_alphanumeric() || "_$:".contains(c)) {
             continue;
         }
-        let rest = &text[start + "crate::".len()..];
+        let rest = &text[start + prefix.len()..];
         match rest.strip_prefix('{') {
-            Some(list) => {
-                let list = list.split('}').next().unwrap_or_default();
-                found.extend(list.split(',').map(|entry| word(entry.trim())));
-            }
+            Some(list) => found.extend(entries(list).iter().map(|entry| word(entry.trim()))),
             None => found.push(word(rest)),
+        }
+    }
+    found
+}
+
+/// The entries of a list up to the brace that closes it; each can have lists of its own.
+fn entries(list: &str) -> Vec<&str> {
+    let (mut found, mut start, mut depth) = (vec![], 0, 0);
+    for (place, character) in list.char_indices() {
+        match character {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' if depth == 0 => {
+                found.push(&list[start..place]);
+                start = place + 1;
+            }
+            '}' => {
+                found.push(&list[start..place]);
+                break;
+            }
+            _ => {}
         }
     }
     found
@@ -166,7 +200,9 @@ fn modules_use_those_of_layers_before_them() {
                 wrong.push(format!("{name}: the module {own} has no layer"));
                 continue;
             };
-            for other in named(&fs::read_to_string(&path).unwrap()) {
+            let is_folder = path.ends_with("mod.rs");
+            let depth = inside.components().count() - usize::from(is_folder);
+            for other in named(&fs::read_to_string(&path).unwrap(), depth) {
                 if layer(&other).is_some_and(|other| other > here) {
                     wrong.push(format!(
                         "{name}: {} uses {other}, which stands above it",
@@ -182,7 +218,11 @@ fn modules_use_those_of_layers_before_them() {
 #[test]
 fn names_of_modules_are_found_in_paths_and_lists() {
     let text = "use crate::unit::Unit; let x = crate::robot::Y; use crate::{a, b::c}; $crate::no mycrate::no";
-    assert_eq!(named(text), ["unit", "robot", "a", "b"]);
+    assert_eq!(named(text, 1), ["unit", "robot", "a", "b"]);
+    assert_eq!(named("use crate::{a::{self, b::{c}}, d::e, f};", 1), ["a", "d", "f"]);
+    let text = "use super::unit;\nuse super::super::{a::{b}, c};\nmod tests {\n use super::x;";
+    assert_eq!(named(text, 1), ["unit", "super"]);
+    assert_eq!(named(text, 2), ["a", "c"]);
 }
 
 #[test]
