@@ -252,7 +252,8 @@ fn equations_that_nobody_can_read_end_in_a_message() {
         EquationOptions { trigonometry: Trigonometry::Short, ..EquationOptions::default() };
     let found = timed("equations of 64 joints", || equations(&robot, &options));
     let message = found.err().unwrap().to_string();
-    assert!(message.contains("more than") && message.contains("grouped"), "{message}");
+    assert!(message.contains("more than") && message.contains("recursive"), "{message}");
+    assert!(!message.contains("grouped"), "a form that is refused: {message}");
     // The other forms exist for such robots.
     for form in [Form::Recursive, Form::Compact] {
         let options = EquationOptions { form, ..options.clone() };

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::ops::{Bound, RangeBounds};
 
+use robot_model::description::undefined;
 use robot_model::diagnostic::quote;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
@@ -19,7 +20,12 @@ const DEGREES: [(JointVariable, &[&str]); 3] = [
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     if let Ok(number) = text.parse::<f64>() {
+        let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
+        let vanished = number == 0.0 && mantissa.contains(|digit| matches!(digit, '1'..='9'));
         return match number.is_finite() {
+            true if vanished => {
+                Err(format!("`{}` is below the range of floating-point numbers", quote(text)))
+            }
             true => Ok(number),
             false => Err(format!("`{}` is not a finite number", quote(text))),
         };
@@ -35,10 +41,13 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
         has_names = true;
         f64::NAN
     });
-    match (has_names, number.is_finite()) {
-        (true, _) => Err(wrong()),
-        (false, true) => Ok(number),
-        (false, false) => Err(format!("`{}` does not have a finite value", quote(text))),
+    match (has_names, undefined(&parsed), number.is_finite()) {
+        (true, ..) => Err(wrong()),
+        (false, Some(reason), _) => {
+            Err(format!("`{}` does not have a value: {reason}", quote(text)))
+        }
+        (false, None, true) => Ok(number),
+        (false, None, false) => Err(format!("`{}` does not have a finite value", quote(text))),
     }
 }
 
@@ -166,7 +175,9 @@ mod tests {
         ] {
             assert_eq!(number(text), Ok(value), "{text}");
         }
-        for text in ["", "x", "pi/", "1/0", "inf", "nan", "90deg", "1,5", "2*x"] {
+        for text in
+            ["", "x", "pi/", "1/0", "inf", "nan", "90deg", "1,5", "2*x", "1e-400", "tan(pi/2)"]
+        {
             assert!(number(text).is_err(), "{text}");
         }
     }

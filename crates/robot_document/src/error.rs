@@ -12,11 +12,13 @@ pub enum Error {
     /// The expanded form has more terms or products than anybody could read.
     #[error(
         "{reason}. Products that are multiplied out, as in the forms `expanded` and `collected`, are \
-         too long to read for this robot; choose the form `grouped`, `recursive` or `compact`"
+         too long to read for this robot; choose the form {forms}"
     )]
     TooLong {
         /// The limit that the form exceeds.
         reason: String,
+        /// The forms that the robot has, as the end of a sentence.
+        forms: &'static str,
     },
     /// The grouped form has more coefficients than anybody could read.
     #[error(

@@ -5,7 +5,7 @@ use std::io::BufRead;
 use robot_model::diagnostic::quote;
 
 use crate::csv::{
-    Lines, cells, decimal_comma, miscounted, number, numbers, push_number, separators,
+    Lines, cells, miscounted, number, numbers, push_number, separators, wrong_number,
 };
 use crate::error::Error;
 
@@ -170,12 +170,7 @@ fn wrong_cells(place: &str, names: &[String], line: &str) -> Vec<String> {
         return vec![miscounted(place, line, found, expected)];
     }
     let wrong = names.iter().zip(cells).filter(|(_, cell)| number(cell).is_none());
-    wrong
-        .map(|(name, cell)| {
-            let remedy = decimal_comma(cell);
-            format!("{place}: `{}` is `{}`, not a number{remedy}", quote(name), quote(cell))
-        })
-        .collect()
+    wrong.map(|(name, cell)| format!("{place}: {}", wrong_number(name, cell))).collect()
 }
 
 /// The check of the column `t` of a table, row by row: it must exist, and its values must increase.

@@ -119,13 +119,32 @@ fn terms(pair: [Option<Expr<'_>>; 2]) -> Result<Vec<Term>, PolynomialError> {
             }
         }
     }
-    let differing = texts.into_values().filter(|(_, [before, after])| before != after);
+    let differing = texts.into_values().filter(|(_, coefficients)| differ(coefficients));
     Ok(differing
-        .map(|(powers, coefficients)| Term {
-            powers,
-            coefficients: coefficients.map(|one| one.as_ref().map(print::coefficient_text)),
-        })
+        .map(|(powers, coefficients)| Term { powers, coefficients: shown(&coefficients) })
         .collect())
+}
+
+/// Whether two coefficients differ; a rounded number equals all numbers that round to it.
+fn differ([before, after]: &[Option<Number>; 2]) -> bool {
+    match (before, after) {
+        (Some(Number::Rational(before)), Some(Number::Rational(after))) => before != after,
+        (Some(before), Some(after)) => before.to_f64() != after.to_f64(),
+        _ => before != after,
+    }
+}
+
+/// The texts of two coefficients that differ; both are exact if they would be the same as decimals.
+fn shown(coefficients: &[Option<Number>; 2]) -> [Option<String>; 2] {
+    let shown = coefficients.each_ref().map(|one| one.as_ref().map(print::coefficient_text));
+    match (&shown, coefficients) {
+        ([before, after], [Some(Number::Rational(one)), Some(Number::Rational(other))])
+            if before == after =>
+        {
+            [one, other].map(|value| Some(print::exact_text(value)))
+        }
+        _ => shown,
+    }
 }
 
 /// The text of powers, such as `m2*qd1^2*sin(q2)`; a sum is in parentheses.
@@ -159,6 +178,19 @@ mod tests {
         let found = terms([Some(sum), None]).unwrap();
         let powers: Vec<&str> = found.iter().map(|term| term.powers.as_str()).collect();
         assert_eq!(powers, ["m1^2", "m1*l1", "m1*sin(q1)", "m1", "1"]);
+    }
+
+    /// A tenth of the root of 2 differs from its first 34 digits, also in the text.
+    #[test]
+    fn coefficients_that_differ_have_different_texts() {
+        let graph = Graph::new();
+        let pair =
+            |a: &str, b: &str| terms([a, b].map(|text| Some(graph.parse(text).unwrap()))).unwrap();
+        let found = pair("(sqrt(2)/10)^2*m1", "0.1414213562373095048801688724209698^2*m1");
+        let [Some(before), Some(after)] = &found[0].coefficients else { panic!("{found:?}") };
+        assert_eq!(before, "0.02");
+        assert!(after.starts_with("4999999") && after.contains('/'), "{after}");
+        assert_eq!(pair("sin(0.3)*m1", "sin(0.3)*m1"), []);
     }
 
     #[test]

@@ -42,8 +42,8 @@ impl Arguments {
             return Err(Failure::input(format!("{}: this is already a robot file", source.name)));
         }
         text::warnings(&import.described.warnings, terminal)?;
-        for choice in import.described.choices.iter() {
-            writeln!(terminal.errors, "note: {}", choice.message)?;
+        for group in import.described.choices.groups() {
+            writeln!(terminal.errors, "note: {}", group.line(&source))?;
         }
         if self.friction && !import.described.robot.has_friction() {
             let name = &source.name;

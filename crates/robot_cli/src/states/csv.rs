@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
 use robot_simulation::csv::{
-    Lines, cells, decimal_comma, miscounted, number, numbers, separators, unit,
+    Lines, cells, miscounted, number, numbers, separators, unit, wrong_number,
 };
 
 use super::{Layout, Place, Sink, State};
@@ -132,12 +132,7 @@ impl Columns {
                 match number(cells[*column]) {
                     Some(entry) => array.push(entry),
                     None => {
-                        let (name, cell) = (&self.names[*column], cells[*column]);
-                        // A number such as 1e999, which no double can hold.
-                        let is_number = cell.parse::<f64>().is_ok_and(f64::is_infinite);
-                        let finite = if is_number { "finite " } else { "" };
-                        let (cell, remedy) = (quote(cell), decimal_comma(cell));
-                        let message = format!("`{name}` is `{cell}`, not a {finite}number{remedy}");
+                        let message = wrong_number(&self.names[*column], cells[*column]);
                         sink.error(format!("{place}: {message}"));
                     }
                 }

@@ -135,11 +135,20 @@ pub(crate) fn polynomials<'g>(
     for place in PLACES {
         check_digits(values, &expanded, &|symbol| seeded(symbol, place))?;
     }
-    check_digits(values, &expanded, &|symbol| {
+    // Exact sums without divisors can be 0 at the nominal values, as a length plus its opposite is.
+    let is_checked = |(_, one): &(Expr<'g>, Polynomial<'g>)| !one.is_exact() || has_divisor(one);
+    let pairs = values.iter().copied().zip(expanded.iter().cloned());
+    let (values, checked): (Vec<_>, Vec<_>) = pairs.filter(is_checked).unzip();
+    check_digits(&values, &checked, &|symbol| {
         let value = robot.nominal_value(symbol);
         if value.is_nan() { seeded(symbol, PLACES[0]) } else { value }
     })?;
     Ok(expanded)
+}
+
+/// Whether a term of a polynomial is divided by something else than a number.
+fn has_divisor(one: &Polynomial<'_>) -> bool {
+    one.terms().any(|(monomial, _)| monomial.factors().iter().any(|factor| factor.exponent() < 0))
 }
 
 /// Expands the values of the base parameters. Those that are only the rounding errors of their terms are 0.

@@ -90,7 +90,7 @@ pub(super) fn terms<'g>(
         let all = sum.iter().filter(|(one, _)| one == name);
         let factors = all.clone().fold(graph.zero(), |sum, (_, factor)| sum + *factor);
         let product = Polynomial::of(symbol * factors, &LIMITS)
-            .map_err(|error| Error::TooLong { reason: error.to_string() })?;
+            .map_err(|error| writer.too_long(error.to_string()))?;
         match all.count() {
             1 => terms.extend(product.arranged(|atom| writer.order.rank(atom))),
             _ => terms.extend(writer.collected(&product).into_iter().map(|term| led(term, symbol))),

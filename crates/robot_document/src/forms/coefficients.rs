@@ -19,6 +19,11 @@ use crate::math::Math;
 /// The limits within which a coefficient is expanded to be written out; beyond them, it is written by named parts.
 pub(super) const LIMITS: PolynomialOptions =
     PolynomialOptions { angle_sums: AngleSums::Expand, max_terms: 20_000, max_products: 200_000 };
+/// The number of coefficients that may exceed these limits. A robot with more of them has thousands, and finding this out
+/// for each would take minutes; the others of it are expanded within [`LOWER_LIMITS`].
+const MAX_LONG: usize = 100;
+const LOWER_LIMITS: PolynomialOptions =
+    PolynomialOptions { max_terms: 2_000, max_products: 10_000, ..LIMITS };
 /// The largest number of terms of an expansion that is collected.
 pub(super) const MAX_TERMS: usize = 160;
 /// The largest number of printed symbols of an entry of a matrix, about six lines.
@@ -97,12 +102,16 @@ impl<'g> Shown<'g> {
 
 /// The ways in which the coefficients are printed, section by section.
 pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Vec<Vec<Shown<'g>>> {
-    let coefficient = |coefficient: &Coefficient<'g>| {
+    let mut long = 0;
+    let mut coefficient = |coefficient: &Coefficient<'g>| {
         // The equations of a full graph are refused.
         if writer.graph.is_full() {
             return Shown::Zero;
         }
-        match residues::polynomial(coefficient.value, &LIMITS) {
+        let limits = if long < MAX_LONG { &LIMITS } else { &LOWER_LIMITS };
+        let value = residues::polynomial(coefficient.value, limits);
+        long += usize::from(value.is_err());
+        match value {
             Ok(value) if value.is_zero() => Shown::Zero,
             Ok(value) if value.len() <= MAX_TERMS => {
                 let terms = writer.collected(&value);
@@ -114,7 +123,10 @@ pub(super) fn shown<'g>(writer: &Writer<'_, 'g>, sections: &[Section<'g>]) -> Ve
             value => Shown::Long { value: value.ok() },
         }
     };
-    sections.iter().map(|section| section.coefficients.iter().map(coefficient).collect()).collect()
+    sections
+        .iter()
+        .map(|section| section.coefficients.iter().map(&mut coefficient).collect())
+        .collect()
 }
 
 /// Chooses the length above which coefficients are written by named parts so that everything is shortest in total. Does

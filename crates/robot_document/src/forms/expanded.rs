@@ -23,14 +23,14 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let joints = with_friction(writer, &mut quantities)?;
     let mut values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     values.extend(joints.iter().map(|force| force.value));
-    let polynomials = Polynomial::of_all(&values, &LIMITS)
-        .map_err(|error| Error::TooLong { reason: error.to_string() })?;
+    let polynomials =
+        Polynomial::of_all(&values, &LIMITS).map_err(|error| writer.too_long(error.to_string()))?;
     let terms: usize = polynomials.iter().map(Polynomial::len).sum();
     if terms > MAX_TERMS {
         let reason = format!(
             "the expanded form has {terms} terms, more than the {MAX_TERMS} that can be printed"
         );
-        return Err(Error::TooLong { reason });
+        return Err(writer.too_long(reason));
     }
     let (of_quantities, of_joints) = polynomials.split_at(quantities.len().min(polynomials.len()));
     let (mut forces, mut equations): (Vec<Equation>, Vec<Equation>) = (vec![], vec![]);

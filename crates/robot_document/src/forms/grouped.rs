@@ -15,7 +15,7 @@ use crate::error::Error;
 
 /// The largest number of coordinates. The number of coefficients grows with its third power, and each becomes longer
 /// too.
-const MAX_COORDINATES: usize = 12;
+pub(super) const MAX_COORDINATES: usize = 12;
 
 pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let coordinates = writer.robot.degrees_of_freedom();

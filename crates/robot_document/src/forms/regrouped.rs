@@ -407,6 +407,41 @@ mod tests {
         all.map(|equation| format!("{} = {}", equation.name, equation.text)).collect()
     }
 
+    /// Lengths that cancel each other at their values in the file are no loss of digits.
+    #[test]
+    fn nominal_values_may_cancel() {
+        let text = r#"
+            format = 1
+            [robot]
+            name = "slider"
+            gravity = [0, 0, -9.81]
+            [parameters]
+            m = 1.895
+            a = 0.218
+            d = 0.1
+            x = -0.1
+            [[link]]
+            name = "arm"
+            joint = { type = "revolute" }
+            dh = { convention = "standard", a = 0.2, alpha = 0, d = 0.1, theta = 0 }
+            mass = 1.5
+            center_of_mass = [0.2, 0, 0]
+            inertia = { xx = 0.01, yy = 0.02, zz = 0.02 }
+            [[link]]
+            name = "slide"
+            joint = { type = "prismatic" }
+            dh = { convention = "standard", a = "d", alpha = "-pi/2", d = "a + d", theta = "-pi/2" }
+            mass = "m"
+            center_of_mass = ["x", 0, 0]
+            inertia = { xx = 0.01, yy = 0.01, zz = 0.01 }"#;
+        let robot = robot_model::description::read_toml("slider.toml", text).unwrap().robot;
+        let options = EquationOptions { form: Form::Regrouped, ..EquationOptions::default() };
+        let found = equations(&robot, &options).unwrap();
+        let mut all = found.groups.into_iter().flat_map(|group| group.equations);
+        let moment = all.find(|equation| equation.name == "ZZ_2").unwrap();
+        assert_eq!(moment.text, "m*d^2 + 2*m*d*x + m*x^2 + 0.01");
+    }
+
     fn assert_contains(equations: &[String], part: &str) {
         assert!(equations.iter().any(|one| one.contains(part)), "{part}: {equations:#?}");
     }

@@ -91,41 +91,56 @@ impl Rounded {
     }
 }
 
+/// The reason why an expression of numbers does not have a value, such as a division by 0; `None` if it has one, or if it
+/// contains symbols.
+#[must_use]
+pub fn undefined(formula: &Formula) -> Option<&'static str> {
+    reason(formula, &|_| None)
+}
+
+fn reason(formula: &Formula, value_of: &dyn Fn(&str) -> Option<Rounded>) -> Option<&'static str> {
+    let mut reason = None;
+    // In the fold, an operand with an unknown value is `None`.
+    formula.fold(|step| rounded(&step, value_of).map_err(|found| reason = Some(found)).ok());
+    reason
+}
+
+fn rounded(
+    step: &Step<'_, Option<Rounded>>,
+    value_of: &dyn Fn(&str) -> Option<Rounded>,
+) -> Result<Option<Rounded>, &'static str> {
+    let both = |a: Option<Rounded>, b: Option<Rounded>| a.zip(b);
+    Ok(match *step {
+        Step::Number(value) => Some(Rounded::of(value)),
+        Step::Pi => Some(Rounded::new(std::f64::consts::PI, 0.0)),
+        Step::Symbol(name, _) => value_of(name),
+        Step::Add(a, b) => both(a, b).map(|(a, b)| a.sum(b)),
+        Step::Sub(a, b) => both(a, b).map(|(a, b)| a.sum(b.negated())),
+        Step::Mul(a, b) => both(a, b).map(|(a, b)| a.product(b)),
+        Step::Div(_, Some(b)) if b.is_zero() => return b.quotient(b).map(Some),
+        Step::Div(a, b) => both(a, b).map(|(a, b)| a.quotient(b)).transpose()?,
+        Step::Neg(a) => a.map(Rounded::negated),
+        Step::Power(a, exponent) => a.map(|a| a.power(exponent)).transpose()?,
+        Step::Call(function, a) => a.map(|a| a.of_function(function)).transpose()?,
+        Step::Tan(a) => a.map(Rounded::tangent).transpose()?,
+    })
+}
+
 impl Reader<'_> {
     /// The reason why the expression has no value at the nominal values of the parameters. `None` if it has a value, or
     /// if this depends on parameters without nominal values.
     pub(super) fn undefined(&self, formula: &Formula) -> Option<&'static str> {
-        let mut reason = None;
-        // In the fold, an operand with an unknown value is `None`.
-        formula.fold(|step| self.rounded(&step).map_err(|found| reason = Some(found)).ok());
-        reason
+        reason(formula, &|name| self.nominal(name))
     }
 
     /// Whether the expression is 0 at the nominal values of the parameters, to within rounding errors.
     pub(super) fn vanishes(&self, formula: &Formula) -> bool {
-        let value = formula.fold(|step| self.rounded(&step).ok()).flatten();
+        let value = formula.fold(|step| rounded(&step, &|name| self.nominal(name)).ok()).flatten();
         value.is_some_and(Rounded::is_zero)
     }
 
-    fn rounded(&self, step: &Step<'_, Option<Rounded>>) -> Result<Option<Rounded>, &'static str> {
-        let both = |a: Option<Rounded>, b: Option<Rounded>| a.zip(b);
-        let pi = Rounded::new(std::f64::consts::PI, 0.0);
-        Ok(match *step {
-            Step::Number(value) => Some(Rounded::of(value)),
-            Step::Pi => Some(pi),
-            Step::Symbol(name, _) => {
-                self.parameter(name).and_then(|known| known.value.as_ref()).map(Rounded::of)
-            }
-            Step::Add(a, b) => both(a, b).map(|(a, b)| a.sum(b)),
-            Step::Sub(a, b) => both(a, b).map(|(a, b)| a.sum(b.negated())),
-            Step::Mul(a, b) => both(a, b).map(|(a, b)| a.product(b)),
-            Step::Div(_, Some(b)) if b.is_zero() => return b.quotient(b).map(Some),
-            Step::Div(a, b) => both(a, b).map(|(a, b)| a.quotient(b)).transpose()?,
-            Step::Neg(a) => a.map(Rounded::negated),
-            Step::Power(a, exponent) => a.map(|a| a.power(exponent)).transpose()?,
-            Step::Call(function, a) => a.map(|a| a.of_function(function)).transpose()?,
-            Step::Tan(a) => a.map(Rounded::tangent).transpose()?,
-        })
+    fn nominal(&self, name: &str) -> Option<Rounded> {
+        self.parameter(name).and_then(|known| known.value.as_ref()).map(Rounded::of)
     }
 }
 

@@ -45,6 +45,7 @@ mod value;
 mod wanted;
 
 pub use budget::{Budget, Limit};
+pub use defined::undefined;
 pub use input_limits::{MAX_BUNDLES, MAX_BYTES, MAX_JOINTS, MAX_LINKS, MAX_PARAMETERS};
 pub use locations::{
     AngleLocation, BodyLocation, DroppedBody, FrameLocation, LinkLocation, Locations,

@@ -6,7 +6,7 @@ use robot_model::robot::{JointKind, Robot};
 use robot_numeric::Mechanism;
 
 use crate::text::{BODY, one_link};
-use crate::{codes, errors, read_taking};
+use crate::{codes, difference, errors, read_taking};
 
 fn torques(robot: &Robot, q: &[f64], qd: &[f64], qdd: &[f64]) -> Vec<f64> {
     let mechanism = Mechanism::nominal(robot).unwrap();
@@ -68,6 +68,23 @@ fn joints_have_their_kinds() {
     assert!(has(&described.choices, code::TAKEN_DEFAULT, "default is x"));
     assert!(has(&described.choices, code::TAKEN_COORDINATE, "without limits"));
     assert!(described.warnings.is_empty(), "{}", described.warnings);
+}
+
+/// An attribute with a prefix belongs to another program, and does not replace one without.
+#[test]
+fn attributes_with_a_prefix_are_not_read() {
+    let plain = chain([r#"type="continuous"><axis xyz="0 0 1"/>"#; 3]);
+    let mixed = plain
+        .replacen("<robot ", r#"<robot xmlns:u="http://example.com/u" "#, 1)
+        .replace("<mass ", r#"<mass u:value="7" "#)
+        .replace("<axis ", r#"<axis u:xyz="0 1 0" "#)
+        .replace(r#" type=""#, r#" u:type="prismatic" type=""#);
+    assert!(mixed.contains("u:value") && mixed.contains("u:xyz") && mixed.contains("u:type"));
+    let found = crate::read(&mixed);
+    assert_eq!(difference(&found.robot, &crate::read(&plain).robot), 0.0);
+    assert!(has(&found.warnings, "R0603", "`u:value` belongs to another program"));
+    let without = mixed.replacen(r#"u:value="7" value"#, "u:value", 1);
+    assert!(has(&errors(&without), "R0102", "`<mass>` has no `value`"), "{:?}", errors(&without));
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! Remedies in messages about CSV that other programs write differently.
 
+use robot_model::diagnostic::quote;
+
 /// Separators of other formats, with their names.
 const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
 
-/// The remedy if a header is a comment or is separated by other characters than commas, or if its lines end with
-/// carriage returns alone; `None` otherwise.
+/// The remedy if a header is a comment, ends with a comma, has a quote without a partner or is separated by other
+/// characters than commas, or if its lines end with carriage returns alone; `None` otherwise.
 #[must_use]
 pub fn separators(header: &str) -> Option<String> {
     let header = header.trim();
@@ -15,6 +17,12 @@ pub fn separators(header: &str) -> Option<String> {
     if header.starts_with('#') {
         let message = "the first line is a comment, which CSV does not have; remove it, so that the header is first";
         return Some(message.to_owned());
+    }
+    if is_unclosed(header) {
+        return Some("a quote in the header is not closed; close or remove it".to_owned());
+    }
+    if header.ends_with(',') {
+        return Some("the header ends with a comma; remove it, or name the last column".to_owned());
     }
     let found = SEPARATORS.iter().find(|(separator, _)| header.contains(*separator));
     let (_, name) = found.filter(|_| !header.contains(','))?;
@@ -34,11 +42,18 @@ pub fn unit(name: &str) -> &'static str {
     }
 }
 
-/// The remedy, to be appended to a message about a cell that is not a number, if the cell seems to have a decimal comma;
-/// otherwise empty.
+/// The message about a cell in the column `name` that is not a finite number.
 #[must_use]
-pub fn decimal_comma(cell: &str) -> &'static str {
-    if cell.contains(',') { "; write decimals with points" } else { "" }
+pub fn wrong_number(name: &str, cell: &str) -> String {
+    // A number such as 1e999, which no double can hold.
+    let is_number = cell.parse::<f64>().is_ok_and(f64::is_infinite);
+    let number = if is_number { "finite number" } else { "number" };
+    let remedy = if cell.contains(',') { "; write decimals with points" } else { "" };
+    format!("`{}` is `{}`, not a {number}{remedy}", quote(name), quote(cell))
+}
+
+fn is_unclosed(line: &str) -> bool {
+    !line.matches('"').count().is_multiple_of(2)
 }
 
 /// The message about a line whose number of entries is not that of the header. `place` is the line.
@@ -47,6 +62,8 @@ pub fn miscounted(place: &str, line: &str, found: usize, expected: usize) -> Str
     let entries = if found == 1 { "entry" } else { "entries" };
     let remedy = if SEPARATORS.iter().any(|(separator, _)| line.trim().contains(*separator)) {
         "; separate them with commas"
+    } else if is_unclosed(line) {
+        "; a quote is not closed"
     } else if line.contains('"') {
         "; a comma in quotes does not separate entries, and decimals have points"
     } else {
@@ -68,6 +85,8 @@ mod tests {
             ("t,q1\r0,1\r1,1\r", Some("end with carriage returns alone")),
             ("t,q1\r\n", None),
             ("\tt\t, q1;\n", None),
+            ("t,q1,\n", Some("ends with a comma; remove it")),
+            ("t,\"q1\n", Some("a quote in the header is not closed")),
             ("t\n", None),
         ] {
             let found = separators(header);
@@ -83,7 +102,12 @@ mod tests {
             miscounted("line 2", "\"0,1\"", 1, 2)
                 .ends_with("quotes does not separate entries, and decimals have points")
         );
-        assert_eq!(["0,1", "x"].map(decimal_comma), ["; write decimals with points", ""]);
+        assert!(miscounted("line 2", "\"0,1", 1, 2).ends_with("; a quote is not closed"));
+        assert_eq!(
+            wrong_number("q1", "0,1"),
+            "`q1` is `0,1`, not a number; write decimals with points"
+        );
+        assert_eq!(wrong_number("q1", "1e400"), "`q1` is `1e400`, not a finite number");
     }
 
     #[test]

@@ -50,10 +50,12 @@ fn hint(comparison: &Comparison) -> String {
             && pair
                 .is_some_and(|(printed, derived)| (printed - derived).abs() < CLOSE * derived.abs())
     };
-    match comparison.differences.iter().filter(is_close).count() {
+    let count = comparison.differences.iter().filter(is_close).count();
+    let differ = if count == 1 { "differs" } else { "differ" };
+    match count {
         0 => String::new(),
         count => format!(
-            "note: {count} of these differ by less than a millionth, as rounded decimals do; \
+            "note: {count} of these {differ} by less than a millionth, as rounded decimals do; \
              equations printed with `--digits 17` have more digits\n"
         ),
     }

@@ -19,6 +19,18 @@ pub(super) struct Kind {
     strict: bool,
 }
 
+impl Kind {
+    /// A sentence that lists the attributes.
+    fn known_attributes(&self) -> String {
+        let name = self.name;
+        match self.attributes {
+            [] => format!("`<{name}>` has no attributes, only other elements"),
+            [known] => format!("the attribute of `<{name}>` is `{known}`"),
+            known => format!("the attributes of `<{name}>` are {}", list(known)),
+        }
+    }
+}
+
 const LEAF: Kind = Kind { name: "", attributes: &[], children: &[], ignored: &[], strict: true };
 
 /// The root element.
@@ -104,7 +116,7 @@ impl<'a, 'i> Element<'a, 'i> {
     /// The attribute with the given name.
     pub(super) fn attribute(&self, name: &str) -> Option<Attribute<'a>> {
         debug_assert!(self.kind.attributes.contains(&name), "{name} is not declared");
-        let found = self.node.attribute_node(name)?;
+        let found = self.own_attributes().find(|attribute| attribute.name() == name)?;
         Some(Attribute { text: found.value(), span: found.range_value() })
     }
 
@@ -168,23 +180,33 @@ impl<'a, 'i> Element<'a, 'i> {
         self.kind.children.iter().copied().find(|kind| kind.name == name)
     }
 
+    /// The attributes without a prefix; those with one belong to other programs.
+    fn own_attributes(&self) -> impl Iterator<Item = roxmltree::Attribute<'a, 'i>> {
+        self.node.attributes().filter(|attribute| attribute.namespace().is_none())
+    }
+
     fn check_attributes(&self, reader: &mut Reader<'_>) {
         for attribute in self.node.attributes() {
             let name = attribute.name();
-            if attribute.namespace().is_none() && self.kind.attributes.contains(&name) {
+            if attribute.namespace().is_some() {
+                let place = attribute.range_qname();
+                let written = self.node.document().input_text().get(place.clone());
+                let message =
+                    format!("`{}` belongs to another program", quote(written.unwrap_or(name)));
+                reader.report(unknown(&place, message, None, false));
                 continue;
             }
-            let strict = self.kind.strict && attribute.namespace().is_none();
+            if self.kind.attributes.contains(&name) {
+                continue;
+            }
             let known = self.kind.attributes.iter().copied();
-            let known = known.filter(|known| !self.node.has_attribute(*known));
+            let known = known.filter(|known| self.own_attributes().all(|own| own.name() != *known));
             let near = reader.nearest(name, known);
-            let help = match self.kind.attributes {
-                [] => format!("`<{}>` has no attributes", self.kind.name),
-                known => format!("the attributes of `<{}>` are {}", self.kind.name, list(known)),
-            };
+            let help = self.kind.known_attributes();
             let message =
                 format!("`{}` is not an attribute of `<{}>`", quote(name), self.kind.name);
-            reader.report(unknown(&attribute.range_qname(), message, near, strict).help(help));
+            let found = unknown(&attribute.range_qname(), message, near, self.kind.strict);
+            reader.report(found.help(help));
         }
     }
 
@@ -249,10 +271,7 @@ impl<'a, 'i> Element<'a, 'i> {
             }
             let start = range.start + text.find(line).unwrap_or_default();
             let message = format!("text in `<{}>` is not read", self.kind.name);
-            let help = match self.kind.attributes {
-                [] => format!("`<{}>` has only other elements as contents", self.kind.name),
-                known => format!("the attributes of `<{}>` are {}", self.kind.name, list(known)),
-            };
+            let help = self.kind.known_attributes();
             let place = start..start + line.len();
             reader.report(
                 Diagnostic::warning(code::NOT_READ, message).at(&place, "ignored").help(help),

@@ -186,11 +186,15 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
                 moving.of_axis = Some(attribute.span);
             }
         }
-        None => reader.report(
-            Diagnostic::note(code::TAKEN_DEFAULT, "the joint has no axis; URDF's default is x")
-                .at(&element.tag(), "`<axis>` is missing")
-                .because("the URDF default"),
-        ),
+        None => {
+            let name = element.attribute("name").map_or("", |name| name.text);
+            let message = format!("the joint `{}` has no axis; URDF's default is x", quote(name));
+            reader.report(
+                Diagnostic::note(code::TAKEN_DEFAULT, message)
+                    .at(&element.tag(), "`<axis>` is missing")
+                    .because("the URDF default"),
+            );
+        }
     }
     if let Some(limit) = element.child(reader, "limit") {
         if has_limits {

@@ -43,12 +43,14 @@ fn is_word(character: char) -> bool {
     character.is_alphanumeric() || "_./".contains(character)
 }
 
-/// A decimal or a quotient with this number of significant digits; `None` for names and for what `f64` cannot hold.
+/// A decimal or a quotient with this number of significant digits; `None` for names and for what `f64` cannot hold, and
+/// for a number that would become 1, a factor that other texts do not have.
 fn shortened(word: &str, digits: usize) -> Option<String> {
     if !word.chars().all(|character| character.is_ascii_digit() || "./".contains(character)) {
         return None;
     }
     let (numerator, denominator) = word.split_once('/').unwrap_or((word, "1"));
     let value = numerator.parse::<f64>().ok()? / denominator.parse::<f64>().ok()?;
-    (value.is_normal()).then(|| number(format!("{value:.*e}", digits - 1).parse().unwrap_or(value)))
+    let rounded = format!("{value:.*e}", digits - 1).parse::<f64>().ok()?;
+    (value.is_normal() && rounded != 1.0).then(|| number(rounded))
 }
