@@ -7,6 +7,7 @@ use crate::failure::Failure;
 use crate::states::State;
 
 /// The pivots of the mass matrix, if functions solve with it.
+#[derive(Default)]
 pub(super) struct Digits(Option<Pivots>);
 
 impl Digits {

@@ -110,8 +110,11 @@ impl Arguments {
         let options = Options { functions, bundles, ..file.options(terminal)? };
         let (name, robot) = (&file.source().name, robot.clone());
         let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
-        let digits = Digits::of(&programs, &options, &self.settings.pairs(), self.trigonometry)?;
         let settings = &self.settings.pairs();
+        let digits = match before.is_empty() {
+            true => Digits::of(&programs, &options, settings, self.trigonometry)?,
+            false => Digits::default(),
+        };
         let executable = before.is_empty().then(|| self.executable(name, &programs)).transpose()?;
         let Some(function) = programs.module.functions.first() else {
             let message = format!("the robot does not have the function `{}`", self.function);
