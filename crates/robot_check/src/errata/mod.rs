@@ -267,10 +267,50 @@ fn expand<'p, 'g>(
         let own = own.into_iter().zip(&one.equation.terms);
         let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
         room = room.saturating_sub(print.len());
-        let derived = term::noted_like(one.derived, &print);
-        Ok(Compared { print, derived, ..one })
+        let derived = term::noted_like(one.derived.clone(), &print);
+        let noted = Compared { print, derived, ..one };
+        Ok(in_symbols(&noted, &one.derived, quantities).unwrap_or(noted))
     };
     compared.into_iter().map(expanded).collect()
+}
+
+/// An equation in which other quantities of the same dimension, as in `Q1 = Q2 + …`, are replaced by their derived terms;
+/// `None` if there are none, or if as many terms differ then, because the name is the mistake.
+fn in_symbols<'p, 'g>(
+    one: &Compared<'p, 'g>,
+    derived: &[Term<'g>],
+    quantities: &BTreeMap<String, Quantity<'g>>,
+) -> Option<Compared<'p, 'g>> {
+    let quantity = |term: &Term<'g>| {
+        let [power] = term.factors.as_slice() else { return None };
+        let symbol = power.atom.as_symbol().filter(|_| power.exponent == 1)?;
+        let name = power.atom.graph().symbol_name(symbol);
+        let known = quantities.get(&name).filter(|_| name != one.equation.quantity)?;
+        (known.dimension == one.dimension).then_some(known.value)
+    };
+    if !one.print.iter().any(|term| quantity(term).is_some()) {
+        return None;
+    }
+    let mut print = vec![];
+    for term in &one.print {
+        match quantity(term) {
+            Some(value) => {
+                let product = value * value.graph().number(term.coefficient.clone());
+                print.extend(term::terms_of(&[product], &LIMITS).ok()?.into_iter().flatten());
+            }
+            None => print.push(term.clone()),
+        }
+    }
+    let differing = |print: &[Term<'g>], derived: &[Term<'g>]| {
+        let left = term::leftover(print, derived);
+        left.wrong.len() + left.missing.len()
+    };
+    let derived = term::noted_like(derived.to_vec(), &print);
+    (differing(&print, &derived) < differing(&one.print, &one.derived)).then_some(Compared {
+        print,
+        derived,
+        ..*one
+    })
 }
 
 fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {

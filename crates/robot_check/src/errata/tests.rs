@@ -158,6 +158,25 @@ fn the_distance_of_terms_counts_factors_and_one_for_the_coefficient() {
     }
 }
 
+/// A torque within the equation of another one stands for its terms, unless it is itself the mistake.
+#[test]
+fn quantities_in_sums_are_written_out() {
+    let robot = robot("planar_2r");
+    let differences = |text: &str| compared(&robot, text).unwrap().differences;
+    let first = "Q1 = m1*r1*(g*cos(q1) + r1*qdd1) + I1*qdd1 + Q2 + m2*l1*(g*cos(q1) + l1*qdd1 \
+                 - r2*(qd1 + qd2)^2*sin(q2) + r2*(qdd1 + qdd2)*cos(q2)) + Fx*l1*sin(q2) + Fy*l1*cos(q2)";
+    assert_eq!(differences(first), []);
+    let [difference] = differences(&first.replace("I1*qdd1", "I1*qd1")).try_into().unwrap();
+    assert_eq!(difference.printed.as_deref(), Some("qd1*I1"));
+    let wrong = differences("Q2 = Q1");
+    assert!(wrong.len() > 3, "{wrong:?}");
+    // The name of the wrench's component Mz was replaced by that of a torque.
+    let one = "Q2 = m2*r2*(g*cos(q1 + q2) + l1*sin(q2)*qd1^2 + l1*cos(q2)*qdd1) \
+               + (m2*r2^2 + I2)*(qdd1 + qdd2) + Fy*l2 + Q1";
+    let [difference] = differences(one).try_into().unwrap();
+    assert_eq!(difference.printed.as_deref(), Some("Q1"));
+}
+
 #[test]
 fn terms_that_are_not_torques_are_reported() {
     let evidence = |wrong: &str| -> Vec<String> {
