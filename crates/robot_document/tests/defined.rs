@@ -308,9 +308,17 @@ fn names_of_columns_are_those_of_no_parameter() {
     let robot = read_toml("robot.toml", &text).unwrap().robot;
     let options = EquationOptions { friction: true, ..EquationOptions::default() };
     let of = |form: Form| equations(&robot, &EquationOptions { form, ..options.clone() }).unwrap();
-    let refused = of(Form::Grouped).check_array_names().unwrap_err().to_string();
-    assert!(refused.contains("name a vector `Q_f`"), "{refused}");
-    assert!(of(Form::Expanded).check_array_names().is_ok());
+    for typeset in [true, false] {
+        let refused = of(Form::Grouped).check_array_names(typeset).unwrap_err().to_string();
+        assert!(refused.contains("name a vector `Q_f`"), "{refused}");
+        assert!(of(Form::Expanded).check_array_names(typeset).is_ok());
+    }
+    // The acceleration of link 1 is `a1` as text, but has a bar in print.
+    let text = include_str!("../../../robots/planar_2r.toml").replace("r1", "a1");
+    let robot = |text: &str| read_toml("robot.toml", text).unwrap().robot;
+    let options = EquationOptions { form: Form::Recursive, ..EquationOptions::default() };
+    let found = equations(&robot(&text), &options).unwrap();
+    assert!(found.check_array_names(true).is_ok() && found.check_array_names(false).is_err());
 }
 
 /// A joint force that is 0, as a sum of terms that cancel, does not occur in friction.

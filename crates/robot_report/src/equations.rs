@@ -144,7 +144,7 @@ fn in_form(robot: &Robot, form: Form) -> Result<Shown, String> {
     let options =
         EquationOptions { form, friction, digits, rounds_roots, ..EquationOptions::default() };
     let found = equations(robot, &options);
-    let found = found.and_then(|found| found.check_array_names().map(|()| found));
+    let found = found.and_then(|found| found.check_array_names(true).map(|()| found));
     let found = found.map_err(|error| format!("This form is not shown: {}.", reason(&error)))?;
     let length = length(&found);
     if length > MAX_LENGTH {

@@ -13,6 +13,7 @@ pub fn system_reason(error: &Error) -> String {
         ErrorKind::ReadOnlyFilesystem => "its disk is read-only",
         ErrorKind::StorageFull => "the disk is full",
         ErrorKind::QuotaExceeded => "your disk quota is used up",
+        ErrorKind::InvalidData => "it is not UTF-8 text",
         ErrorKind::FileTooLarge => "the file is too large for the system",
         // This kind has no stable name yet.
         kind if format!("{kind:?}") == "FilesystemLoop" => "its symbolic links form a cycle",

@@ -84,7 +84,7 @@ impl Arguments {
         }
         let has_arrays = self.equations.has_arrays(&forms, typeset);
         if has_arrays {
-            equations.check_array_names().map_err(failed)?;
+            equations.check_array_names(typeset).map_err(failed)?;
         }
         let displayed = |notation| {
             let room = Room::Points(self.layout.line());

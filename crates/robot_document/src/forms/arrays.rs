@@ -67,15 +67,20 @@ const MAX_LINES: usize = 16;
 const MAX_ENTRY: usize = 6;
 
 impl Equations {
-    /// Returns an error if a symbol of the robot has the name of a matrix or column.
+    /// Returns an error if a symbol of the robot has the name of a matrix or column, or in typeset equations its look:
+    /// the acceleration `a2` is the bold or overlined letter of a length `a2`.
     ///
     /// # Errors
     ///
     /// The first such name.
-    pub fn check_array_names(&self) -> Result<(), Error> {
-        let is_taken = |name: &&String| self.symbols.has(name) && !self.symbols.is_defined(name);
-        match self.arrays().map(|array| &array.name).find(is_taken) {
-            Some(name) => Err(Error::TakenArray { name: name.clone() }),
+    pub fn check_array_names(&self, typeset: bool) -> Result<(), Error> {
+        let symbols = &self.symbols;
+        let is_taken = |array: &&Array| match typeset {
+            true => symbols.is_shown_like(&array.left),
+            false => symbols.has(&array.name) && !symbols.is_defined(&array.name),
+        };
+        match self.arrays().find(is_taken) {
+            Some(array) => Err(Error::TakenArray { name: array.name.clone() }),
             None => Ok(()),
         }
     }

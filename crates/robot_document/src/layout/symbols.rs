@@ -197,6 +197,12 @@ impl SymbolTable {
             && !self.printed.contains_key(&latex::formula(&appearance(shape)))
     }
 
+    /// Whether a symbol of the robot looks like this.
+    pub(crate) fn is_shown_like(&self, shape: &Math) -> bool {
+        let owner = self.printed.get(&latex::formula(&appearance(shape)));
+        owner.is_some_and(|name| !self.is_defined(name))
+    }
+
     /// Keeps letters from being chosen by [`free_letter`](Self::free_letter).
     pub(crate) fn reserve<'l>(&mut self, letters: impl Iterator<Item = &'l str>) {
         self.reserved.extend(letters.map(str::to_owned));

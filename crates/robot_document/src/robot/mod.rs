@@ -56,7 +56,7 @@ pub fn document(
         parts.push((*form, equations(robot, &EquationOptions { form: *form, ..options.clone() })?));
     }
     if let Some(width) = extras.arrays {
-        parts.iter().try_for_each(|(_, part)| part.check_array_names())?;
+        parts.iter().try_for_each(|(_, part)| part.check_array_names(true))?;
         let groups = parts.iter().flat_map(|(_, part)| &part.groups);
         let numbers: usize = groups.map(Group::most).sum();
         let room = Room::Points(width - number_width(numbers));
