@@ -7,16 +7,17 @@ use crate::failure::Failure;
 use crate::states::State;
 
 /// The pivots of the mass matrix, if functions solve with it.
-#[derive(Default)]
 pub(super) struct Digits(Option<Pivots>);
 
 impl Digits {
+    /// The pivots; none without programs, if values are missing and only errors are reported.
     pub(super) fn of(
-        programs: &Programs,
+        programs: Option<&Programs>,
         options: &Options,
         given: &[(&str, f64)],
         trigonometry: Trigonometry,
     ) -> Result<Digits, Failure> {
+        let Some(programs) = programs else { return Ok(Digits(None)) };
         let bundled = programs.bundles.iter().flat_map(|bundle| &bundle.functions);
         if !programs.functions.iter().chain(bundled).any(|kind| kind.divides_by_mass_matrix()) {
             return Ok(Digits(None));

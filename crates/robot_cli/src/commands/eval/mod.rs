@@ -111,11 +111,9 @@ impl Arguments {
         let (name, robot) = (&file.source().name, robot.clone());
         let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
         let settings = &self.settings.pairs();
-        let digits = match before.is_empty() {
-            true => Digits::of(&programs, &options, settings, self.trigonometry)?,
-            false => Digits::default(),
-        };
-        let executable = before.is_empty().then(|| self.executable(name, &programs)).transpose()?;
+        let known = before.is_empty().then_some(&programs);
+        let digits = Digits::of(known, &options, settings, self.trigonometry)?;
+        let executable = known.map(|one| self.executable(name, one)).transpose()?;
         let Some(function) = programs.module.functions.first() else {
             let message = format!("the robot does not have the function `{}`", self.function);
             return Err(Failure::input(message));
