@@ -110,8 +110,7 @@ impl Arguments {
         let options = Options { functions, bundles, ..file.options(terminal)? };
         let (name, robot) = (&file.source().name, robot.clone());
         let programs = watched("deriving", terminal, || programs_of(robot, name, &options))?;
-        let settings = &self.settings.pairs();
-        let known = before.is_empty().then_some(&programs);
+        let (settings, known) = (&self.settings.pairs(), before.is_empty().then_some(&programs));
         let digits = Digits::of(known, &options, settings, self.trigonometry)?;
         let executable = known.map(|one| self.executable(name, one)).transpose()?;
         let Some(function) = programs.module.functions.first() else {
