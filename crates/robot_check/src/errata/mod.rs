@@ -300,6 +300,9 @@ fn in_symbols<'p, 'g>(
             }
             None => print.push(term.clone()),
         }
+        if print.len() > MAX_PRINTED {
+            return None;
+        }
     }
     let differing = |print: &[Term<'g>], derived: &[Term<'g>]| {
         let left = term::leftover(print, derived);
