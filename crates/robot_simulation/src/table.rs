@@ -5,7 +5,7 @@ use std::io::BufRead;
 use robot_model::diagnostic::quote;
 
 use crate::csv::{
-    Lines, cells, miscounted, number, numbers, push_number, separators, wrong_number,
+    Lines, cells, miscounted, number, numbers, push_number, wrong_header, wrong_number,
 };
 use crate::error::Error;
 
@@ -124,7 +124,7 @@ impl<R: BufRead> TableReader<R> {
         let Some((_, header)) = lines.next_line()? else {
             return Err(Error::input(format!("{source}: there is no header, such as t,q1,q2")));
         };
-        if let Some(wrong) = separators(header) {
+        if let Some(wrong) = wrong_header(header) {
             return Err(Error::input(format!("{source}: {wrong}")));
         }
         let names: Vec<String> = cells(header).into_iter().map(str::to_owned).collect();

@@ -240,18 +240,15 @@ fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
         (None, None) => of_torque(name).ok_or_else(|| {
             let joints: Vec<&str> =
                 robot.coordinates.iter().map(|coordinate| coordinate.joint.as_str()).collect();
-            let (count, known) = (joints.len(), joints.join(", "));
             let mimic = robot.links.iter().map(|link| &link.joint).find(|joint| joint.name == name);
-            match mimic.and_then(|joint| joints.get(joint.coordinate)) {
-                Some(other) => format!(
-                    "torque `{shown}`: this joint mimics `{}` and has no torque of its own; the joints are 1 to {count}, \
-                     by name {known}",
-                    quote(other)
-                ),
-                None => format!(
-                    "torque `{shown}` does not match a joint; the joints are 1 to {count}, by name {known}"
-                ),
-            }
+            let why = match mimic.and_then(|joint| joints.get(joint.coordinate)) {
+                Some(other) => {
+                    format!(": this joint mimics `{}` and has no torque of its own", quote(other))
+                }
+                None => " does not match a joint".to_owned(),
+            };
+            let (count, known) = (joints.len(), joints.join(", "));
+            format!("torque `{shown}`{why}; the joints are 1 to {count}, by name {known}")
         }),
     }
 }

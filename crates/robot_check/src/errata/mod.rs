@@ -208,6 +208,7 @@ fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
 }
 
 /// A printed equation with the derived one.
+#[derive(Clone)]
 struct Compared<'p, 'g> {
     equation: &'p PrintedEquation,
     dimension: Dimension,
@@ -267,20 +268,23 @@ fn expand<'p, 'g>(
         let own = own.into_iter().zip(&one.equation.terms);
         let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
         room = room.saturating_sub(print.len());
-        let derived = term::noted_like(one.derived.clone(), &print);
-        let noted = Compared { print, derived, ..one };
-        Ok(in_symbols(&noted, &one.derived, quantities).unwrap_or(noted))
+        let Some(written_out) = in_symbols(&one, &print, quantities) else {
+            return Ok(one.with_print(print));
+        };
+        // If as many terms differ then, the name is the mistake.
+        let [named, written_out] = [print, written_out].map(|print| one.clone().with_print(print));
+        Ok(if written_out.differing() < named.differing() { written_out } else { named })
     };
     compared.into_iter().map(expanded).collect()
 }
 
-/// An equation in which other quantities of the same dimension, as in `Q1 = Q2 + …`, are replaced by their derived terms;
-/// `None` if there are none, or if as many terms differ then, because the name is the mistake.
-fn in_symbols<'p, 'g>(
-    one: &Compared<'p, 'g>,
-    derived: &[Term<'g>],
+/// The printed terms of an equation in which other quantities of the same dimension, as in `Q1 = Q2 + …`, are replaced by
+/// their derived terms; `None` if there are no such quantities, or if the terms would be too many.
+fn in_symbols<'g>(
+    one: &Compared<'_, 'g>,
+    print: &[Term<'g>],
     quantities: &BTreeMap<String, Quantity<'g>>,
-) -> Option<Compared<'p, 'g>> {
+) -> Option<Vec<Term<'g>>> {
     let quantity = |term: &Term<'g>| {
         let [power] = term.factors.as_slice() else { return None };
         let symbol = power.atom.as_symbol().filter(|_| power.exponent == 1)?;
@@ -288,32 +292,24 @@ fn in_symbols<'p, 'g>(
         let known = quantities.get(&name).filter(|_| name != one.equation.quantity)?;
         (known.dimension == one.dimension).then_some(known.value)
     };
-    if !one.print.iter().any(|term| quantity(term).is_some()) {
+    if !print.iter().any(|term| quantity(term).is_some()) {
         return None;
     }
-    let mut print = vec![];
-    for term in &one.print {
+    let mut written_out = vec![];
+    for term in print {
         match quantity(term) {
             Some(value) => {
                 let product = value * value.graph().number(term.coefficient.clone());
-                print.extend(term::terms_of(&[product], &LIMITS).ok()?.into_iter().flatten());
+                let terms = term::terms_of(&[product], &LIMITS).ok()?;
+                written_out.extend(terms.into_iter().flatten());
             }
-            None => print.push(term.clone()),
+            None => written_out.push(term.clone()),
         }
-        if print.len() > MAX_PRINTED {
+        if written_out.len() > MAX_PRINTED {
             return None;
         }
     }
-    let differing = |print: &[Term<'g>], derived: &[Term<'g>]| {
-        let left = term::leftover(print, derived);
-        left.wrong.len() + left.missing.len()
-    };
-    let derived = term::noted_like(derived.to_vec(), &print);
-    (differing(&print, &derived) < differing(&one.print, &one.derived)).then_some(Compared {
-        print,
-        derived,
-        ..*one
-    })
+    Some(written_out)
 }
 
 fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {
@@ -394,6 +390,18 @@ impl Known<'_> {
 }
 
 impl<'g> Compared<'_, 'g> {
+    /// The equation with these printed terms, and with the derived terms as these are printed.
+    fn with_print(self, print: Vec<Term<'g>>) -> Self {
+        let derived = term::noted_like(self.derived, &print);
+        Compared { print, derived, ..self }
+    }
+
+    /// The number of terms that differ.
+    fn differing(&self) -> usize {
+        let left = term::leftover(&self.print, &self.derived);
+        left.wrong.len() + left.missing.len()
+    }
+
     /// The name of the equation, such as `(31) F_l5.x`.
     fn name(&self) -> String {
         match self.equation.number.as_str() {

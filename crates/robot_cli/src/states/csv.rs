@@ -4,7 +4,7 @@ use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
 use robot_simulation::csv::{
-    Lines, cells, miscounted, number, numbers, separators, unit, wrong_number,
+    Lines, cells, miscounted, number, numbers, unit, wrong_header, wrong_number,
 };
 
 use super::{Layout, Place, Sink, State};
@@ -20,7 +20,7 @@ pub(super) fn read<'l>(
         sink.error("there are no states".to_owned());
         return Ok(());
     };
-    if let Some(wrong) = separators(header) {
+    if let Some(wrong) = wrong_header(header) {
         sink.error(wrong);
         return Ok(());
     }

@@ -133,13 +133,12 @@ pub(crate) fn polynomials<'g>(
     let rounded = |one: Polynomial<'g>| if is_kept(&one) { one } else { one.in_decimals(RESIDUE) };
     let expanded: Vec<_> = expanded.into_iter().map(rounded).collect();
     for place in PLACES {
-        check_digits(values, &expanded, &|symbol| seeded(symbol, place))?;
+        check_digits(values.iter().zip(&expanded), &|symbol| seeded(symbol, place))?;
     }
     // Exact sums without divisors can be 0 at the nominal values, as a length plus its opposite is.
-    let is_checked = |(_, one): &(Expr<'g>, Polynomial<'g>)| !one.is_exact() || has_divisor(one);
-    let pairs = values.iter().copied().zip(expanded.iter().cloned());
-    let (values, checked): (Vec<_>, Vec<_>) = pairs.filter(is_checked).unzip();
-    check_digits(&values, &checked, &|symbol| {
+    let pairs = values.iter().zip(&expanded);
+    let checked = pairs.filter(|(_, one)| !one.is_exact() || has_divisor(one));
+    check_digits(checked, &|symbol| {
         let value = robot.nominal_value(symbol);
         if value.is_nan() { seeded(symbol, PLACES[0]) } else { value }
     })?;
@@ -184,9 +183,8 @@ fn is_residue(parameter: &BaseParameter<'_>, found: &BaseParameters<'_>) -> bool
 }
 
 /// Returns an error if an expanded value differs from the value at these values of symbols: long terms can cancel.
-fn check_digits(
-    values: &[Expr<'_>],
-    expanded: &[Polynomial<'_>],
+fn check_digits<'e, 'g: 'e>(
+    mut pairs: impl Iterator<Item = (&'e Expr<'g>, &'e Polynomial<'g>)>,
     of_symbol: &dyn Fn(&str) -> f64,
 ) -> Result<(), Error> {
     let is_kept = |(value, expanded): (&Expr<'_>, &Polynomial<'_>)| {
@@ -196,7 +194,7 @@ fn check_digits(
         let size = found.abs().max(expected.abs());
         expanded.is_zero() || !size.is_finite() || (found - expected).abs() <= KEPT * size
     };
-    if values.iter().zip(expanded).all(is_kept) {
+    if pairs.all(is_kept) {
         return Ok(());
     }
     let reason = "if the formulas are multiplied out, terms cancel and digits are lost; the function \
@@ -247,7 +245,7 @@ mod tests {
         let root = graph.parse("sqrt(2)*a").unwrap();
         let kept = |text: &str| {
             let expanded = Polynomial::of(graph.parse(text).unwrap(), &LIMITS).unwrap();
-            check_digits(&[root], &[expanded], &|symbol| seeded(symbol, 1)).is_ok()
+            check_digits([(&root, &expanded)].into_iter(), &|symbol| seeded(symbol, 1)).is_ok()
         };
         assert!(kept("sqrt(2)*a") && !kept("sqrt(2)*a + 0.000001*b"));
         let same = graph.parse("(a^2 + a*b)/(2*a)/(a + b)").unwrap();

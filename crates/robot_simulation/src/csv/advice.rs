@@ -5,10 +5,10 @@ use robot_model::diagnostic::quote;
 /// Separators of other formats, with their names.
 const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
 
-/// The remedy if a header is a comment, ends with a comma, has a quote without a partner or is separated by other
-/// characters than commas, or if its lines end with carriage returns alone; `None` otherwise.
+/// The message with a remedy if a header is a comment, ends with a comma, has a quote without a partner or is separated by
+/// other characters than commas, or if its lines end with carriage returns alone; `None` otherwise.
 #[must_use]
-pub fn separators(header: &str) -> Option<String> {
+pub fn wrong_header(header: &str) -> Option<String> {
     let header = header.trim();
     if header.contains('\r') {
         let message = "the lines end with carriage returns alone; end them with line feeds";
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn other_separators_have_a_remedy() {
+    fn wrong_headers_and_rows_have_a_remedy() {
         for (header, part) in [
             ("t;q1;q2\n", Some("has semicolons instead of commas; separate columns with commas")),
             ("t\tq1\n", Some("has tabs instead of commas")),
@@ -89,7 +89,7 @@ mod tests {
             ("t,\"q1\n", Some("a quote in the header is not closed")),
             ("t\n", None),
         ] {
-            let found = separators(header);
+            let found = wrong_header(header);
             assert_eq!(found.is_some(), part.is_some(), "{header:?}: {found:?}");
             assert!(found.is_none_or(|found| found.contains(part.unwrap_or_default())));
         }

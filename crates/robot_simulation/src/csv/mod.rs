@@ -7,7 +7,7 @@ mod advice;
 mod lines;
 mod number;
 
-pub use self::advice::{miscounted, separators, unit, wrong_number};
+pub use self::advice::{miscounted, unit, wrong_header, wrong_number};
 pub use self::lines::{Lines, is_blank, not_utf8};
 pub use self::number::push_number;
 

@@ -174,6 +174,11 @@ impl Default for Moving<'_> {
     }
 }
 
+/// The name of a joint in the file; empty if it has none, which is reported elsewhere.
+fn written_name<'a>(joint: &Element<'a, '_>) -> &'a str {
+    joint.attribute("name").map_or("", |name| name.text)
+}
+
 fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bool) -> Moving<'a> {
     let mut moving = Moving::default();
     match element.child(reader, "axis") {
@@ -187,8 +192,10 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
             }
         }
         None => {
-            let name = element.attribute("name").map_or("", |name| name.text);
-            let message = format!("the joint `{}` has no axis; URDF's default is x", quote(name));
+            let message = format!(
+                "the joint `{}` has no axis; URDF's default is x",
+                quote(written_name(element))
+            );
             reader.report(
                 Diagnostic::note(code::TAKEN_DEFAULT, message)
                     .at(&element.tag(), "`<axis>` is missing")
@@ -309,7 +316,7 @@ fn limits(
         return (Some([lower, upper]), Some(span));
     }
     let equal = lower == upper;
-    let name = joint.attribute("name").map_or("", |name| name.text);
+    let name = written_name(joint);
     reader.report(if equal {
         let message =
             format!("the limits of joint `{}` leave no room to move and are ignored", quote(name));
