@@ -74,7 +74,7 @@ pub enum Error {
         /// The error.
         error: robot_codegen::Error,
     },
-    /// A mass matrix that is singular in every configuration, so that forward dynamics does not exist.
+    /// A mass matrix that is singular in every configuration, so forward dynamics has no solution.
     #[error(
         "{name}: the mass matrix is singular in every configuration, so forward dynamics has no \
          solution: the joint torques do not determine the accelerations of {}; give mass or \

@@ -15,6 +15,7 @@ use robot_dynamics::mechanism::{Snap, snapped};
 use robot_model::description::Described;
 use robot_model::robot::Robot;
 use robot_model::snap;
+use robot_symbolic::is_below_range;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -45,7 +46,8 @@ pub(crate) struct RobotArgument {
 
 /// Parses a snapping tolerance.
 fn snap(text: &str) -> Result<f64, String> {
-    let angle = text.parse().ok().and_then(|angle| snap::check(angle).ok());
+    let angle = text.parse().ok().filter(|angle| !is_below_range(text, *angle));
+    let angle = angle.and_then(|angle| snap::check(angle).ok());
     let most = snap::MAX;
     angle.ok_or_else(|| format!("a tolerance is an angle in radians between 0 and {most}"))
 }

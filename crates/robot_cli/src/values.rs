@@ -7,7 +7,7 @@ use robot_model::description::undefined;
 use robot_model::diagnostic::quote;
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
-use robot_symbolic::Formula;
+use robot_symbolic::{Formula, is_below_range};
 
 /// The endings that mark values in degrees, for angles and their derivatives.
 const DEGREES: [(JointVariable, &[&str]); 3] = [
@@ -20,10 +20,8 @@ const DEGREES: [(JointVariable, &[&str]); 3] = [
 pub(crate) fn number(text: &str) -> Result<f64, String> {
     let text = text.trim();
     if let Ok(number) = text.parse::<f64>() {
-        let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
-        let vanished = number == 0.0 && mantissa.contains(|digit| matches!(digit, '1'..='9'));
         return match number.is_finite() {
-            true if vanished => {
+            true if is_below_range(text, number) => {
                 Err(format!("`{}` is below the range of floating-point numbers", quote(text)))
             }
             true => Ok(number),
@@ -51,11 +49,10 @@ pub(crate) fn number(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Parses a time in seconds, such as `0.5`, `1/2` or `2s`. Whether it is finite is not checked.
+/// Parses a time in seconds, such as `0.5`, `1/2` or `2s`.
 pub(crate) fn seconds(text: &str) -> Result<f64, String> {
-    let digits = |text: &str| text.trim().parse().or_else(|_| number(text));
-    digits(text).or_else(|wrong| match text.trim().strip_suffix('s') {
-        Some(before) => digits(before).map_err(|_| wrong),
+    number(text).or_else(|wrong| match text.trim().strip_suffix('s') {
+        Some(before) => number(before).map_err(|_| wrong),
         None => Err(wrong),
     })
 }
@@ -187,7 +184,7 @@ mod tests {
         for (text, value) in [("2", 2.0), ("1/2", 0.5), ("1s", 1.0), ("-1e-3 s", -1e-3)] {
             assert_eq!(seconds(text), Ok(value), "{text}");
         }
-        for text in ["", "s", "1m", "1 ms", "x"] {
+        for text in ["", "s", "1m", "1 ms", "x", "1e-400", "1e-400s", "inf"] {
             let shown = quote(text);
             assert!(seconds(text).is_err_and(|why| why.contains(&*shown)), "{text}");
         }

@@ -28,7 +28,7 @@ pub struct Mismatch {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum NumericError {
     /// The mechanism is not valid: all its faults.
-    #[error("no such mechanism: {}", listed(.0))]
+    #[error("the mechanism is not valid: {}", listed(.0))]
     Mechanism(Vec<Fault>),
     /// The mechanism cannot be evaluated at nominal values, because these parameters have none.
     #[error("no nominal value is given for `{}`", .0.join("`, `"))]

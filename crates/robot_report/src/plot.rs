@@ -21,9 +21,11 @@ pub(crate) struct Plot<'a> {
     pub(crate) curves: Vec<(&'static str, Vec<f64>)>,
 }
 
-/// The size of a plot, and the margins around its field: left, right, top, bottom.
+/// The width and height of a plot, px.
 const SIZE: [f64; 2] = [760.0, 210.0];
+/// The margins of the plot area: left, right, top, bottom, px.
 const MARGINS: [f64; 4] = [74.0, 108.0, 26.0, 34.0];
+/// The size of letters, px.
 const LETTERS: f64 = 12.0;
 
 /// The largest numbers of ticks on the axes.

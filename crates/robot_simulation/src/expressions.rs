@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use robot_model::description::undefined;
 use robot_model::diagnostic::quote;
 use robot_model::robot::Robot;
 use robot_symbolic::Formula;
@@ -37,6 +38,9 @@ pub(crate) fn assignment<'t>(
         return Err(format!(
             "`{shown}`: `{unknown}` is not known here; the known names are {known}"
         ));
+    }
+    if let Some(reason) = undefined(&formula) {
+        return Err(format!("`{shown}` does not have a value: {reason}"));
     }
     Ok((name.trim(), formula))
 }

@@ -60,7 +60,7 @@ pub mod walk;
 pub use expr::{Expr, View};
 pub use formula::{Formula, ParseError};
 pub use graph::{Function, Graph, Id, SymbolId};
-pub use number::{Number, Real};
+pub use number::{Number, Real, is_below_range};
 pub use operations::{Counter, Operations, operations};
 pub use polynomial::{AngleSums, Monomial, Polynomial, PolynomialError, PolynomialOptions};
 pub use random::Random;

@@ -121,6 +121,7 @@ fn of_robot(robot: &Robot) -> Vec<(String, String)> {
     let mut properties = vec![named("gravity", vector(&robot.gravity))];
     let snap = robot.snap.map(|snap| named("snapping tolerance", format!("{snap:e} rad")));
     properties.extend(snap);
+    properties.push(named("frames of base parameters", robot.base_frames.name().to_owned()));
     properties.extend(robot.payload.as_ref().map(|payload| {
         let Payload { mass, center_of_mass, inertia } = payload;
         let names = std::iter::once(mass).chain(center_of_mass).chain(inertia);

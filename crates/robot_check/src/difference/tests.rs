@@ -81,6 +81,8 @@ fn snapping_and_a_payload_are_what_the_file_says() {
     let text = robot_testing::PLANAR_2R;
     let read = |text: &str| description::read("robot.toml", text).unwrap().robot;
     let snapping = text.replacen("[robot]\n", "[robot]\nsnap = 1e-4\n", 1);
+    let frames = "[robot]\nbase_frames = \"denavit_hartenberg\"\n";
+    let regrouping = text.replacen("[robot]\n", frames, 1);
     let carrying = format!("{text}\n[payload]\nparent = \"2\"\n");
     let said = |text: &str, name: &str| {
         let found = compared(&read(robot_testing::PLANAR_2R), &read(text));
@@ -89,11 +91,13 @@ fn snapping_and_a_payload_are_what_the_file_says() {
             panic!("{:?}", found.changes);
         };
         let one = properties.iter().find(|one| one.name == name).unwrap();
-        assert_eq!(one.values[0], None);
-        one.values[1].clone().unwrap()
+        one.values.clone().map(|value| value.unwrap_or_default())
     };
-    assert_eq!(said(&snapping, "snapping tolerance"), "1e-4 rad");
-    assert!(said(&carrying, "payload").starts_with("payload_mass, "));
+    assert_eq!(said(&snapping, "snapping tolerance"), ["", "1e-4 rad"]);
+    let frames = ["file", "denavit_hartenberg"];
+    assert_eq!(said(&regrouping, "frames of base parameters"), frames);
+    let [none, payload] = said(&carrying, "payload");
+    assert!(none.is_empty() && payload.starts_with("payload_mass, "), "{payload}");
 }
 
 /// A robot whose axes and lengths are symbols: with four links, it has more terms than the limit for expansions.

@@ -109,9 +109,9 @@ fn idle(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
                 "the mass matrix is singular, so forward dynamics has no solution",
             ],
             false => [
-                "next to no mass",
+                "almost no mass",
                 "its inertia is below 10⁻¹² of the largest",
-                "the mass matrix is nearly singular, so forward dynamics can lose its digits",
+                "the mass matrix is nearly singular, so accelerations can lose significant digits",
             ],
         };
         let message = format!("the joint `{}` moves {how_much}", coordinate.joint);

@@ -451,7 +451,7 @@ fn next_to_nothing_is_nothing() {
     assert_eq!(codes(&text("2e-12")), [""; 0]);
     assert_eq!(codes(&text("5e-13")), [code::MOVES_NOTHING]);
     let found = check("arm.toml", &text("5e-13"), &Options::default()).found.to_string();
-    assert!(found.contains("the joint `b` moves next to no mass"), "{found}");
+    assert!(found.contains("the joint `b` moves almost no mass"), "{found}");
     assert!(found.contains("arm.toml:12:"), "{found}");
     let found = check("arm.toml", &text("0"), &Options::default()).found.to_string();
     assert!(found.contains("the joint `b` moves no mass"), "{found}");

@@ -177,8 +177,8 @@ fn read(
 /// Whether the right side of an equation is its left side.
 fn is_empty(equation: &PrintedEquation) -> bool {
     let graph = Graph::new();
-    let lower = |term: &Formula| term.lower(&graph, &mut |name| graph.symbol(name));
-    let sum = equation.terms.iter().map(lower).fold(graph.zero(), |sum, term| sum + term);
+    let terms = equation.terms.iter().map(|term| lowered(term, &graph));
+    let sum = terms.fold(graph.zero(), |sum, term| sum + term);
     sum == graph.symbol(&equation.quantity)
 }
 
@@ -218,6 +218,11 @@ struct Compared<'p, 'g> {
     is_name: bool,
 }
 
+/// A printed term as an expression.
+fn lowered<'g>(term: &Formula, graph: &'g Graph) -> Expr<'g> {
+    term.lower(graph, &mut |name| graph.symbol(&symbols::in_text(name)))
+}
+
 /// The terms of every equation, printed and derived.
 fn expand<'p, 'g>(
     graph: &'g Graph,
@@ -245,14 +250,13 @@ fn expand<'p, 'g>(
         let Some(quantity) = quantities.get(&equation.quantity) else { continue };
         // A right side that is the name of another quantity stands for that quantity.
         let named = match equation.terms.as_slice() {
-            [alone] => quantities.get(alone.text().trim()),
+            [alone] => quantities.get(&*symbols::in_text(alone.text().trim())),
             _ => None,
         };
-        let symbols = &mut |name: &str| graph.symbol(name);
         let first = values.len();
         values.extend(equation.terms.iter().map(|term| match named {
             Some(quantity) => quantity.value,
-            None => term.lower(graph, symbols),
+            None => lowered(term, graph),
         }));
         let derived = derived.get(&equation.quantity).cloned().unwrap_or_default();
         let (dimension, is_name) = (quantity.dimension, named.is_some());
@@ -268,9 +272,12 @@ fn expand<'p, 'g>(
         let own = own.into_iter().zip(&one.equation.terms);
         let print: Vec<_> = own.flat_map(|(terms, formula)| rounded(terms, formula)).collect();
         room = room.saturating_sub(print.len());
-        let Some(written_out) = in_symbols(&one, &print, quantities) else {
+        let Some((written_out, is_all)) = in_symbols(&one, &print, quantities) else {
             return Ok(one.with_print(print));
         };
+        if is_all {
+            return Ok(Compared { is_name: true, ..one.with_print(written_out) });
+        }
         // If as many terms differ then, the name is the mistake.
         let [named, written_out] = [print, written_out].map(|print| one.clone().with_print(print));
         Ok(if written_out.differing() < named.differing() { written_out } else { named })
@@ -279,12 +286,13 @@ fn expand<'p, 'g>(
 }
 
 /// The printed terms of an equation in which other quantities of the same dimension, as in `Q1 = Q2 + …`, are replaced by
-/// their derived terms; `None` if there are no such quantities, or if the terms would be too many.
+/// their derived terms, and whether all printed terms are such quantities, as in `Q1 = -2*Q2`. `None` if there are no such
+/// quantities, or if the terms would be too many.
 fn in_symbols<'g>(
     one: &Compared<'_, 'g>,
     print: &[Term<'g>],
     quantities: &BTreeMap<String, Quantity<'g>>,
-) -> Option<Vec<Term<'g>>> {
+) -> Option<(Vec<Term<'g>>, bool)> {
     let quantity = |term: &Term<'g>| {
         let [power] = term.factors.as_slice() else { return None };
         let symbol = power.atom.as_symbol().filter(|_| power.exponent == 1)?;
@@ -292,7 +300,8 @@ fn in_symbols<'g>(
         let known = quantities.get(&name).filter(|_| name != one.equation.quantity)?;
         (known.dimension == one.dimension).then_some(known.value)
     };
-    if !print.iter().any(|term| quantity(term).is_some()) {
+    let count = print.iter().filter(|term| quantity(term).is_some()).count();
+    if count == 0 {
         return None;
     }
     let mut written_out = vec![];
@@ -309,7 +318,7 @@ fn in_symbols<'g>(
             return None;
         }
     }
-    Some(written_out)
+    Some((written_out, count == print.len()))
 }
 
 fn too_long(equation: &PrintedEquation) -> Box<Diagnostic> {

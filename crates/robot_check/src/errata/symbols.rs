@@ -1,5 +1,6 @@
 //! The symbols and quantities of a robot, found by their LaTeX.
 
+use std::borrow::Cow;
 use std::collections::{BTreeSet, HashMap};
 
 use robot_document::latex;
@@ -88,16 +89,12 @@ impl Symbols {
         known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
     }
 
-    /// The name of the quantity that infix text on a left side denotes: `tau1` is the joint torque `Q1`. Other text is
-    /// returned unchanged.
+    /// The name of the quantity that infix text on a left side denotes; what is not a quantity of the robot is returned
+    /// unchanged.
     pub(super) fn quantity_in_text(&self, text: &str) -> String {
-        let torque = match JointVariable::parse(text) {
-            Some((JointVariable::Torque, joint)) => {
-                self.quantities.get(&format!(r"\tau_{}", joint + 1))
-            }
-            _ => None,
-        };
-        torque.map_or_else(|| text.to_owned(), String::clone)
+        let name = in_text(text);
+        let is_known = self.quantities.values().any(|known| *known == name);
+        if is_known { name.into_owned() } else { text.to_owned() }
     }
 
     /// The name of the quantity, or of the vector of quantities, that LaTeX on a left side denotes. Other text is
@@ -107,5 +104,16 @@ impl Symbols {
         let known = if vector { &self.vectors } else { &self.quantities };
         let key = plain(symbol_key(latex));
         known.get(&key).cloned().unwrap_or_else(|| latex.trim().to_owned())
+    }
+}
+
+/// The name of the symbol or quantity that infix text denotes: `tau1` is the joint torque `Q1`. Other text is returned
+/// unchanged.
+pub(super) fn in_text(text: &str) -> Cow<'_, str> {
+    match JointVariable::parse(text) {
+        Some((JointVariable::Torque, joint)) => {
+            Cow::Owned(format!("{}{}", Kind::JointTorque.name(), joint + 1))
+        }
+        _ => Cow::Borrowed(text),
     }
 }

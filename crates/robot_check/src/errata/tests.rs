@@ -214,6 +214,27 @@ fn terms_that_are_not_torques_are_reported() {
     );
 }
 
+/// A quantity with a number stands for its terms, as a quantity alone does; `tau2` is the joint torque Q2.
+#[test]
+fn torques_on_the_right_stand_for_their_terms() {
+    let robot = robot("planar_2r");
+    let of = |text: &str| compared(&robot, text).unwrap();
+    let factors = |text: &str| -> Vec<String> {
+        let mistakes = of(text).differences.into_iter().flat_map(|one| one.mistakes);
+        mistakes.map(|one| one.to_string()).collect()
+    };
+    for text in ["Q2 = Q1", "Q2 = -Q1", "Q2 = 2*Q1", "Q1 = Q2/2", "Q1 = tau2", "tau1 = 3*tau2 - Q2"]
+    {
+        let found = of(text);
+        assert_eq!((found.names, found.terms), (1, 0), "{text}");
+        assert!(!factors(text).iter().any(|one| one.contains('Q')), "{text}");
+    }
+    let own = "m1*r1*(g*cos(q1) + r1*qdd1) + I1*qdd1 + m2*l1*(g*cos(q1) + l1*qdd1 - \
+        r2*(2*qd1 + qd2)*sin(q2)*qd2 + r2*(qdd1 + qdd2)*cos(q2) - r2*sin(q2)*qd1^2)";
+    let [by_name, by_letter] = ["Q2", "tau2"].map(|torque| of(&format!("Q1 = {torque} + {own}")));
+    assert_eq!((by_name.names, by_letter.differences), (0, by_name.differences));
+}
+
 #[test]
 fn latex_is_compared_as_text_is() {
     let robot = robot("trttr1");

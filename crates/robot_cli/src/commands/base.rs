@@ -93,7 +93,7 @@ impl Arguments {
         if shown.len() > LONG && !matches!(self.format, Format::Json) {
             writeln!(
                 terminal.errors,
-                "note: the formulas have {}; the function base_parameters computes their values",
+                "note: the formulas take {}; the function base_parameters computes their values",
                 size(shown.len())
             )?;
         }

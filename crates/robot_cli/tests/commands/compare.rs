@@ -192,8 +192,9 @@ fn what_is_wrong_has_its_code_and_place() {
 fn grade(row: &str) -> [&str; 3] {
     let parts = || {
         let (grade, rest) = row.strip_prefix("| grade | ")?.strip_suffix(" |")?.split_once(": ")?;
-        let (apart, relation) = rest.strip_prefix("apart by ")?.split_once("; contradicted by ")?;
-        Some([grade, apart, relation])
+        let (extent, relation) =
+            rest.strip_prefix("differs by ")?.split_once("; contradicted by ")?;
+        Some([grade, extent, relation])
     };
     parts().unwrap_or_else(|| panic!("{row}"))
 }
@@ -214,7 +215,7 @@ fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
     }
     let (mut by_dimension, mut one_glyph) = (0, 0);
     for (row, difference) in rows.iter().zip(differences) {
-        let [grade, apart, relation] = *row;
+        let [grade, extent, relation] = *row;
         let text = |value: &Value| value.as_str().unwrap().to_owned();
         let evidence = difference["evidence"].as_array().unwrap();
         let wrong = evidence.iter().any(|one| text(one).starts_with("has units "));
@@ -229,7 +230,7 @@ fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
             "missing term" => ("a term", false),
             other => panic!("{other}"),
         };
-        assert_eq!(apart, of, "{row:?}");
+        assert_eq!(extent, of, "{row:?}");
         let expected = match (wrong || relation.starts_with('('), glyph) {
             (true, true) => "a, b",
             (true, false) => "a",

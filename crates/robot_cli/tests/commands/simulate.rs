@@ -72,6 +72,10 @@ fn dry_friction_holds_and_lets_go() {
                 inertia = { xx = 1, yy = 1, zz = 1 }\nfriction = { coulomb_force = 10 }\n";
     std::fs::write(&path, text).unwrap();
     let slide = path.to_str().unwrap();
+    for torque in ["1 = tan(pi/2)", "1 = q1 + 1/0"] {
+        let said = complaint(1, &["simulate", slide, "--torque", torque], "");
+        assert!(said.contains(&format!("torque `{torque}` does not have a value")), "{said}");
+    }
     let pushed = |torque: &str, time: &str| {
         let common = ["simulate", slide, "--friction", "--torque", torque, "--time", time];
         output(&common, "")

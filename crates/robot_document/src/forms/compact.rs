@@ -64,13 +64,17 @@ fn take_economical_torques<'g>(writer: &Writer<'_, 'g>, quantities: &mut [Quanti
 }
 
 /// The quantities, multiplied out: in the structure of the recursion, terms of different links can cancel that are in
-/// different parts. `None` if one is too long or has the root of a sum, such as the force in a joint with dry friction.
+/// different parts. `None` if one is too long or has the root of a sum that depends on the state, such as the force in a
+/// joint with dry friction.
 fn expansion<'g>(quantities: &[Quantity<'g>]) -> Option<Vec<Polynomial<'g>>> {
+    let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
+    let moving = moving(&values);
+    let is_root = |atom: Expr<'_>| {
+        let of_motion = |argument: Expr<'_>| !is_leaf(argument) && moving.contains(&argument.id());
+        matches!(atom.view(), View::Call(Function::Sqrt, argument) if of_motion(argument))
+    };
     let expanded = quantities.iter().map(|quantity| {
         let expanded = residues::polynomial(quantity.value, &coefficients::LIMITS).ok()?;
-        let is_root = |atom: Expr<'_>| {
-            matches!(atom.view(), View::Call(Function::Sqrt, argument) if !is_leaf(argument))
-        };
         let has_root = expanded.atoms().into_iter().any(is_root);
         (!has_root).then_some(expanded)
     });
@@ -321,6 +325,8 @@ mod tests {
             "joint = { type = \"prismatic\", axis = [1, 1, 0] }\n",
             "joint = { type = \"prismatic\", axis = \"x\" }\norigin = { xyz = [0, \"l\", 0.1] }\n",
             "joint = { type = \"revolute\", axis = [0, 0.6, 0.8] }\n",
+            // A length that is a root.
+            "joint = { type = \"revolute\", axis = \"z\" }\norigin = { xyz = [\"sqrt(l^2 + 0.09)\", 0, 0] }\n",
         ] {
             let robot = robot(second);
             let bytes = |form| {

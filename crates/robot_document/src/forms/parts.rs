@@ -24,7 +24,9 @@ pub(super) fn of(monomial: &Monomial, order: &Order<'_>, graph: &Graph) -> Part 
         let atom: Expr<'_> = graph.expr(factor.atom());
         match atom.view() {
             View::Symbol(_) if order.is_wrench(atom) => return Part::External,
-            View::Symbol(_) => rates += order.rate(atom) * factor.exponent().unsigned_abs(),
+            View::Symbol(_) => {
+                rates += order.derivative_order(atom) * factor.exponent().unsigned_abs()
+            }
             View::Pi
             | View::Call(robot_symbolic::Function::Sin | robot_symbolic::Function::Cos, _) => {}
             _ => part = Some(Part::Friction),

@@ -190,7 +190,7 @@ fn definitions<'g>(
         };
         let united = if has_united { format!(" {UNITED}") } else { String::new() };
         first.introduction = format!(
-            "{}{moments}{united} Parameters that appear in the robot file unchanged keep their symbols.",
+            "{}{moments}{united} A base parameter that equals a parameter of the robot file keeps the symbol of that parameter.",
             base::NAMES
         );
     }

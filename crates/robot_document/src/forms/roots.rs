@@ -23,7 +23,7 @@ fn term<'h>(term: &ArrangedTerm<'h>) -> ArrangedTerm<'h> {
     ArrangedTerm { negative: term.negative, coefficient, factors }
 }
 
-/// The quotient of a whole number and the argument of a root, if it is whole.
+/// A whole number divided by the argument of a square root, if the quotient is whole.
 fn quotient(number: &Number, root: Expr<'_>) -> Option<Number> {
     let View::Call(Function::Sqrt, argument) = root.view() else { return None };
     let whole = |number: &Number| number.as_rational()?.to_integer();

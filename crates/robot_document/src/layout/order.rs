@@ -72,7 +72,7 @@ impl<'r> Order<'r> {
     /// How often a joint position is differentiated with respect to time: 1 for a velocity, 2 for an acceleration,
     /// otherwise 0.
     #[must_use]
-    pub(crate) fn rate(&self, atom: Expr<'_>) -> u32 {
+    pub(crate) fn derivative_order(&self, atom: Expr<'_>) -> u32 {
         let View::Symbol(symbol) = atom.view() else { return 0 };
         match motion(&atom.graph().symbol_name(symbol)) {
             Some((JointVariable::Velocity, _)) => 1,

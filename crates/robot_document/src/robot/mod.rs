@@ -211,10 +211,16 @@ fn snapped(snaps: &[Snap]) -> String {
     }
     let (count, most) = changed()
         .fold((0, 0.0_f64), |(count, most), snap| (count + 1, most.max(snap.change.abs())));
-    let (subject, are) = match count {
+    let (subject, multiple) = match count {
         0 => return String::new(),
-        1 => ("One constant angle of the robot file is".to_owned(), "the multiple"),
-        count => (format!("{count} constant angles of the robot file are"), "the multiples"),
+        1 => (
+            "One constant angle of the robot file is".to_owned(),
+            "the multiple of π/2, which differs",
+        ),
+        count => (
+            format!("{count} constant angles of the robot file are"),
+            "the multiples of π/2, which differ",
+        ),
     };
     let more = match names.len().checked_sub(NAMED) {
         Some(more @ 1..) => format!(" and {more} more"),
@@ -222,7 +228,7 @@ fn snapped(snaps: &[Snap]) -> String {
     };
     names.truncate(NAMED);
     format!(
-        " {subject} rounded: tables and equations have {are} of π/2, which differ by at most {most:.0e} rad ({}{more}).",
+        " {subject} rounded: tables and equations have {multiple} by at most {most:.0e} rad ({}{more}).",
         names.join(", ")
     )
 }

@@ -57,12 +57,20 @@ fn place(name: &str, placement: &mut Placement, tolerance: f64, snaps: &mut Vec<
 /// Replaces a constant angle within the tolerance of a multiple of π/2 by that multiple. Returns the angle, rad, and
 /// the multiple minus the angle; `None` if there is no such multiple.
 fn snap(formula: &mut Formula, tolerance: f64) -> Option<(f64, f64)> {
-    let number = formula.as_number()?;
+    let number = constant(formula)?;
     let (quarters, change) = quarters(&number, tolerance)?;
     if let Ok(multiple) = Formula::parse(&multiple_text(quarters)) {
         *formula = multiple;
     }
     Some((number.to_f64(), change))
+}
+
+/// The value of a formula without symbols, such as 1.5708 or π/2 + 10⁻⁷.
+fn constant(formula: &Formula) -> Option<Number> {
+    formula.as_number().or_else(|| {
+        let value = formula.evaluate(|_| f64::NAN);
+        (formula.is_constant() && value.is_finite()).then(|| Number::real(value))
+    })
 }
 
 /// The text of a multiple of π/2: `-pi/2`, `3*pi/2`, `2*pi`.
@@ -88,6 +96,24 @@ mod tests {
         let texts = [0, 1, -1, 2, -2, 3, -3, 4].map(multiple_text);
         let expected = ["0", "pi/2", "-pi/2", "pi", "-pi", "3*pi/2", "-3*pi/2", "2*pi"];
         assert_eq!(texts, expected);
+    }
+
+    #[test]
+    fn sums_with_pi_are_snapped_like_decimals() {
+        for (text, expected) in [
+            ("pi/2 + 1e-12", Some("pi/2")),
+            ("pi/2 + 4e-6", Some("pi/2")),
+            ("-3*pi/2 - 4e-6", Some("-3*pi/2")),
+            ("sqrt(2)*pi/sqrt(8)", Some("pi/2")),
+            ("1.5708", Some("pi/2")),
+            ("pi/2 + 2e-5", None),
+            ("pi/2 + 0*a", None),
+            ("pi/4", None),
+        ] {
+            let mut formula = Formula::parse(text).unwrap();
+            let snapped = snap(&mut formula, 1e-5).map(|_| formula.text().to_owned());
+            assert_eq!(snapped.as_deref(), expected, "{text}");
+        }
     }
 
     #[test]

@@ -65,7 +65,7 @@ fn tip(
         frame_name(reader, &mut table)
     };
     let last = links.checked_sub(1).map_or(Parent::Base, Parent::Link);
-    let parent = table.get("parent").map_or(last, |entry| named_parent(reader, &entry));
+    let parent = table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry));
     let (placement, origin) = origin(reader, &mut table);
     let wrench = table.get("wrench");
     let place = wrench.as_ref().map(|entry| entry.value.span());
@@ -77,7 +77,7 @@ fn tip(
     table.finish(reader);
     let name = name?;
     Some(DraftFrame {
-        parent,
+        parent: parent?,
         placement,
         wrench: Some(wrench?),
         places: FrameLocation { name: name.span.clone(), origin, wrench: place.or(Some(span)) },
@@ -88,7 +88,7 @@ fn tip(
 fn frame(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<DraftFrame> {
     let name = frame_name(reader, &mut table);
     let parent = table.require(reader, "parent", "parent = \"name of a link\"");
-    let parent = parent.map(|entry| named_parent(reader, &entry));
+    let parent = parent.and_then(|entry| named_parent(reader, &entry));
     let (placement, origin) = origin(reader, &mut table);
     if let Some(entry) = table.misplaced("wrench") {
         reader.report(

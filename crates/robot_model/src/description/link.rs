@@ -66,22 +66,22 @@ fn parent(
     match table.get("parent") {
         Some(entry) => {
             places.parent = Some(entry.value.span());
-            named_parent(reader, &entry)
+            named_parent(reader, &entry).unwrap_or(Parent::Base)
         }
         None => index.checked_sub(1).map_or(Parent::Base, Parent::Link),
     }
 }
 
-/// Reads the name of a parent. A wrong name is reported and replaced by the base.
-pub(super) fn named_parent(reader: &mut Reader<'_>, entry: &super::table::Entry<'_>) -> Parent {
-    let expected = "the name of a link, or \"base\"";
-    let Some(text) = reader.string(entry.value, expected) else {
-        return Parent::Base;
-    };
-    if text == "base" {
-        return Parent::Base;
-    }
-    Parent::Name(Named { name: text.to_string(), span: entry.value.span() })
+/// Reads the name of a parent; what is not a name is reported.
+pub(super) fn named_parent(
+    reader: &mut Reader<'_>,
+    entry: &super::table::Entry<'_>,
+) -> Option<Parent> {
+    let text = reader.string(entry.value, "the name of a link, or \"base\"")?;
+    Some(match text.as_ref() {
+        "base" => Parent::Base,
+        name => Parent::Name(Named { name: name.to_owned(), span: entry.value.span() }),
+    })
 }
 
 fn on_joint(

@@ -30,13 +30,13 @@ pub(super) fn read(
     let span = entry.key.clone();
     let mut table = reader.table(entry.value, &PAYLOAD)?;
     let last = links.len().checked_sub(1).map_or(Parent::Base, Parent::Link);
-    let parent = table.get("parent").map_or(last, |entry| named_parent(reader, &entry));
+    let parent = table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry));
     table.finish(reader);
     let frame = frames
         .iter()
-        .find(|frame| matches!(&parent, Parent::Name(name) if name.name == frame.name.name));
+        .find(|frame| matches!(&parent, Some(Parent::Name(name)) if name.name == frame.name.name));
     let (parent, placement) = match frame {
-        Some(frame) => (frame.parent.clone(), frame.placement.clone()),
+        Some(frame) => (Some(frame.parent.clone()), frame.placement.clone()),
         None => (parent, Placement::default()),
     };
     for mut parameter in payload_parameters() {
@@ -56,7 +56,7 @@ pub(super) fn read(
         parameters.1.push(place);
     }
     check(reader, &parameters.0, &span);
-    Some(DraftPayload { parent, placement, place: span })
+    Some(DraftPayload { parent: parent?, placement, place: span })
 }
 
 /// Reports values that are too large, a negative mass, and a tensor that no body can have. A mass of 0 is accepted with

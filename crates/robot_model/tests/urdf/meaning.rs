@@ -87,6 +87,44 @@ fn attributes_with_a_prefix_are_not_read() {
     assert!(has(&errors(&without), "R0102", "`<mass>` has no `value`"), "{:?}", errors(&without));
 }
 
+/// A default namespace on an element has the meaning of a prefix; one on the root is that of the file.
+#[test]
+fn elements_of_another_namespace_are_not_read() {
+    let plain = chain([r#"type="continuous"><axis xyz="0 0 1"/>"#; 3]);
+    let foreign = r#"<mass xmlns="http://example.com/u" value="7"/>"#;
+    let mixed = plain.replace("<mass ", &format!("{foreign}<mass "));
+    let found = crate::read(&mixed);
+    assert_eq!(difference(&found.robot, &crate::read(&plain).robot), 0.0);
+    assert!(has(&found.warnings, "R0603", "`<mass>` is in another namespace"));
+    let without = plain.replacen("<mass ", r#"<mass xmlns="http://example.com/u" "#, 1);
+    assert!(has(&errors(&without), "R0102", "`<inertial>` has no `<mass>`"));
+    let whole = plain.replacen("<robot ", r#"<robot xmlns="http://example.com/u" "#, 1);
+    let found = crate::read(&whole);
+    assert_eq!(difference(&found.robot, &crate::read(&plain).robot), 0.0);
+    assert!(found.warnings.is_empty(), "{}", found.warnings);
+}
+
+/// URDF requires limits of revolute and prismatic joints; what is left out is noted.
+#[test]
+fn limits_that_are_left_out_are_noted() {
+    for (limit, limits, note) in [
+        ("", false, "has no `<limit>`, which URDF requires; it has no limits"),
+        (r#"<limit effort="1"/>"#, false, "has neither a lower nor an upper limit"),
+        (r#"<limit upper="1"/>"#, true, "has no lower limit; URDF's default is 0"),
+        (r#"<limit lower="-1"/>"#, true, "has no upper limit; URDF's default is 0"),
+        (r#"<limit lower="-1" upper="1"/>"#, true, ""),
+    ] {
+        let joint = |kind: &str| format!(r#"type="{kind}"><axis xyz="0 0 1"/>{limit}"#);
+        for kind in ["revolute", "prismatic", "continuous"] {
+            let found = crate::read(&chain([&*joint(kind); 3]));
+            let is_noted = !note.is_empty() && kind != "continuous";
+            assert_eq!(has(&found.choices, "R0704", note) && !note.is_empty(), is_noted, "{limit}");
+            let has_limits = found.robot.coordinates[0].limits.is_some();
+            assert_eq!(has_limits, limits && kind != "continuous", "{limit} {kind}");
+        }
+    }
+}
+
 #[test]
 fn floating_and_planar_joints_are_refused() {
     for (kind, words) in [

@@ -1,6 +1,7 @@
 //! Remedies in messages about CSV that other programs write differently.
 
 use robot_model::diagnostic::quote;
+use robot_symbolic::is_below_range;
 
 /// Separators of other formats, with their names.
 const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
@@ -45,9 +46,11 @@ pub fn unit(name: &str) -> &'static str {
 /// The message about a cell in the column `name` that is not a finite number.
 #[must_use]
 pub fn wrong_number(name: &str, cell: &str) -> String {
-    // A number such as 1e999, which no double can hold.
-    let is_number = cell.parse::<f64>().is_ok_and(f64::is_infinite);
-    let number = if is_number { "finite number" } else { "number" };
+    let number = match cell.parse::<f64>() {
+        Ok(number) if number.is_infinite() => "finite number",
+        Ok(number) if is_below_range(cell, number) => "number in the range of doubles",
+        _ => "number",
+    };
     let remedy = if cell.contains(',') { "; write decimals with points" } else { "" };
     format!("`{}` is `{}`, not a {number}{remedy}", quote(name), quote(cell))
 }

@@ -3,6 +3,8 @@
 //! Cells are separated by commas and can have spaces and quotes around them; a comma in quotes does not separate. Blank
 //! lines are ignored.
 
+use robot_symbolic::is_below_range;
+
 mod advice;
 mod lines;
 mod number;
@@ -40,10 +42,11 @@ fn cell(text: &str) -> &str {
     text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).unwrap_or(text)
 }
 
-/// The number in a cell; `None` if it is not a finite number.
+/// The number in a cell; `None` if it is not a number in the range of `f64`.
 #[must_use]
 pub fn number(cell: &str) -> Option<f64> {
-    cell.parse::<f64>().ok().filter(|number| number.is_finite())
+    let number = cell.parse::<f64>().ok().filter(|number| number.is_finite());
+    number.filter(|number| !is_below_range(cell, *number))
 }
 
 /// Replaces the content of `found` by the numbers in the cells of a line and returns whether all cells are finite
@@ -55,6 +58,7 @@ pub fn numbers(line: &str, found: &mut Vec<f64>) -> bool {
         let length = match fast_float2::parse_partial::<f64, _>(rest) {
             Ok((number, length))
                 if number.is_finite()
+                    && !is_below_range(rest.get(..length).unwrap_or_default(), number)
                     && matches!(rest.as_bytes().get(length), None | Some(b',')) =>
             {
                 found.push(number);

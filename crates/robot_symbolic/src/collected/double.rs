@@ -127,7 +127,8 @@ fn lead_with_plus(term: &mut ArrangedTerm<'_>) {
     }
 }
 
-/// Replaces sums that have become a single term by the factors of this term; returns whether there were any.
+/// Replaces each sum to the power 1 that has become a single term with the factors of this term, and multiplies its sign
+/// and coefficient into `term`; returns whether there were any.
 fn flatten(term: &mut ArrangedTerm<'_>) -> bool {
     let mut is_changed = false;
     let mut factors = Vec::with_capacity(term.factors.len());

@@ -318,7 +318,7 @@ pub(super) struct Factoring {
     kinds: Kinds,
 }
 
-/// What determines how well variables read in parentheses.
+/// Properties of variables by which formulas of the same length are compared.
 pub(super) struct Kinds {
     /// The number of variables that are written before parentheses; they are the first ones.
     pub(super) early: usize,

@@ -33,7 +33,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, View};
-use crate::graph::{Graph, Id};
+use crate::graph::{Function, Graph, Id};
 use crate::polynomial::{Polynomial, PolynomialOptions};
 use crate::print::{ArrangedFactor, ArrangedTerm, arranged_value};
 
@@ -231,18 +231,26 @@ fn proved<'g>(value: Expr<'g>, polynomial: &Polynomial<'g>) -> Option<Proved<'g>
     })
 }
 
+/// Whether an atom in a denominator is related to other atoms: a sum to its terms, a sine or cosine to the other one.
+fn has_relations(atom: Expr<'_>) -> bool {
+    matches!(
+        atom.view(),
+        View::Add(..) | View::Sub(..) | View::Call(Function::Sin | Function::Cos, _)
+    )
+}
+
 /// The deepest nesting of sums in denominators with which equality is proved.
 const MAX_DENOMINATORS: usize = 4;
 
-/// Whether a polynomial is 0 after it is multiplied by the sums in its denominators, which are atoms otherwise. `None`
-/// if this cannot be decided within the limits.
+/// Whether a polynomial is 0 after it is multiplied by the sums, sines and cosines in its denominators: sums are atoms
+/// otherwise, and cos² x/sin² x is not reduced to 1/sin² x − 1. `None` if this cannot be decided within the limits.
 fn is_zero(mut polynomial: Polynomial<'_>) -> Option<bool> {
     let graph = polynomial.graph();
     for _ in 0..MAX_DENOMINATORS {
         let mut lowest: BTreeMap<Id, i32> = BTreeMap::new();
         for (monomial, _) in polynomial.terms() {
             for factor in monomial.factors().iter().filter(|factor| factor.exponent() < 0) {
-                if matches!(graph.expr(factor.atom()).view(), View::Add(..) | View::Sub(..)) {
+                if has_relations(graph.expr(factor.atom())) {
                     let known = lowest.entry(factor.atom()).or_default();
                     *known = factor.exponent().min(*known);
                 }

@@ -21,7 +21,7 @@ pub(super) fn chosen(terms: &Terms, variables: &Variables<'_>) -> Terms {
         let chosen = places.filter(|(place, _)| choice & (1 << place) != 0);
         let form =
             chosen.fold(terms.clone(), |terms, (_, cosine)| by_sine(&terms, *cosine, variables));
-        merged(form, variables)
+        merged(canceled(form, variables), variables)
     });
     forms.min_by_key(Terms::length).unwrap_or_else(|| terms.clone())
 }
@@ -41,6 +41,27 @@ fn by_sine(terms: &Terms, cosine: Variable, variables: &Variables<'_>) -> Terms 
         }
     }
     Terms::sum(done)
+}
+
+/// Cancels sines with their reciprocals, which are variables of their own: sin² x/sin² x is 1.
+fn canceled(terms: Terms, variables: &Variables<'_>) -> Terms {
+    let common = |powers: &Powers| {
+        let both = |(variable, exponent): (Variable, u16)| {
+            let below = variables.reciprocal(variable)?;
+            let shared = exponent.min(powers.exponent(below));
+            Some([(variable, shared), (below, shared)])
+        };
+        Powers::from_unsorted(powers.iter().filter_map(both).flatten())
+    };
+    let is_canceled = |(powers, _): &Term| !common(powers).is_one();
+    if !terms.as_slice().iter().any(is_canceled) {
+        return terms;
+    }
+    let quotient = |(powers, number): &Term| {
+        let rest = powers.quotient(&common(powers)).unwrap_or_else(|| powers.clone());
+        (rest, number.clone())
+    };
+    Terms::sum(terms.as_slice().iter().map(quotient))
 }
 
 fn square(variable: Variable) -> Powers {

@@ -143,6 +143,21 @@ fn sums_under_fraction_bars_cancel() {
     }
 }
 
+/// A sine in a denominator is related to the cosine: cos² x/sin² x is 1/sin² x − 1.
+#[test]
+fn sines_under_fraction_bars_are_related_to_cosines() {
+    for (source, expected) in [
+        ("a*cos(0.3)^2/sin(0.3)^2 - a*cos(0.3)^4/sin(0.3)^2", "a*cos(0.3)^2"),
+        ("a*sin(q9)^2*b/cos(q9) + a*b*cos(q9)", "a*b/cos(q9)"),
+        (
+            "a*cos(q9)^3/sin(q9)^2 + a*cos(q9) + b*sin(q9)^2/cos(q9)^2 - b/cos(q9)^2",
+            "a*cos(q9)/sin(q9)^2 - b",
+        ),
+    ] {
+        assert_eq!(collected(source, 0), expected, "{source}");
+    }
+}
+
 /// A full graph builds wrong expressions. What is proved with them would differ from the polynomial.
 #[test]
 fn a_full_graph_proves_nothing() {

@@ -85,6 +85,12 @@ impl<'g> Variables<'g> {
         self.places.get(&(atom.id(), false)).copied()
     }
 
+    /// The variable of the reciprocal of a variable; `None` for reciprocals and if it does not occur.
+    pub(super) fn reciprocal(&self, variable: Variable) -> Option<Variable> {
+        let (atom, inverse) = self.meanings.get(usize::from(variable))?;
+        self.places.get(&(atom.id(), true)).copied().filter(|_| !inverse)
+    }
+
     /// The cosine of the same angle for a sine, and the sine for a cosine; `None` for other variables.
     pub(super) fn partner(&self, variable: Variable) -> Option<Variable> {
         self.partners.get(usize::from(variable)).copied().flatten()

@@ -73,7 +73,7 @@ fn is_for_reading(path: &Path) -> bool {
     flags.is_some_and(|flags| flags & 3 == 0)
 }
 
-/// Whether a file is in one of the system's virtual file systems; it looks like a file but cannot be replaced.
+/// Whether a path is in `/proc` or `/sys` of Linux, whose files look ordinary but cannot be replaced.
 pub(super) fn is_of_system(path: &Path) -> bool {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     cfg!(target_os = "linux") && ["/proc", "/sys"].iter().any(|folder| path.starts_with(folder))

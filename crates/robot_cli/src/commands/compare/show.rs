@@ -96,7 +96,8 @@ pub(super) fn summary(comparison: &Comparison) -> String {
         |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
     let mut shown = counted(*equations, "equation");
     if *names > 0 {
-        let _ = write!(shown, " ({names} only name a quantity)");
+        let verb = if *names == 1 { "names" } else { "name" };
+        let _ = write!(shown, " ({names} only {verb} other quantities)");
     }
     let _ = write!(shown, ", {}", counted(*terms, "term"));
     if !wrench {
@@ -213,7 +214,7 @@ mod tests {
         let some = Comparison { equations: 2, names: 1, terms: 0, wrench: false, ..none };
         assert_eq!(
             summary(&some),
-            "2 equations (1 only name a quantity), 0 terms, no wrench: no differences"
+            "2 equations (1 only names other quantities), 0 terms, no wrench: no differences"
         );
         let one_rounded = Comparison { rounded: 1, ..some.clone() };
         assert!(

@@ -1,4 +1,5 @@
-//! Places in a text as the protocol counts them: lines from 0, and UTF-16 code units within a line from 0.
+//! Conversion between bytes of a text and the positions of the protocol: the number of a line, from 0, and the number of
+//! UTF-16 code units before the place in this line.
 
 use serde_json::{Value, json};
 

@@ -38,7 +38,7 @@ impl Target for Cuda {
     }
 }
 
-/// The tree of a module as CUDA C++ prints it; the form of a function at [`BATCH`] is its kernel.
+/// The tree that is printed as CUDA C++. The kernel of a function is its additional form with the index [`BATCH`].
 #[must_use]
 pub fn cuda_tree<'m>(module: &'m Module, options: &FlatOptions) -> Tree<'m> {
     let taken = [names::TAKEN, WORDS].concat();

@@ -146,12 +146,12 @@ impl Pin {
             FORMAT => {}
             1 | 2 => {
                 return Err(PinError(format!(
-                    "the pinned plan is of format {format}, which earlier versions wrote; expected {FORMAT}"
+                    "the pinned plan has format {format}, which earlier versions wrote; expected {FORMAT}"
                 )));
             }
             other => {
                 return Err(PinError(format!(
-                    "the pinned plan is of format {other}, which this version does not know; expected {FORMAT}"
+                    "the pinned plan has format {other}, which this version does not know; expected {FORMAT}"
                 )));
             }
         }

@@ -224,6 +224,14 @@ impl<'a, 'i> Element<'a, 'i> {
                 }
                 continue;
             }
+            if is_foreign(node) {
+                let message = format!(
+                    "`<{}>` is in another namespace and belongs to another program",
+                    quote(name)
+                );
+                reader.report(unknown(&place, message, None, false));
+                continue;
+            }
             if let Some(kind) = self.child_kind(name) {
                 let first = seen.iter().find(|(known, _)| *known == name);
                 match first {
@@ -299,9 +307,15 @@ fn unknown(place: &Span, message: String, near: Option<&str>, strict: bool) -> D
     }
 }
 
-/// Whether the element has the given name and no prefix.
+/// Whether the element has the given name, no prefix and the namespace of the root.
 fn named(node: Node<'_, '_>, name: &str) -> bool {
-    node.is_element() && node.tag_name().name() == name && prefix(node).is_none()
+    let own = node.is_element() && node.tag_name().name() == name;
+    own && prefix(node).is_none() && !is_foreign(node)
+}
+
+/// Whether a default namespace is declared for the element that is not the root's.
+fn is_foreign(node: Node<'_, '_>) -> bool {
+    node.tag_name().namespace() != node.document().root_element().tag_name().namespace()
 }
 
 /// The place of `<name` of an element.

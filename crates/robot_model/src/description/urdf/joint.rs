@@ -203,16 +203,19 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
             );
         }
     }
-    if let Some(limit) = element.child(reader, "limit") {
+    moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
+    let limit = element.child(reader, "limit");
+    if has_limits && moving.mimic.is_none() {
+        complete(reader, element, limit.as_ref());
+    }
+    if let Some(limit) = limit {
         if has_limits {
             (moving.limits, moving.of_limits) = limits(reader, &limit, element);
         }
         moving.unread = unread(reader, &limit);
     }
-    moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
     if moving.mimic.is_some() && moving.limits.is_some() {
         // The leading joint determines the motion.
-        let limit = element.child(reader, "limit");
         moving.unread.extend(limit.iter().flat_map(|limit| attributes(limit, &["lower", "upper"])));
     }
     let dynamics = element.child(reader, "dynamics");
@@ -280,6 +283,34 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
         );
     }
     Some(numbers.each_ref().map(Formula::number))
+}
+
+/// Notes which limits of a joint are left out, although URDF requires `<limit>` for the type of joint.
+fn complete(reader: &mut Reader<'_>, joint: &Element<'_, '_>, limit: Option<&Element<'_, '_>>) {
+    let name = quote(written_name(joint));
+    let missing =
+        ["lower", "upper"].map(|name| limit.is_none_or(|limit| limit.attribute(name).is_none()));
+    let (message, label) = match (limit, missing) {
+        (None, _) => (
+            format!("the joint `{name}` has no `<limit>`, which URDF requires; it has no limits"),
+            "`<limit>` is missing",
+        ),
+        (_, [true, true]) => (
+            format!("the joint `{name}` has neither a lower nor an upper limit; it has no limits"),
+            "`lower` and `upper` are missing",
+        ),
+        (_, [true, false]) => (
+            format!("the joint `{name}` has no lower limit; URDF's default is 0"),
+            "`lower` is missing",
+        ),
+        (_, [false, true]) => (
+            format!("the joint `{name}` has no upper limit; URDF's default is 0"),
+            "`upper` is missing",
+        ),
+        (_, [false, false]) => return,
+    };
+    let place = limit.unwrap_or(joint).tag();
+    reader.report(Diagnostic::note(code::TAKEN_DEFAULT, message).at(&place, label));
 }
 
 /// Reads the lower and upper limits. As URDF specifies, a limit that is left out is 0. `None` if both are equal.

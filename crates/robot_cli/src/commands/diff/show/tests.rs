@@ -49,6 +49,16 @@ fn long_numbers_are_rounded_as_far_as_they_still_differ() {
         ([long, longer], [long, longer]),
         // A number that would be rounded to 1.
         ([&format!("m*{near}"), "m"], [&format!("m*{near}"), "m"]),
+        // Two notations of nearly the same value.
+        (["m*3/4", "m*0.75000000000000000000001"], ["m*3/4", "m*0.75000000000000000000001"]),
+        (["m*3/4", "m*0.75100000000000000000001"], ["m*3/4", "m*0.751"]),
+        (
+            ["(l, 0.00000000000000000001)", "(l, 1.000000000000000000000000001e-20)"],
+            ["(l, 0.00000000000000000001)", "(l, 1.000000000000000000000000001e-20)"],
+        ),
+        // Numbers of which only hundreds of digits show the change.
+        (["0.1", &format!("1{}3/1{}0", "0".repeat(70), "0".repeat(71))], ["0.1", "0.1 + 3e-72"]),
+        ([&format!("-1{}3/1{}", "0".repeat(700), "0".repeat(701)), "-1"], ["-1", "-1 + 3e-701"]),
         // A vector, and names as long as a number.
         ([&format!("to ({long}, -{long}, 1)"), "x"], ["to (0.38847737, -0.38847737, 1)", "x"]),
         (["a_123456789012345678901234567890", "y"], ["a_123456789012345678901234567890", "y"]),
