@@ -122,7 +122,7 @@ pub enum Error {
         input: PathBuf,
     },
     /// An output that would replace a file that this program did not write.
-    #[error("{} is not replaced: it {reason}; {remedy}", shown(path))]
+    #[error("{}{} is not replaced: it {reason}; {remedy}", shown(path), linked(path))]
     Foreign {
         /// The file.
         path: PathBuf,
@@ -277,6 +277,12 @@ impl fmt::Debug for Errors {
 }
 
 impl std::error::Error for Errors {}
+
+/// The apposition to the name of a symbolic link, whose target is the file that would be replaced; otherwise empty.
+fn linked(path: &Path) -> String {
+    let target = path.read_link().ok();
+    target.map_or_else(String::new, |target| format!(", a symbolic link to {},", shown(&target)))
+}
 
 /// A path in messages; see [`visible`].
 #[must_use]

@@ -2,17 +2,31 @@
 
 use clap::Args;
 use robot_build::{Effects, FunctionKind};
+use robot_model::description::{LARGEST, LEAST};
 use robot_model::diagnostic::number;
 use robot_model::robot::{Friction, Robot};
 use robot_symbolic::Formula;
 
 use crate::failure::Failure;
+use crate::values;
 
 /// Checks that the robot has friction, if the command is to take it into account.
 pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
     match FunctionKind::InverseDynamics(Effects::FRICTION).missing_in(robot) {
         None => Ok(()),
         Some(why) => Err(Failure::input(format!("{file}: --friction: {why}"))),
+    }
+}
+
+/// Parses the width of a smooth sign function, whose magnitude is in the range of robot files.
+fn width(text: &str) -> Result<f64, String> {
+    let width = values::number(text)?;
+    match (LEAST..=LARGEST).contains(&width) {
+        true => Ok(width),
+        false => Err(format!(
+            "it is {}; it must be a positive velocity from {LEAST:e} to {LARGEST:e}",
+            number(width)
+        )),
     }
 }
 
@@ -23,7 +37,7 @@ pub(crate) struct FrictionArguments {
     #[arg(long)]
     friction: bool,
     /// Smooth Coulomb friction without a `smoothing`: replace sign(qd) with tanh(qd / WIDTH), rad/s or m/s
-    #[arg(long, value_name = "WIDTH", requires = "friction", allow_hyphen_values = true)]
+    #[arg(long, value_name = "WIDTH", requires = "friction", allow_hyphen_values = true, value_parser = width)]
     smoothing: Option<f64>,
 }
 
@@ -38,13 +52,7 @@ impl FrictionArguments {
         let Some(width) = self.smoothing else {
             return Ok(());
         };
-        let formula = Formula::parse(&width.to_string()).ok().filter(|_| width > 0.0);
-        let Some(formula) = formula else {
-            return Err(Failure::Usage(vec![format!(
-                "--smoothing is {}; it must be a positive velocity",
-                number(width)
-            )]));
-        };
+        let Ok(formula) = Formula::parse(&width.to_string()) else { return Ok(()) };
         for link in &mut robot.links {
             if link.friction != Friction::none() && link.friction.smoothing.is_none() {
                 link.friction.smoothing = Some(formula.clone());

@@ -15,7 +15,6 @@ use robot_dynamics::mechanism::{Snap, snapped};
 use robot_model::description::Described;
 use robot_model::robot::Robot;
 use robot_model::snap;
-use robot_symbolic::is_below_range;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -25,7 +24,7 @@ use crate::options::{CodeOptions, choice, help, value_name};
 use crate::plan::pinned_or_searched;
 use crate::reading::ReadingArguments;
 use crate::suggested::FUNCTIONS;
-use crate::text;
+use crate::{text, values};
 
 /// The tolerance, in rad, within which printed constant angles become multiples of π/2, if neither an option nor the
 /// file gives one. Files often have 1.5708 for π/2.
@@ -46,10 +45,10 @@ pub(crate) struct RobotArgument {
 
 /// Parses a snapping tolerance.
 fn snap(text: &str) -> Result<f64, String> {
-    let angle = text.parse().ok().filter(|angle| !is_below_range(text, *angle));
-    let angle = angle.and_then(|angle| snap::check(angle).ok());
-    let most = snap::MAX;
-    angle.ok_or_else(|| format!("a tolerance is an angle in radians between 0 and {most}"))
+    let angle = values::number(text).map_err(|wrong| {
+        format!("{wrong}: a tolerance is an angle in radians between 0 and {}", snap::MAX)
+    })?;
+    snap::check(angle).map_err(|wrong| wrong.to_string())
 }
 
 /// The parser for the name of the frames of base parameters.

@@ -104,6 +104,9 @@ fn of_joint(text: &str, variable: JointVariable, kind: JointKind) -> Result<f64,
         });
     };
     match kind {
+        JointKind::Revolute if degrees.trim().is_empty() => {
+            Err(format!("`{}` has no number; write one such as 90deg", quote(text)))
+        }
         JointKind::Revolute => Ok(number(degrees)?.to_radians()),
         JointKind::Prismatic => {
             Err(format!("`{}` is an angle, and the joint is prismatic: write meters", quote(text)))
@@ -120,9 +123,9 @@ pub(crate) fn of_joints(
     robot: &Robot,
 ) -> Result<Vec<f64>, Vec<String>> {
     let symbols = robot.symbols(variable);
-    let kinds: Vec<JointKind> = robot.links.iter().map(|link| link.joint.kind).collect();
     list(option, text, &symbols, |index, entry| {
-        of_joint(entry, variable, kinds.get(index).copied().unwrap_or(JointKind::Revolute))
+        let kind = robot.coordinates.get(index).map_or(JointKind::Revolute, |one| one.kind);
+        of_joint(entry, variable, kind)
     })
 }
 
@@ -190,6 +193,32 @@ mod tests {
         }
     }
 
+    /// A joint that mimics another has no coordinate, so the second coordinate is that of the third joint.
+    #[test]
+    fn degrees_are_those_of_revolute_coordinates() {
+        let link = |name: &str, joint: &str| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ axis = \"z\", {joint} }}\nmass = 1\n\
+                 center_of_mass = [0, 0, 0]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
+            )
+        };
+        let arm = |kinds: [&str; 3]| {
+            let [a, b, c] = kinds.map(|kind| format!("type = \"{kind}\""));
+            let text = [
+                "format = 1\n[robot]\nname = \"arm\"\n".to_owned(),
+                link("1", &a),
+                link("2", &format!("{b}, mimic = {{ joint = \"1\" }}")),
+                link("3", &c),
+            ];
+            robot_model::description::read("arm.toml", &text.concat()).unwrap().robot
+        };
+        let read = |robot| of_joints("--q", "0, 90deg", JointVariable::Position, &robot);
+        let slider = arm(["revolute", "revolute", "prismatic"]);
+        assert!(read(slider).unwrap_err()[0].contains("entry 2, q2: `90deg` is an angle"));
+        let turning = arm(["prismatic", "prismatic", "revolute"]);
+        assert_eq!(read(turning), Ok(vec![0.0, 90_f64.to_radians()]));
+    }
+
     #[test]
     fn degrees_are_those_of_revolute_joints() {
         let read = |text, variable, kind| of_joint(text, variable, kind);
@@ -200,6 +229,7 @@ mod tests {
         assert_eq!(read("180deg/s", Velocity, Revolute), Ok(180_f64.to_radians()));
         assert_eq!(read("1deg/s^2", Acceleration, Revolute), Ok(1_f64.to_radians()));
         assert_eq!(read("0.5", Position, Prismatic), Ok(0.5));
+        assert!(read("deg", Position, Revolute).unwrap_err().contains("has no number"));
         assert!(read("90deg/s", Position, Revolute).is_err());
         assert!(read("90deg", Torque, Revolute).is_err());
         assert!(read("90deg", Position, Prismatic).unwrap_err().contains("prismatic"));

@@ -29,7 +29,11 @@ pub(crate) fn assignment<'t>(
         return Err(format!("`{shown}` is not an assignment; write NAME = EXPRESSION"));
     };
     let formula = Formula::parse(formula.trim()).map_err(|error| {
-        let help = error.help.map(|help| format!("; {help}")).unwrap_or_default();
+        let help = match formula.contains('=') {
+            true => Some("give each assignment by itself".to_owned()),
+            false => error.help,
+        };
+        let help = help.map(|help| format!("; {help}")).unwrap_or_default();
         format!("`{shown}`: {}{help}", error.message)
     })?;
     let unknown = formula.symbols().map(|(name, _)| name).find(|name| !is_known(name));

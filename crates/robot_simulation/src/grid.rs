@@ -24,8 +24,8 @@ pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
     // A time that differs from the end only by rounding counts as the end.
     let whole = (duration / step * (1.0 + 1e-12)).floor();
     if whole > MAX_SAMPLES {
-        let message =
-            format!("{} samples are more than {MAX_SAMPLES}; increase the step", number(whole));
+        let count = if whole.is_finite() { number(whole) } else { "these".to_owned() };
+        let message = format!("{count} samples are more than {MAX_SAMPLES}; increase the step");
         return Err(Error::input(message));
     }
     let mut times: Vec<f64> = (0..=whole as usize).map(|index| index as f64 * step).collect();

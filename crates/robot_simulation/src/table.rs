@@ -122,7 +122,9 @@ impl<R: BufRead> TableReader<R> {
     pub(crate) fn new(source: &str, reader: R) -> Result<TableReader<R>, Error> {
         let mut lines = Lines::new(source, reader);
         let Some((_, header)) = lines.next_line()? else {
-            return Err(Error::input(format!("{source}: there is no header, such as t,q1,q2")));
+            return Err(Error::input(format!(
+                "{source}: there is no header, the line with the names of the columns"
+            )));
         };
         if let Some(wrong) = wrong_header(header) {
             return Err(Error::input(format!("{source}: {wrong}")));
@@ -227,7 +229,10 @@ mod tests {
     #[test]
     fn everything_that_is_wrong_is_named() {
         let message = |text: &str| Table::read("a.csv", text).unwrap_err().to_string();
-        assert_eq!(message(" \n"), "a.csv: there is no header, such as t,q1,q2");
+        assert_eq!(
+            message(" \n"),
+            "a.csv: there is no header, the line with the names of the columns"
+        );
         assert_eq!(message("t,q1\n"), "a.csv: there are no lines below the header");
         assert_eq!(
             message("t,q1,q1\n0,1\n\n0,nan,x\n"),

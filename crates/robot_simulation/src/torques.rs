@@ -99,13 +99,16 @@ impl Torques {
     ) -> Result<Torques, Error> {
         let mut wrong = check_times(source, table);
         let t = table.column("t").unwrap_or_default();
-        if let (Some(first), Some(last)) = (t.first(), t.last())
-            && (*first > 0.0 || *last < duration)
+        let first = t.iter().copied().reduce(f64::min);
+        // Times can decrease, which is another error.
+        let last = t.iter().copied().reduce(f64::max);
+        if let (Some(first), Some(last)) = (first, last)
+            && (first > 0.0 || last < duration)
         {
             wrong.push(format!(
                 "{source}: the torques cover {} s to {} s, but the motion covers 0 s to {} s",
-                number(*first),
-                number(*last),
+                number(first),
+                number(last),
                 number(duration)
             ));
         }

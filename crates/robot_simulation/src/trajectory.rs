@@ -192,7 +192,9 @@ fn formulas(
         let mut lefts = texts.iter().filter_map(|text| text.as_ref().split_once('='));
         formulas.contains_key(name) || lefts.any(|(left, _)| left.trim() == name)
     };
-    for name in coordinates.iter().filter(|name| !is_given(name)) {
+    // A text that is not one assignment may stand for any coordinate.
+    let are_assignments = texts.iter().all(|text| text.as_ref().matches('=').count() == 1);
+    for name in coordinates.iter().filter(|name| are_assignments && !is_given(name)) {
         wrong.push(format!(
             "there is no expression for `{name}`; if it is at rest, write {name} = 0"
         ));

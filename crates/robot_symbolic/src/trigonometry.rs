@@ -22,6 +22,14 @@ impl Graph {
         {
             return self.intern_number(&exact);
         }
+        if let (Function::Sqrt, Some(Number::Rational(square))) =
+            (function, self.as_number(argument))
+            && let Some((factor, rest)) = reduced_root(&square)
+        {
+            let [factor, rest] =
+                [Number::Rational(factor), Number::integer(rest)].map(|it| self.intern_number(&it));
+            return self.mul(factor, self.intern(Node::Call(function, rest)));
+        }
         match (function, self.node(argument)) {
             (Function::Abs, Node::Neg(x)) => self.call(function, x),
             (Function::Sign | Function::Tanh, Node::Neg(x)) => self.neg(self.call(function, x)),
@@ -159,9 +167,49 @@ fn exact_root(square: &Rational) -> Option<Rational> {
     Rational::new(root(numerator)?, root(denominator)?)
 }
 
+/// A root without square factors and without a denominator: √8 is 2 √2, and √(1/2) is √2/2. Returns the factor and the
+/// number whose root is left; `None` if the root remains as it is. A root of a quotient is only written in this way if
+/// the number is small: √1.3 is not √130/10.
+fn reduced_root(square: &Rational) -> Option<(Rational, i64)> {
+    /// The largest divisor that is tried.
+    const MOST: i64 = 1000;
+    /// The largest number in place of a quotient.
+    const SMALL: i64 = 12;
+    let (numerator, denominator) = square.to_small().filter(|(numerator, _)| *numerator > 0)?;
+    let mut rest = numerator.checked_mul(denominator)?;
+    let mut factor = 1;
+    for divisor in 2..=MOST {
+        while rest % (divisor * divisor) == 0 {
+            rest /= divisor * divisor;
+            factor *= divisor;
+        }
+    }
+    let is_shorter = if denominator == 1 { factor > 1 } else { rest <= SMALL };
+    is_shorter.then(|| Some((Rational::new(factor, denominator)?, rest)))?
+}
+
 #[cfg(test)]
 mod tests {
     use crate::{Graph, Number, Rational};
+
+    #[test]
+    fn roots_of_numbers_have_no_square_factors() {
+        let g = Graph::new();
+        for (source, expected) in [
+            ("sqrt(8) - 2*sqrt(2)", "0"),
+            ("sqrt(0.5) - sqrt(2)/2", "0"),
+            ("sqrt(12)/sqrt(3)", "2"),
+            ("sqrt(3/4)", "sqrt(3)/2"),
+            ("sqrt(1.3)", "sqrt(1.3)"),
+            ("sqrt(9/16)", "3/4"),
+            ("sqrt(999983)", "sqrt(999983)"),
+            ("sqrt(9223372036854775807)", "sqrt(9223372036854775807)"),
+            ("sqrt(720)", "12*sqrt(5)"),
+        ] {
+            assert_eq!(g.parse(source).unwrap(), g.parse(expected).unwrap(), "{source}");
+        }
+        assert_eq!(g.parse("sqrt(1.3)").unwrap().evaluate(|_| 0.0), 1.3_f64.sqrt());
+    }
 
     #[test]
     fn multiples_of_a_quarter_turn_are_exact() {

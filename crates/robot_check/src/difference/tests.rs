@@ -91,7 +91,7 @@ fn snapping_and_a_payload_are_what_the_file_says() {
             panic!("{:?}", found.changes);
         };
         let one = properties.iter().find(|one| one.name == name).unwrap();
-        one.values.clone().map(|value| value.unwrap_or_default())
+        one.values.clone().map(Option::unwrap_or_default)
     };
     assert_eq!(said(&snapping, "snapping tolerance"), ["", "1e-4 rad"]);
     let frames = ["file", "denavit_hartenberg"];

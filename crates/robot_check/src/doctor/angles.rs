@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::description::AngleLocation;
-use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, code};
+use robot_model::diagnostic::{number, significant};
 use robot_model::robot::JointKind;
 
 use super::facts::RobotFacts;
@@ -38,7 +38,8 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         let widest = limits.each_ref().map(|limit| limit.to_f64().abs());
         let widest = widest.iter().fold(0.0_f64, |a, b| a.max(*b));
         if widest > FOUR_TURNS {
-            let message = format!("a limit of `{}` is {widest} rad", link.link.joint.name);
+            let message =
+                format!("a limit of `{}` is {} rad", link.link.joint.name, significant(widest));
             found.push(degrees(message, widest).at(place, "in degrees?"));
         }
     }
@@ -47,7 +48,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
 fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
     let value = angle.value.evaluate(|_| f64::NAN);
     if value.abs() > TURN {
-        let message = format!("an angle is {value} rad");
+        let message = format!("an angle is {} rad", significant(value));
         return Some(degrees(message, value).at(&angle.place, "in degrees?"));
     }
     let quarters = (value / FRAC_PI_2).round();
@@ -121,5 +122,9 @@ fn multiple(quarters: f64) -> String {
 fn degrees(message: String, value: f64) -> Diagnostic {
     Diagnostic::warning(code::DEGREES, message)
         .because(format!("these are {} turns", significant((value / TAU).abs())))
-        .help(format!("give angles in radians; {value} degrees are {} rad", value.to_radians()))
+        .help(format!(
+            "give angles in radians; {} degrees are {} rad",
+            number(value),
+            number(value.to_radians())
+        ))
 }

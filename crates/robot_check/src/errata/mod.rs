@@ -169,24 +169,22 @@ fn read(
     let known: BTreeSet<String> = names.iter().map(ToString::to_string).collect();
     let unknown = printed.iter().filter(|equation| !known.contains(&equation.quantity));
     let unknown = unknown.map(|equation| no_quantity(equation, robot));
-    let empty = printed.iter().filter(|equation| is_empty(equation)).map(says_nothing);
+    let empty = printed.iter().filter(|equation| has_itself(equation)).map(of_itself);
     let wrong: Vec<Diagnostic> = unknown.chain(empty).collect();
     if wrong.is_empty() { Ok(printed) } else { Err(wrong) }
 }
 
-/// Whether the right side of an equation is its left side.
-fn is_empty(equation: &PrintedEquation) -> bool {
-    let graph = Graph::new();
-    let terms = equation.terms.iter().map(|term| lowered(term, &graph));
-    let sum = terms.fold(graph.zero(), |sum, term| sum + term);
-    sum == graph.symbol(&equation.quantity)
+/// Whether the right side of an equation contains its left side.
+fn has_itself(equation: &PrintedEquation) -> bool {
+    let mut names = equation.terms.iter().flat_map(Formula::symbols);
+    names.any(|(name, _)| symbols::in_text(name) == equation.quantity)
 }
 
-fn says_nothing(equation: &PrintedEquation) -> Diagnostic {
-    let message =
-        format!("the right side is `{}` itself, so nothing is compared", quote(&equation.quantity));
+fn of_itself(equation: &PrintedEquation) -> Diagnostic {
+    let message = format!("the right side contains `{}`, the left side", quote(&equation.quantity));
     Diagnostic::error(code::EXPRESSION, message)
         .at(&equation.span, "")
+        .because("such an equation says nothing, or is not solved for its left side")
         .help("write the terms of the equation, or the name of another quantity")
 }
 

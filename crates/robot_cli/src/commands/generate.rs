@@ -77,8 +77,8 @@ impl Arguments {
     }
 }
 
-/// The endings of the names of files in languages of one family.
-const FAMILIES: [&[&str]; 7] = [
+/// The endings of the names of files in languages of one family, and those of URDF and plans.
+const FAMILIES: [&[&str]; 8] = [
     &["rs"],
     &["c", "h", "cc", "cpp", "hpp", "cu", "cuh"],
     &["py"],
@@ -86,6 +86,7 @@ const FAMILIES: [&[&str]; 7] = [
     &["js", "mjs", "ts", "mts"],
     &["wgsl"],
     &["wasm"],
+    &["urdf", "plan"],
 ];
 
 /// The text of the module, if it is a single file in the language.

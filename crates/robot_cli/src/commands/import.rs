@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{Errors, Ownership, RobotFile, robot_inputs};
+use robot_build::{Errors, Ownership, RobotFile, robot_inputs, shown};
 use robot_model::description::{self, Format, Options};
 
 use crate::Terminal;
@@ -33,6 +33,13 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        if let Some(path) = self.output.file()
+            && path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"))
+        {
+            let toml = shown(&path.with_extension("toml"));
+            let message = format!("a robot file is TOML; name the file {toml}");
+            return Err(Failure::Usage(vec![message]));
+        }
         let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
         let source = RobotFile::read(&self.file)?.source;
         let options = Options { friction: self.friction, ..self.reading.options().reading() };

@@ -67,7 +67,8 @@ impl Arguments {
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
-            let others = ["pdf", "png", "svg", "md", "tex", "typ"];
+            let others =
+                ["pdf", "png", "svg", "md", "tex", "typ", "txt", "csv", "json", "urdf", "plan"];
             let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
             if let Some(path) = self.output.file()
                 && path.extension().is_some_and(is_other)

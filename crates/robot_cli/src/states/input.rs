@@ -7,6 +7,7 @@ use std::path::Path;
 use robot_build::system_reason;
 use robot_simulation::csv::{Lines, is_blank, not_utf8};
 
+use super::exponents::Exponents;
 use super::{Layout, Sink, State, csv, json};
 use crate::failure::Failure;
 use crate::files;
@@ -129,7 +130,9 @@ impl<'t> Input<'t> {
         let offset = (self.beginning.len() - beginning.len()) as u64;
         let budget = Budget::default();
         let text = beginning.chain(self.rest.reader());
-        let text = Text { name, reader: text, offset, unchecked: vec![], budget: &budget };
+        let exponents = Exponents::default();
+        let text =
+            Text { name, reader: text, offset, unchecked: vec![], exponents, budget: &budget };
         let is_array = self.format == Format::JsonArray;
         json::read(BufReader::with_capacity(CHUNK, text), is_array, &budget, layout, sink)
     }
@@ -248,7 +251,7 @@ impl Budget {
     }
 }
 
-/// A reader that checks that bytes are UTF-8.
+/// A reader that checks that bytes are UTF-8, and that no number is below the range of `f64`.
 struct Text<'i, R> {
     name: &'i str,
     reader: R,
@@ -256,6 +259,7 @@ struct Text<'i, R> {
     offset: u64,
     /// The start of a character whose end has not been read yet.
     unchecked: Vec<u8>,
+    exponents: Exponents,
     budget: &'i Budget,
 }
 
@@ -285,6 +289,12 @@ impl<R: Read> Read for Text<'_, R> {
                 self.unchecked.drain(..length);
             }
         }
-        Ok(count)
+        match self.exponents.below_range(&buffer[..count]) {
+            None => Ok(count),
+            Some(number) => {
+                let reason = format!("`{number}` is below the range of floating-point numbers");
+                Err(Error::other(format!("{name}: {reason}")))
+            }
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod csv;
+mod exponents;
 mod input;
 mod json;
 mod node;

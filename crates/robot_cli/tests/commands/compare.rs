@@ -38,7 +38,7 @@ fn the_paper_differs_in_the_terms_that_the_document_lists() {
     let claim = "34 terms differ from the derivation in the text that we have";
     assert!(document.contains(claim), "docs/trttr1.md does not say: {claim}");
     assert!(shown.ends_with(
-        "85 equations (5 only name a quantity), 839 terms: 34 terms differ (1 missing term, 1 sign, \
+        "85 equations (5 only name other quantities), 839 terms: 34 terms differ (1 missing term, 1 sign, \
          20 dots, 9 indices, 1 power, 2 factors)\n"
     ));
     let found: Value = serde_json::from_str(&paper("", "", "json")).unwrap();

@@ -136,12 +136,15 @@ fn everything_that_is_wrong_is_said() {
     let zero = run(&["simulate", &trttr1, "--friction", "--smoothing", "0"]);
     assert_eq!(zero.code, 2, "{}", zero.errors);
     assert!(
-        zero.errors.contains("--smoothing is 0; it must be a positive velocity"),
+        zero.errors.contains("'--smoothing <WIDTH>': it is 0; it must be a positive velocity"),
         "{}",
         zero.errors
     );
-    let usage = run(&["simulate", &trttr1, "--friction", "--smoothing", "-1"]);
-    assert_eq!(usage.code, 2);
+    // Products of a width below the range of robot files would be 0, and so would the friction.
+    for width in ["-1", "1e-320", "1e-400", "1e400", "1e31", "nan", "abc"] {
+        let usage = run(&["simulate", &trttr1, "--friction", "--smoothing", width]);
+        assert_eq!(usage.code, 2, "{width}");
+    }
 }
 
 #[test]

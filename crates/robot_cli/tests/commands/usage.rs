@@ -57,6 +57,34 @@ fn the_version_is_that_of_the_package() {
     );
 }
 
+/// The same angle, as a sum with pi and as a decimal.
+#[test]
+fn an_angle_is_snapped_however_it_is_written() {
+    let folder = crate::folder("snapped");
+    let file = |name: &str, angle: &str| {
+        let path = folder.join(name);
+        let text = format!(
+            "format = 1\n[robot]\nname = \"arm\"\n[[link]]\nname = \"a\"\n\
+             joint = {{ type = \"revolute\", axis = \"z\" }}\norigin = {{ rpy = [0, {angle}, 0] }}\n\
+             mass = 1\ncenter_of_mass = [0.1, 0.2, 0]\ninertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let sum = file("sum.toml", "\"pi/2 - 1e-5\"");
+    let decimal = file("decimal.toml", "1.5707863267948966");
+    for snap in ["1e-4", "0"] {
+        let of = |file: &str| {
+            let eval = ["eval", file, "--snap", snap, "--function", "gravity", "--q", "0.3"];
+            (output(&eval, ""), output(&["equations", file, "--snap", snap], ""))
+        };
+        let [(a, equations), (b, others)] = [&*sum, &*decimal].map(of);
+        assert_eq!(a, b, "{snap}");
+        assert_eq!(equations.contains("1e-5"), snap == "0", "{equations}");
+        assert_eq!(equations == others, snap != "0", "{equations}{others}");
+    }
+}
+
 #[test]
 fn an_imported_urdf_gives_the_same_torques() {
     let folder = crate::folder("import");

@@ -25,7 +25,7 @@ pub(super) fn of(monomial: &Monomial, order: &Order<'_>, graph: &Graph) -> Part 
         match atom.view() {
             View::Symbol(_) if order.is_wrench(atom) => return Part::External,
             View::Symbol(_) => {
-                rates += order.derivative_order(atom) * factor.exponent().unsigned_abs()
+                rates += order.derivative_order(atom) * factor.exponent().unsigned_abs();
             }
             View::Pi
             | View::Call(robot_symbolic::Function::Sin | robot_symbolic::Function::Cos, _) => {}

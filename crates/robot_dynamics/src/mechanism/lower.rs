@@ -6,7 +6,7 @@ use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
 use super::direction::unit_vector;
-use super::snapped::quarters;
+use super::snapped::{constant, quarters};
 use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
 use crate::vector::{Matrix, Vector};
 
@@ -143,7 +143,7 @@ impl<'g> Lowering<'g, '_> {
     fn angle(&mut self, name: &str, formula: &Formula) -> Expr<'g> {
         // The exact value is needed, because rounding would make `pi/2` a floating-point number, whose cosine is not 0.
         let exact = formula.lower(self.graph, &mut |name| self.graph.symbol(name));
-        let Some(number) = exact.as_number() else {
+        let Some(number) = constant(formula) else {
             return exact;
         };
         let Some((quarters, change)) = quarters(&number, self.options.snap) else {

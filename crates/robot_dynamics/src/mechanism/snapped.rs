@@ -66,7 +66,7 @@ fn snap(formula: &mut Formula, tolerance: f64) -> Option<(f64, f64)> {
 }
 
 /// The value of a formula without symbols, such as 1.5708 or π/2 + 10⁻⁷.
-fn constant(formula: &Formula) -> Option<Number> {
+pub(super) fn constant(formula: &Formula) -> Option<Number> {
     formula.as_number().or_else(|| {
         let value = formula.evaluate(|_| f64::NAN);
         (formula.is_constant() && value.is_finite()).then(|| Number::real(value))

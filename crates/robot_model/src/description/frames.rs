@@ -4,9 +4,9 @@ use toml::de::DeValue;
 
 use super::draft::{DraftFrame, Parent};
 use super::input_limits::MAX_LINKS;
-use super::link::named_parent;
+use super::link::{LINK, named_parent};
 use super::locations::FrameLocation;
-use super::names::Kind;
+use super::names::{Kind, Registry};
 use super::placement::origin_of;
 use super::reader::{Named, Reader};
 use super::shape::{COMPONENT, FRAME, Shape, TIP, WRENCH};
@@ -20,8 +20,9 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>, links: usize) 
     if let Some(entry) = root.get("tip") {
         let tables = tables(reader, &entry, &TIP);
         let alone = tables.len() == 1;
+        let mut names = Registry::exact("tip");
         for table in tables {
-            found.extend(tip(reader, table, links, alone));
+            found.extend(tip(reader, table, links, alone, &mut names));
         }
     }
     if let Some(entry) = root.get("frame") {
@@ -57,6 +58,7 @@ fn tip(
     mut table: Table<'_>,
     links: usize,
     alone: bool,
+    names: &mut Registry,
 ) -> Option<DraftFrame> {
     let name = if alone && !table.has("name") {
         table.get("name");
@@ -64,8 +66,15 @@ fn tip(
     } else {
         frame_name(reader, &mut table)
     };
+    // Components of wrenches are named after the tip, so they would be reported, too.
+    let name = name.filter(|name| {
+        let twice = names.add(name);
+        let is_first = twice.is_none();
+        twice.into_iter().for_each(|diagnostic| reader.report(diagnostic));
+        is_first
+    });
     let last = links.checked_sub(1).map_or(Parent::Base, Parent::Link);
-    let parent = table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry));
+    let parent = table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry, LINK));
     let (placement, origin) = origin(reader, &mut table);
     let wrench = table.get("wrench");
     let place = wrench.as_ref().map(|entry| entry.value.span());
@@ -88,7 +97,7 @@ fn tip(
 fn frame(reader: &mut Reader<'_>, mut table: Table<'_>) -> Option<DraftFrame> {
     let name = frame_name(reader, &mut table);
     let parent = table.require(reader, "parent", "parent = \"name of a link\"");
-    let parent = parent.and_then(|entry| named_parent(reader, &entry));
+    let parent = parent.and_then(|entry| named_parent(reader, &entry, LINK));
     let (placement, origin) = origin(reader, &mut table);
     if let Some(entry) = table.misplaced("wrench") {
         reader.report(

@@ -52,8 +52,12 @@ pub(super) fn read(
         return tensor;
     };
     let unchecked = table.get("unchecked");
-    place.unchecked = unchecked.and_then(|entry| reader.boolean(entry.value)) == Some(true);
-    tensor.inertia = entries(reader, &mut table, place.unchecked);
+    let is_given = unchecked.is_some();
+    let unchecked = unchecked.and_then(|entry| reader.boolean(entry.value));
+    place.unchecked = unchecked == Some(true);
+    // If the value is not a Boolean, it is not known which entries are required.
+    let optional = place.unchecked || (is_given && unchecked.is_none());
+    tensor.inertia = entries(reader, &mut table, optional);
     if let Some(entry) = table.get("rpy") {
         place.axes = Some(entry.value.span());
         let [roll, pitch, yaw] = reader.angle_vector(entry.value, RPY);
@@ -89,10 +93,10 @@ pub(super) fn read(
     tensor
 }
 
-/// Reads the six entries. Products of inertia default to 0; in an unchecked tensor, all entries do.
-fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> Inertia {
+/// Reads the six entries. Products of inertia default to 0; if they are `optional`, all entries do.
+fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, optional: bool) -> Inertia {
     let mut entry = |key: &'static str, needed: bool| {
-        let entry = if needed && !unchecked {
+        let entry = if needed && !optional {
             let help = format!("add `{key} = …`, or `unchecked = true` if it has no effect");
             table.require_with(reader, key, &help)
         } else {
@@ -100,7 +104,7 @@ fn entries(reader: &mut Reader<'_>, table: &mut Table<'_>, unchecked: bool) -> I
         };
         match entry {
             Some(entry) => reader.formula(entry.value, MOMENT),
-            None if needed && !unchecked => Reader::unknown(),
+            None if needed && !optional => Reader::unknown(),
             None => zero(),
         }
     };

@@ -66,18 +66,22 @@ fn parent(
     match table.get("parent") {
         Some(entry) => {
             places.parent = Some(entry.value.span());
-            named_parent(reader, &entry).unwrap_or(Parent::Base)
+            named_parent(reader, &entry, LINK).unwrap_or(Parent::Base)
         }
         None => index.checked_sub(1).map_or(Parent::Base, Parent::Link),
     }
 }
 
-/// Reads the name of a parent; what is not a name is reported.
+/// What the parent of a link, tip or frame is.
+pub(super) const LINK: &str = "the name of a link, or \"base\"";
+
+/// Reads the name of a parent; what is not a name is reported, with what is `expected`.
 pub(super) fn named_parent(
     reader: &mut Reader<'_>,
     entry: &super::table::Entry<'_>,
+    expected: &str,
 ) -> Option<Parent> {
-    let text = reader.string(entry.value, "the name of a link, or \"base\"")?;
+    let text = reader.string(entry.value, expected)?;
     Some(match text.as_ref() {
         "base" => Parent::Base,
         name => Parent::Name(Named { name: name.to_owned(), span: entry.value.span() }),

@@ -52,6 +52,7 @@ pub use locations::{
     ParameterLocation,
 };
 pub use options::{Format, Options};
+pub use range::{LARGEST, LEAST};
 pub use wanted::{Code, check_bundle_name};
 
 use std::path::Path;

@@ -18,6 +18,9 @@ use crate::unit::Unit;
 /// Parameters and their places.
 type Parameters = (Vec<Parameter>, Vec<ParameterLocation>);
 
+/// What the parent of a payload is.
+const CARRIER: &str = "the name of a moving link, of a tip or of a frame";
+
 /// Reads the table and adds the parameters of the payload. They are 0 by default: the robot carries nothing.
 pub(super) fn read(
     reader: &mut Reader<'_>,
@@ -30,7 +33,8 @@ pub(super) fn read(
     let span = entry.key.clone();
     let mut table = reader.table(entry.value, &PAYLOAD)?;
     let last = links.len().checked_sub(1).map_or(Parent::Base, Parent::Link);
-    let parent = table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry));
+    let parent =
+        table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry, CARRIER));
     table.finish(reader);
     let frame = frames
         .iter()

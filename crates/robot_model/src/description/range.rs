@@ -3,7 +3,7 @@
 //! Torques are products of masses, squared lengths and other values. Beyond these bounds such products could overflow
 //! or underflow, and the values would be meaningless for a robot.
 
-use robot_symbolic::Formula;
+use robot_symbolic::{Formula, Rational};
 
 use super::locations::{BodyLocation, LinkLocation, Locations};
 use super::reader::Reader;
@@ -12,9 +12,10 @@ use crate::diagnostic::{Diagnostic, Span, code};
 use crate::robot::{Body, Drive, Friction, Joint, JointKind, Link, Move, Placement, Robot};
 
 /// The largest magnitude of a value in SI units; for comparison, the mass of the Sun is 2e30 kg.
-const LARGEST: f64 = 1e30;
-/// The smallest value of a mass, kg, of the largest entry of a tensor, kg m², and of every other divisor.
-const LEAST: f64 = 1e-100;
+pub const LARGEST: f64 = 1e30;
+/// The smallest magnitude of a mass, kg, of the largest entry of a tensor, kg m², and of every other divisor, in SI
+/// units.
+pub const LEAST: f64 = 1e-100;
 /// The largest magnitude of an angle, rad: larger angles have fewer than ten significant digits within a turn.
 const ANGLE: f64 = 1e6;
 
@@ -24,7 +25,9 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     let of_gravity = locations.gravity.as_ref().unwrap_or(&locations.name);
     range.all(&robot.gravity, "gravity", of_gravity);
     for (link, place) in robot.links.iter().zip(&locations.links) {
-        range.link(link, place);
+        // A joint that mimics another has no limits of its own.
+        let own = robot.coordinates.iter().find(|one| one.joint == link.joint.name);
+        range.link(link, own.and_then(|one| one.limits.as_ref()), place);
     }
     for (frame, place) in robot.frames.iter().zip(&locations.frames) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
@@ -38,11 +41,11 @@ struct Range<'r, 'a> {
 }
 
 impl Range<'_, '_> {
-    fn link(&mut self, link: &Link, place: &LinkLocation) {
+    fn link(&mut self, link: &Link, limits: Option<&[Rational; 2]>, place: &LinkLocation) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
         let pose = format!("the pose of `{}`", link.name);
         self.placement(&link.placement, (&pose, at), (&pose, at));
-        self.joint(&link.joint, place);
+        self.joint(&link.joint, limits, place);
         let of_friction = place.friction.as_ref().unwrap_or(&place.joint);
         self.friction(&link.friction, &link.joint.name, of_friction);
         let Drive { armature, rotor_inertia, gear_ratio, .. } = &link.drive;
@@ -54,9 +57,12 @@ impl Range<'_, '_> {
         }
     }
 
-    fn joint(&mut self, joint: &Joint, place: &LinkLocation) {
+    fn joint(&mut self, joint: &Joint, limits: Option<&[Rational; 2]>, place: &LinkLocation) {
         let at = place.axis.as_ref().unwrap_or(&place.joint);
         self.axis(&joint.axis, &joint.name, at);
+        let limits = limits.map(|limits| limits.each_ref().map(Formula::number));
+        let of_limits = place.limits.as_ref().unwrap_or(&place.joint);
+        self.all(limits.iter().flatten(), &format!("the limits of `{}`", joint.name), of_limits);
         let what = format!("the ratio of `{}`", joint.name);
         self.all([&joint.ratio], &what, &place.joint);
         self.divisor([&joint.ratio], &what, &place.joint);

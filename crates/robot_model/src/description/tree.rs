@@ -16,8 +16,12 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
     let mut complete = true;
     let parents = links.iter_mut().map(|link| &mut link.parent);
     let parents = parents.chain(frames.iter_mut().map(|frame| &mut frame.parent));
-    for parent in parents.chain(payload.iter_mut().map(|payload| &mut payload.parent)) {
-        complete &= resolve(reader, parent, &known);
+    for parent in parents {
+        complete &= resolve(reader, parent, &known, "name a link of this file, or \"base\"");
+    }
+    if let Some(payload) = payload {
+        let help = "name a moving link of this file, a tip or a frame";
+        complete &= resolve(reader, &mut payload.parent, &known, help);
     }
     if !complete {
         return None;
@@ -70,8 +74,8 @@ fn names(reader: &mut Reader<'_>, links: &[DraftLink], frames: &[DraftFrame]) {
     }
 }
 
-/// Replaces a parent's name by its index.
-fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named]) -> bool {
+/// Replaces a parent's name by its index, or reports it with this `help`.
+fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named], help: &str) -> bool {
     let Parent::Name(name) = parent else {
         return true;
     };
@@ -85,11 +89,7 @@ fn resolve(reader: &mut Reader<'_>, parent: &mut Parent, known: &[Named]) -> boo
         Some(near) => format!("did you mean `{near}`?"),
         None => "no link has this name".to_owned(),
     };
-    reader.report(
-        Diagnostic::error(code::UNKNOWN_LINK, message)
-            .at(&name.span, label)
-            .help("name a link of this file, or \"base\""),
-    );
+    reader.report(Diagnostic::error(code::UNKNOWN_LINK, message).at(&name.span, label).help(help));
     false
 }
 

@@ -61,7 +61,13 @@ impl Reader<'_> {
         match value.get_ref() {
             DeValue::Table(keys) => Some(Table::new(keys, value.span(), shape)),
             _ => {
-                self.wrong_type(value, &format!("{} as a table `{{ … }}`", shape.what));
+                let what = shape.what;
+                let expected = match (what.starts_with('['), what.strip_suffix(" table")) {
+                    (true, _) => format!("one table {what}"),
+                    (false, Some(named)) => format!("{named} table `{{ … }}`"),
+                    (false, None) => format!("{what} as a table `{{ … }}`"),
+                };
+                self.wrong_type(value, &expected);
                 None
             }
         }

@@ -113,6 +113,7 @@ fn limits_that_are_left_out_are_noted() {
         (r#"<limit upper="1"/>"#, true, "has no lower limit; URDF's default is 0"),
         (r#"<limit lower="-1"/>"#, true, "has no upper limit; URDF's default is 0"),
         (r#"<limit lower="-1" upper="1"/>"#, true, ""),
+        (r#"<limit lower="-inf" upper="inf"/>"#, false, ""),
     ] {
         let joint = |kind: &str| format!(r#"type="{kind}"><axis xyz="0 0 1"/>{limit}"#);
         for kind in ["revolute", "prismatic", "continuous"] {
@@ -123,6 +124,29 @@ fn limits_that_are_left_out_are_noted() {
             assert_eq!(has_limits, limits && kind != "continuous", "{limit} {kind}");
         }
     }
+}
+
+#[test]
+fn limits_that_are_no_range_name_the_remedy() {
+    let of = |limit: &str| {
+        chain([&*format!(r#"type="revolute"><axis xyz="0 0 1"/><limit {limit}/>"#); 3])
+    };
+    let half = crate::read(&of(r#"lower="-1" upper="inf""#));
+    assert!(half.robot.coordinates[0].limits.is_none());
+    assert!(
+        has(&half.choices, "R0706", "one limit of the joint `j1` is infinite"),
+        "{:?}",
+        half.choices
+    );
+    for (limit, help) in [
+        (r#"upper="-1""#, "add `lower`; URDF's default is 0"),
+        (r#"lower="1""#, "add `upper`; URDF's default is 0"),
+        (r#"lower="1" upper="-1""#, "swap them"),
+    ] {
+        assert!(has(&errors(&of(limit)), "R0404", help), "{limit}");
+    }
+    let far = errors(&of(r#"lower="-1" upper="1e308""#));
+    assert!(has(&far, "R0301", "the limits of `j1` contains a value of 1e308"), "{far}");
 }
 
 #[test]

@@ -19,6 +19,10 @@ pub fn wrong_header(header: &str) -> Option<String> {
         let message = "the first line is a comment, which CSV does not have; remove it, so that the header is first";
         return Some(message.to_owned());
     }
+    if header.to_ascii_lowercase().starts_with("sep=") {
+        let message = "the first line names a separator, as Excel writes it; remove it, so that the header is first";
+        return Some(message.to_owned());
+    }
     if is_unclosed(header) {
         return Some("a quote in the header is not closed; close or remove it".to_owned());
     }

@@ -44,7 +44,11 @@ const CLOSE: f64 = 1e-6;
 fn hint(comparison: &Comparison) -> String {
     let is_close = |difference: &&Difference| {
         let [mistake] = difference.mistakes.as_slice() else { return false };
-        let number = |text: &Option<String>| text.as_ref()?.parse::<f64>().ok();
+        let number = |text: &Option<String>| {
+            let text = text.as_ref()?;
+            let (above, below) = text.split_once('/').unwrap_or((text, "1"));
+            Some(above.parse::<f64>().ok()? / below.parse::<f64>().ok()?)
+        };
         let pair = number(&mistake.printed).zip(number(&mistake.derived));
         mistake.kind == MistakeKind::Coefficient
             && pair
@@ -84,7 +88,7 @@ fn mistakes(difference: &Difference) -> String {
     mistakes.join(", ")
 }
 
-/// Prints a summary such as `85 equations (10 only name a quantity), 839 terms: 34 terms differ (23 dot, 8 index, …)`.
+/// Prints a summary such as `85 equations (10 only name other quantities), 839 terms: 34 terms differ (23 dot, 8 index, …)`.
 pub(super) fn summary(comparison: &Comparison) -> String {
     let Comparison { equations, names, terms, wrench, rounded, differences } = comparison;
     let mut kinds: BTreeMap<MistakeKind, usize> = BTreeMap::new();
@@ -171,6 +175,7 @@ mod tests {
         let differences = vec![
             one("0.01194004998", "0.01194004998333631"),
             one("-0.005970024992", "-0.005970024991668155"),
+            one("2.080734686", "20618/9909"),
             one("1.00001", "1"),
             one("1", "-1"),
             difference("", MistakeKind::Index),
@@ -184,7 +189,7 @@ mod tests {
             differences,
         };
         let shown = text(&comparison(differences));
-        assert!(shown.contains("\nnote: 2 of these differ by less than a millionth"), "{shown}");
+        assert!(shown.contains("\nnote: 3 of these differ by less than a millionth"), "{shown}");
         let shown = text(&comparison(vec![difference("", MistakeKind::Index)]));
         assert!(!shown.contains("note"), "{shown}");
     }

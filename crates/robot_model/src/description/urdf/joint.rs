@@ -206,11 +206,12 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
     moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
     let limit = element.child(reader, "limit");
     if has_limits && moving.mimic.is_none() {
-        complete(reader, element, limit.as_ref());
+        unlimited(reader, element, limit.as_ref());
     }
     if let Some(limit) = limit {
         if has_limits {
-            (moving.limits, moving.of_limits) = limits(reader, &limit, element);
+            let mimics = moving.mimic.is_some();
+            (moving.limits, moving.of_limits) = limits(reader, &limit, element, mimics);
         }
         moving.unread = unread(reader, &limit);
     }
@@ -285,61 +286,63 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Notes which limits of a joint are left out, although URDF requires `<limit>` for the type of joint.
-fn complete(reader: &mut Reader<'_>, joint: &Element<'_, '_>, limit: Option<&Element<'_, '_>>) {
+/// Notes that a joint has no limits, although URDF requires `<limit>` for its type.
+fn unlimited(reader: &mut Reader<'_>, joint: &Element<'_, '_>, limit: Option<&Element<'_, '_>>) {
     let name = quote(written_name(joint));
-    let missing =
-        ["lower", "upper"].map(|name| limit.is_none_or(|limit| limit.attribute(name).is_none()));
-    let (message, label) = match (limit, missing) {
-        (None, _) => (
+    let (message, label) = match limit {
+        None => (
             format!("the joint `{name}` has no `<limit>`, which URDF requires; it has no limits"),
             "`<limit>` is missing",
         ),
-        (_, [true, true]) => (
+        Some(limit) if ["lower", "upper"].iter().all(|one| limit.attribute(one).is_none()) => (
             format!("the joint `{name}` has neither a lower nor an upper limit; it has no limits"),
             "`lower` and `upper` are missing",
         ),
-        (_, [true, false]) => (
-            format!("the joint `{name}` has no lower limit; URDF's default is 0"),
-            "`lower` is missing",
-        ),
-        (_, [false, true]) => (
-            format!("the joint `{name}` has no upper limit; URDF's default is 0"),
-            "`upper` is missing",
-        ),
-        (_, [false, false]) => return,
+        Some(_) => return,
     };
     let place = limit.unwrap_or(joint).tag();
     reader.report(Diagnostic::note(code::TAKEN_DEFAULT, message).at(&place, label));
 }
 
-/// Reads the lower and upper limits. As URDF specifies, a limit that is left out is 0. `None` if both are equal.
+/// Reads the lower and upper limits. As URDF specifies, a limit that is left out is 0, which is noted unless the joint
+/// `mimics` another. `None` if both are equal.
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,
     joint: &Element<'_, '_>,
+    mimics: bool,
 ) -> (Option<[Rational; 2]>, Option<Span>) {
     let attributes = [element.attribute("lower"), element.attribute("upper")];
     if attributes.iter().all(Option::is_none) {
         return (None, None);
     }
+    let name = quote(written_name(joint));
     // Some files express the absence of limits by infinite ones.
-    let infinite = |attribute: &Option<Attribute<'_>>| {
-        attribute.as_ref().is_some_and(|attribute| {
-            let text = attribute.text.trim().trim_start_matches(['+', '-']);
-            text.eq_ignore_ascii_case("inf") || text.eq_ignore_ascii_case("infinity")
-        })
-    };
-    if attributes.iter().any(infinite) {
-        return (None, None);
+    let [lower, upper] = attributes.each_ref();
+    match [infinite(lower) == Some('-'), infinite(upper) == Some('+')] {
+        [true, true] => return (None, None),
+        [false, false] => {}
+        _ => {
+            let message =
+                format!("one limit of the joint `{name}` is infinite, so it has no limits");
+            let label = "the other limit is ignored";
+            reader.report(Diagnostic::note(code::LEFT_OUT, message).at(&element.span(), label));
+            return (None, None);
+        }
     }
-    let mut limit = |attribute: &Option<Attribute<'_>>| match attribute {
+    let mut limit = |(attribute, what): (&Option<Attribute<'_>>, &str)| match attribute {
         Some(attribute) => {
             numbers::<1>(reader, attribute, "a limit", "1.57").map(|[number]| number)
         }
-        None => Some(Rational::ZERO),
+        None if mimics => Some(Rational::ZERO),
+        None => {
+            let message = format!("the joint `{name}` has no {what} limit; URDF's default is 0");
+            let note = Diagnostic::note(code::TAKEN_DEFAULT, message);
+            reader.report(note.at(&element.tag(), format!("`{what}` is missing")));
+            Some(Rational::ZERO)
+        }
     };
-    let [Some(lower), Some(upper)] = attributes.each_ref().map(&mut limit) else {
+    let [Some(lower), Some(upper)] = [(lower, "lower"), (upper, "upper")].map(&mut limit) else {
         return (None, None);
     };
     let span = element.span();
@@ -347,17 +350,27 @@ fn limits(
         return (Some([lower, upper]), Some(span));
     }
     let equal = lower == upper;
-    let name = written_name(joint);
     reader.report(if equal {
-        let message =
-            format!("the limits of joint `{}` leave no room to move and are ignored", quote(name));
+        let message = format!("the limits of joint `{name}` leave no room to move and are ignored");
         Diagnostic::note(code::LEFT_OUT, message).at(&span, "lower and upper limit are equal")
     } else {
         Diagnostic::error(code::LIMITS, "the lower limit is not below the upper limit")
             .at(&span, "")
-            .help("swap them, or write \"continuous\" for a joint without limits")
+            .help(match attributes.iter().position(Option::is_none) {
+                Some(0) => "add `lower`; URDF's default is 0",
+                Some(_) => "add `upper`; URDF's default is 0",
+                None => "swap them, or write \"continuous\" for a joint without limits",
+            })
     });
     (None, None)
+}
+
+/// The sign of an infinite number; `None` for other values.
+fn infinite(attribute: &Option<Attribute<'_>>) -> Option<char> {
+    let text = attribute.as_ref()?.text.trim().to_ascii_lowercase();
+    let sign = if text.starts_with('-') { '-' } else { '+' };
+    let unsigned = text.trim_start_matches(['+', '-']);
+    ["inf", "infinity"].contains(&unsigned).then_some(sign)
 }
 
 fn follows<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>) -> Option<UrdfMimic<'a>> {

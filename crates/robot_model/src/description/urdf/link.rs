@@ -95,7 +95,9 @@ fn mass(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<(Formula, 
 /// Reads the tensor. The products of inertia in URDF are entries of the tensor, as in this project.
 fn tensor(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Inertia> {
     let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
-    let attributes = names.map(|name| element.require(reader, name, "0"));
+    let is_moment = |name: &str| ["ixx", "iyy", "izz"].contains(&name);
+    let example = |name| if is_moment(name) { "0.01" } else { "0" };
+    let attributes = names.map(|name| element.require(reader, name, example(name)));
     let mut entry = |attribute: &Option<Attribute<'_>>| {
         let [entry] = formulas::<1>(reader, attribute.as_ref()?, "a moment of inertia", "0.01")?;
         Some(entry)

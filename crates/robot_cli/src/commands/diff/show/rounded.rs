@@ -91,7 +91,7 @@ fn value(word: &str, digits: usize) -> Option<f64> {
     let mantissa = word.split_once("e-").map_or(word, |(mantissa, _)| mantissa);
     let value = exact_value(word).filter(|_| is_number(mantissa))?.to_f64();
     let rounded = format!("{value:.*e}", digits - 1).parse::<f64>().ok()?;
-    value.is_normal().then_some(rounded)
+    (value != 0.0 && value.is_finite()).then_some(rounded)
 }
 
 /// A very long number as the other one plus or minus the change; `None` if none is so long, or if the texts are not
