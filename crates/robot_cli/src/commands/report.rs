@@ -72,6 +72,8 @@ impl Arguments {
             let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
             if let Some(path) = self.output.file()
                 && path.extension().is_some_and(is_other)
+                // Inputs have a message of their own.
+                && !inputs.iter().any(|input| input == path)
             {
                 let html = shown(&path.with_extension("html"));
                 let message = format!("a report is an HTML page; name the file {html}");
