@@ -73,7 +73,7 @@ impl Arguments {
             if let Some(path) = self.output.file()
                 && path.extension().is_some_and(is_other)
                 // Inputs have a message of their own.
-                && !inputs.iter().any(|input| input == path)
+                && !inputs.iter().any(|input| same_file(input, path))
             {
                 let html = shown(&path.with_extension("html"));
                 let message = format!("a report is an HTML page; name the file {html}");
@@ -129,6 +129,12 @@ fn show(path: &Path) -> Result<(), Failure> {
         let wanted = "the page is written, but the system has no program that shows it";
         Failure::input(format!("{wanted}; open {file} in a browser"))
     })
+}
+
+/// Whether both paths are those of one existing file.
+fn same_file(one: &Path, other: &Path) -> bool {
+    let [one, other] = [one, other].map(|path| path.canonicalize().ok());
+    one.is_some() && one == other
 }
 
 /// Compares the programs with the numeric solver; returns the largest deviations.
