@@ -33,6 +33,8 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+        let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
+        // An input with such a name is reported as an input.
         if let Some(path) = self.output.file()
             && path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"))
         {
@@ -40,7 +42,6 @@ impl Arguments {
             let message = format!("a robot file is TOML; name the file {toml}");
             return Err(Failure::Usage(vec![message]));
         }
-        let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
         let source = RobotFile::read(&self.file)?.source;
         let options = Options { friction: self.friction, ..self.reading.options().reading() };
         let import =

@@ -67,19 +67,10 @@ impl Arguments {
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
-            let others =
-                ["pdf", "png", "svg", "md", "tex", "typ", "txt", "csv", "json", "urdf", "plan"];
-            let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
-            if let Some(path) = self.output.file()
-                && path.extension().is_some_and(is_other)
-                // Inputs have a message of their own.
-                && !inputs.iter().any(|input| same_file(input, path))
-            {
-                let html = shown(&path.with_extension("html"));
-                let message = format!("a report is an HTML page; name the file {html}");
-                return Err(Failure::Usage(vec![message]));
-            }
+            self.check_ending(&["pdf", "png", "svg", "md", "tex", "typ"])?;
             let output = self.output.open(inputs)?;
+            // An input with such a name is reported as an input.
+            self.check_ending(&["txt", "csv", "json", "urdf", "plan"])?;
             if self.open && output.path().is_none() {
                 let message = "--open shows a file, and `-` is standard output; name a file";
                 return Err(Failure::Usage(vec![message.to_owned()]));
@@ -100,6 +91,19 @@ impl Arguments {
             return Err(Failure::Usage(vec![message]));
         }
         self.output.open(inputs)
+    }
+
+    /// Checks that the name of the page does not end as that of another kind of file.
+    fn check_ending(&self, others: &[&str]) -> Result<(), Failure> {
+        let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
+        match self.output.file().filter(|path| path.extension().is_some_and(is_other)) {
+            None => Ok(()),
+            Some(path) => {
+                let html = shown(&path.with_extension("html"));
+                let message = format!("a report is an HTML page; name the file {html}");
+                Err(Failure::Usage(vec![message]))
+            }
+        }
     }
 
     fn page(&self, source: &Source, options: &Options) -> Result<String, Failure> {
@@ -129,12 +133,6 @@ fn show(path: &Path) -> Result<(), Failure> {
         let wanted = "the page is written, but the system has no program that shows it";
         Failure::input(format!("{wanted}; open {file} in a browser"))
     })
-}
-
-/// Whether both paths are those of one existing file.
-fn same_file(one: &Path, other: &Path) -> bool {
-    let [one, other] = [one, other].map(|path| path.canonicalize().ok());
-    one.is_some() && one == other
 }
 
 /// Compares the programs with the numeric solver; returns the largest deviations.
