@@ -152,7 +152,7 @@ fn inward<'g>(
     }
     for (index, link) in mechanism.links.iter().enumerate().rev() {
         let motion = &motions[index];
-        // (26) and (36): the wrenches of the children and the tips, and the link's own contribution.
+        // (26) and (36): the wrenches of the children and the tips, and the wrench that the link's own motion requires.
         let own = LinkWrench {
             force: motion.force,
             moment: motion.moment + link.center_of_mass.cross(motion.force),

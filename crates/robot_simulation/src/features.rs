@@ -17,7 +17,7 @@ const PARTS: usize = 16;
 /// The smallest second difference of the values of a pulse at three successive times, as a fraction of the largest value.
 /// That of a pulse of a hundredth of the largest value that lasts for a hundred of these times is twice as large.
 const SECOND_DIFFERENCE: f64 = 1e-6;
-/// The length of pulses with about this second difference, in units of the distance between the examined times.
+/// The length of pulses with about the second difference [`SECOND_DIFFERENCE`], in units of the distance between the examined times.
 const REACH: f64 = 100.0;
 /// The factor by which examined times are farther apart in the search for longer pulses.
 const STRIDE: usize = 32;

@@ -99,7 +99,7 @@ fn introduction(found: &BaseParameters<'_>) -> String {
 const MOMENTS: &str = "In the names of base parameters, SXX is the second moment ∫ x² dm of a \
     link, SXY is ∫ x y dm and so on, and MX, MY, MZ are the first moments, in Denavit-Hartenberg \
     frames: z is the joint axis, and the origin is the point where the common normal with the \
-    parent's joint axis meets it; a D marks a parameter that differs from the file's parameter \
+    parent's joint axis meets it if both joints are revolute, and otherwise the file's origin; a D marks a parameter that differs from the file's parameter \
     of the same name.";
 
 /// The explanation of the name of a friction that is the same in both directions.
@@ -407,7 +407,7 @@ mod tests {
         all.map(|equation| format!("{} = {}", equation.name, equation.text)).collect()
     }
 
-    /// Lengths that cancel each other at their values in the file are no loss of digits.
+    /// If lengths cancel each other at their values in the file, no digits are lost.
     #[test]
     fn nominal_values_may_cancel() {
         let text = r#"

@@ -33,7 +33,7 @@ pub struct PageOptions {
     pub layout: Layout,
     /// Whether equations are numbered.
     pub numbered: bool,
-    /// Whether the page contains the font of its equations, about 70 kB; otherwise browsers use an installed one.
+    /// Whether the page contains the font of its equations, 64 kB; otherwise browsers use an installed one.
     pub has_font: bool,
 }
 

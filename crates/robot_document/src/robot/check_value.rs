@@ -27,7 +27,7 @@ pub struct CheckValue {
 /// The check value as a table.
 pub(super) fn blocks(
     value: &CheckValue,
-    has_tip: bool,
+    tips: usize,
     symbols: &SymbolTable,
     letters: &Letters,
 ) -> Vec<Block> {
@@ -56,10 +56,13 @@ pub(super) fn blocks(
              forces. They were computed by a numeric solver, not from the equations.",
         ),
     ];
-    if has_tip {
+    if tips > 0 {
         let [fx, fy, fz, mx, my, mz] = wrench.map(numbers::signed);
         blocks.push(Block::Paragraph(vec![
-            Inline::text("Each tip exerts the force "),
+            Inline::text(format!(
+                "{} exerts the force ",
+                if tips == 1 { "The tip" } else { "Each tip" }
+            )),
             Inline::Math(numbers::vector(&[fx, fy, fz])),
             Inline::text(" N and the moment "),
             Inline::Math(numbers::vector(&[mx, my, mz])),

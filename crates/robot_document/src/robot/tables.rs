@@ -4,7 +4,8 @@ use robot_dynamics::mechanism::{Mechanism, MechanismLink, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Payload, Placement, Robot};
 use robot_symbolic::print::{exact_text, to_text};
 use robot_symbolic::{
-    AngleSums, Expr, Formula, Graph, Number, Polynomial, PolynomialOptions, Rational, walk,
+    AngleSums, Expr, Formula, Function, Graph, Number, Polynomial, PolynomialOptions, Rational,
+    View, walk,
 };
 
 use super::{dh, drives, heading, numbers, paragraph};
@@ -202,14 +203,26 @@ impl Values<'_> {
             return Ok(numbers::rounded(value.evaluate(|_| f64::NAN)));
         }
         let nested = tidied(&self.symbols.expression(value)?, None);
-        if width(&nested) <= WIDE {
+        let is_narrow = width(&nested) <= WIDE;
+        if is_narrow && !has_roots(value) {
             return Ok(nested);
         }
         let Ok(sum) = Polynomial::of(value, &SUM) else { return Ok(nested) };
         let exact = self.symbols.polynomial(&sum, &self.order)?;
+        let sum = tidied(&exact, Some(numbers::DIGITS));
+        // Multiplied out, products of roots are numbers.
+        if is_narrow && width(&sum) >= width(&nested) {
+            return Ok(nested);
+        }
         self.are_rounded |= has_longer(&exact, numbers::DIGITS);
-        Ok(tidied(&exact, Some(numbers::DIGITS)))
+        Ok(sum)
     }
+}
+
+/// Whether an expression contains roots of numbers, as the sines of π/4 and π/6 do.
+fn has_roots(value: Expr<'_>) -> bool {
+    let is_root = |part: &Expr<'_>| matches!(part.view(), View::Call(Function::Sqrt, argument) if argument.as_number().is_some());
+    walk::reachable(&[value]).iter().any(is_root)
 }
 
 /// The largest denominator of a number that people write as a fraction.

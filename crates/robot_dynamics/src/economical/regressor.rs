@@ -165,8 +165,8 @@ pub(crate) fn unit_rotor<'g>(
     (axis.dot(epsilon), axis * acceleration + omega.cross(axis) * velocity)
 }
 
-/// The contributions to the joint torques of the rotors and of the links' inertial parameters about the origins and in
-/// the axes of their frames. `None` if a joint axis depends on parameters.
+/// The contributions of the rotors and of the links' inertial parameters to the joint torques; the parameters are about
+/// the origins and in the axes of the links' frames. `None` if a joint axis depends on parameters.
 pub(crate) fn regressor<'g>(
     mechanism: &Mechanism<'g>,
     moments: Moments,

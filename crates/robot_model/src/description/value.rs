@@ -219,7 +219,7 @@ impl Reader<'_> {
                 }
                 _ => (
                     "outside the range of floating-point numbers",
-                    "magnitudes must be between 5e-324 and 1.7e308, with an exponent between -400 and 400",
+                    "magnitudes must be between 5e-324 and 1.79e308, with an exponent between -400 and 400",
                 ),
             };
             self.report(

@@ -130,8 +130,8 @@ functions! {
     /// The poses of the named frames from q.
     FramePoses = Declaration::of_motions("frame_poses", POSITION)
         .with_result("the same for the named frames");
-    /// The Jacobian from q: one function for each named frame, or, if the robot has no named frame, for the last link
-    /// of each branch.
+    /// The Jacobian from q: one function for each named frame, or, if the robot has no named frame, for each link
+    /// without children.
     Jacobian = Declaration::of_motions("jacobian", POSITION)
         .with_result("J (6 × n) of each frame");
     /// The Jacobian of one frame from q.

@@ -34,7 +34,7 @@ impl FrameRef {
     }
 
     /// The frames for which a kind of function is generated if no frame is specified: the named frames or, if there are
-    /// none, the frames of the last link of each branch.
+    /// none, the frames of the links without children.
     #[must_use]
     pub fn usual(robot: &Robot) -> Vec<FrameRef> {
         if !robot.frames.is_empty() {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::screen::{ADDED, CHANGED, REMOVED, TITLE, styled_lines};
 
-/// Prints a paragraph for each difference, and a summary.
+/// A paragraph for each difference, a summary, and a note on coefficients that are close.
 pub(super) fn text(comparison: &Comparison) -> String {
     let mut shown = String::new();
     for difference in &comparison.differences {

@@ -127,7 +127,7 @@ fn wrong(word: &str, place: &Span) -> Diagnostic {
     } else if is_number(without_exponent(word)) {
         (
             format!("`{shown}` is outside the range of floating-point numbers"),
-            "magnitudes must be between 5e-324 and 1.7e308, with an exponent between -400 and 400",
+            "magnitudes must be between 5e-324 and 1.79e308, with an exponent between -400 and 400",
         )
     } else {
         (

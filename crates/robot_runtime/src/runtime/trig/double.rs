@@ -27,7 +27,7 @@ use super::super::number::Number;
 /// The limit below which the absolute value of angles must be, in rad.
 pub const LIMIT: f64 = 1073741824.0;
 
-/// 1.5 · 2⁵²: if it is added to a smaller number, the low bits of the sum are the nearest integer.
+/// 1.5 · 2⁵²: if it is added to a number of at most 2⁵¹ in magnitude, the low bits of the sum are the nearest integer.
 pub const SHIFT: f64 = 6755399441055744.0;
 
 /// Parts of π/2; each is the rounded remainder after the parts before it.
