@@ -79,7 +79,9 @@ pub(super) fn read(
 }
 
 fn mass_missing(link: &str) -> Diagnostic {
-    Diagnostic::error(code::MISSING_KEY, format!("the link `{link}` has no mass"))
+    // The name can be missing or invalid, which is another error.
+    let link = if link.is_empty() { "a link".to_owned() } else { format!("the link `{link}`") };
+    Diagnostic::error(code::MISSING_KEY, format!("{link} has no mass"))
         .because("a massless link silently drops out of the equations")
         .help("add `mass`, or write `massless = true` if the link is meant to be massless")
 }
