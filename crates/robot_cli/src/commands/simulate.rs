@@ -193,8 +193,9 @@ fn summary(motion: &Motion, energies: &Energies) -> String {
         None => String::new(),
     };
     format!(
-        "{end} s in {} steps, {} lines; energy from {before} J to {after} J{drift}",
+        "{end} s in {} step{}, {} lines; energy from {before} J to {after} J{drift}",
         motion.steps,
+        if motion.steps == 1 { "" } else { "s" },
         motion.t.len()
     )
 }

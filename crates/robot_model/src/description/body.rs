@@ -47,7 +47,8 @@ pub(super) fn read(
     });
     let present = mass.is_some();
     let others = ["center_of_mass", "inertia"].map(|key| table.has(key));
-    if !present && !is_massless && (moving || others.contains(&true)) {
+    let is_missing = !present && !is_massless && !table.misspells(reader, "mass");
+    if is_missing && (moving || others.contains(&true)) {
         let missing = mass_missing(&name.name).at(&table.span, "`mass` is missing");
         reader.report(missing.graded(reader.options.massless()));
     }

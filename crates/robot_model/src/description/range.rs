@@ -62,7 +62,7 @@ impl Range<'_, '_> {
         self.axis(&joint.axis, &joint.name, at);
         let limits = limits.map(|limits| limits.each_ref().map(Formula::number));
         let of_limits = place.limits.as_ref().unwrap_or(&place.joint);
-        self.all(limits.iter().flatten(), &format!("the limits of `{}`", joint.name), of_limits);
+        self.all(limits.iter().flatten(), &format!("a limit of `{}`", joint.name), of_limits);
         let what = format!("the ratio of `{}`", joint.name);
         self.all([&joint.ratio], &what, &place.joint);
         self.divisor([&joint.ratio], &what, &place.joint);

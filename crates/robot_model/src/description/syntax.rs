@@ -49,7 +49,26 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         diagnostic.help = help.map(str::to_owned);
         found.push(diagnostic);
     }
+    if found.len() > 1 && !is_robot_file(text) {
+        let message = "the text is not a robot file";
+        let place = errors.iter().find_map(toml::de::Error::span).unwrap_or(end..end);
+        found = vec![
+            Diagnostic::error(code::SYNTAX, message)
+                .at(&place, "neither TOML nor XML")
+                .because("it has neither `format = 1` nor a table such as `[robot]`")
+                .help("check which file is meant; a robot file is TOML or URDF"),
+        ];
+    }
     (table, found)
+}
+
+/// Whether a text with errors has the marks of a robot file in TOML, or explains itself, as JSON does.
+fn is_robot_file(text: &str) -> bool {
+    let is_mark = |line: &str| {
+        let key = line.split_once('=').map(|(key, _)| key.trim());
+        line.starts_with('[') || key == Some("format")
+    };
+    text.trim_start().starts_with('{') || text.lines().map(str::trim_start).any(is_mark)
 }
 
 /// The text from the start of the line that contains the byte.
@@ -129,6 +148,10 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
         )
     } else if found.contains(is_hidden) {
         Some("remove the invisible character")
+    } else if found.starts_with(['“', '”', '„', '«', '‘', '’']) {
+        Some("write straight quotes, as in name = \"arm\"")
+    } else if starts("invalid unquoted key") || message.contains("expected letters") {
+        Some("a key consists of ASCII letters, digits, `-` and `_`")
     } else if starts("carriage return must") {
         Some(
             "save the file with line feeds at the ends of its lines; it has carriage returns alone",

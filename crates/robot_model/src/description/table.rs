@@ -54,6 +54,17 @@ impl<'a> Table<'a> {
         self.keys.contains_key(key)
     }
 
+    /// Whether the table has an unknown key in place of this one, such as `masss`, which is reported as an unknown key.
+    pub(super) fn misspells(&self, reader: &Reader<'_>, key: &str) -> bool {
+        let absent = self.shape.keys.iter().map(|known| known.name).filter(|name| !self.has(name));
+        let absent: Vec<&str> = absent.collect();
+        self.keys.iter().any(|(written, _)| {
+            let written = written.get_ref().as_ref();
+            let is_unknown = self.shape.key(written).is_none();
+            is_unknown && reader.nearest(written, absent.iter().copied()) == Some(key)
+        })
+    }
+
     /// The value of a required key. `example` is the line to add if it is missing.
     pub(super) fn require(
         &mut self,
@@ -77,7 +88,7 @@ impl<'a> Table<'a> {
             self.shape.what
         );
         let entry = self.get(key);
-        if entry.is_none() {
+        if entry.is_none() && !self.misspells(reader, key) {
             reader.report(
                 Diagnostic::error(
                     code::MISSING_KEY,

@@ -146,7 +146,7 @@ fn limits_that_are_no_range_name_the_remedy() {
         assert!(has(&errors(&of(limit)), "R0404", help), "{limit}");
     }
     let far = errors(&of(r#"lower="-1" upper="1e308""#));
-    assert!(has(&far, "R0301", "the limits of `j1` contains a value of 1e308"), "{far}");
+    assert!(has(&far, "R0301", "a limit of `j1` contains a value of 1e308"), "{far}");
 }
 
 #[test]

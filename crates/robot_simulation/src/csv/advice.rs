@@ -3,6 +3,8 @@
 use robot_model::diagnostic::quote;
 use robot_symbolic::is_below_range;
 
+use super::cells;
+
 /// Separators of other formats, with their names.
 const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
 
@@ -21,6 +23,10 @@ pub fn wrong_header(header: &str) -> Option<String> {
     }
     if header.to_ascii_lowercase().starts_with("sep=") {
         let message = "the first line names a separator, as Excel writes it; remove it, so that the header is first";
+        return Some(message.to_owned());
+    }
+    if cells(header).iter().all(|cell| cell.parse::<f64>().is_ok()) {
+        let message = "the first line has numbers instead of names; add a header, the line with the names of the columns";
         return Some(message.to_owned());
     }
     if is_unclosed(header) {

@@ -161,6 +161,10 @@ impl Parser<'_> {
                     format!("write an angle in degrees as `{angle}*pi/180`")
                 } else if before == ")" {
                     format!("write a product as `(…)*{after}{dots}`")
+                } else if before.starts_with(|first: char| first.is_ascii_digit())
+                    && after.chars().all(char::is_alphabetic)
+                {
+                    format!("write a product as `{before}*{after}`; if `{after}` is a unit, leave it out")
                 } else {
                     format!("write a product as `{before}*{after}{dots}`")
                 }))

@@ -165,12 +165,12 @@ fn torques(found: &Torques) -> String {
         };
         let decimals = decimals(b - a);
         let State { q, qd, qdd } = state;
-        let list = |values: &[f64]| {
-            values.iter().map(|value| format!("{value:.3}")).collect::<Vec<_>>().join(", ")
-        };
+        let list =
+            |values: &[f64]| values.iter().copied().map(position).collect::<Vec<_>>().join(", ");
+        let [low, high] = [*low, *high].map(position);
         let _ = writeln!(
             shown,
-            "  joint {joint}, {low:.3} to {high:.3} {length}: {} {unit}, {a:.decimals$} -> {b:.decimals$}\n    \
+            "  joint {joint}, {low} to {high} {length}: {} {unit}, {a:.decimals$} -> {b:.decimals$}\n    \
              at q = ({}), qd = ({}), qdd = ({})",
             changed(b - a),
             list(q),
@@ -179,6 +179,11 @@ fn torques(found: &Torques) -> String {
         );
     }
     shown
+}
+
+/// A position, velocity or acceleration with three decimals, or with a power of ten if it is large.
+fn position(value: f64) -> String {
+    if value.abs() < 1e6 { format!("{value:.3}") } else { format!("{value:.3e}") }
 }
 
 /// The number of decimals with which torques are shown so that their difference is visible.
