@@ -27,7 +27,7 @@ pub struct CheckValue {
 /// The check value as a table.
 pub(super) fn blocks(
     value: &CheckValue,
-    tips: usize,
+    has_tip: bool,
     symbols: &SymbolTable,
     letters: &Letters,
 ) -> Vec<Block> {
@@ -56,13 +56,10 @@ pub(super) fn blocks(
              forces. They were computed by a numeric solver, not from the equations.",
         ),
     ];
-    if tips > 0 {
+    if has_tip {
         let [fx, fy, fz, mx, my, mz] = wrench.map(numbers::signed);
         blocks.push(Block::Paragraph(vec![
-            Inline::text(format!(
-                "{} exerts the force ",
-                if tips == 1 { "The tip" } else { "Each tip" }
-            )),
+            Inline::text("Each tip exerts the force "),
             Inline::Math(numbers::vector(&[fx, fy, fz])),
             Inline::text(" N and the moment "),
             Inline::Math(numbers::vector(&[mx, my, mz])),

@@ -86,8 +86,8 @@ pub fn document(
     }
     blocks.extend(symbols::blocks(robot, &parts, (&blocks, masses), &options.letters));
     if let Some(check) = extras.check {
-        let tips = robot.tips().count();
-        blocks.extend(check_value::blocks(check, tips, &first.symbols, &options.letters));
+        let has_tip = robot.tips().next().is_some();
+        blocks.extend(check_value::blocks(check, has_tip, &first.symbols, &options.letters));
     }
     Ok(Document { title, blocks })
 }
