@@ -87,14 +87,8 @@ impl Compiler {
 
     /// Compiles a crate and returns the object file.
     pub(crate) fn compile(&self, probe: &Probe, profile: Profile) -> Result<Vec<u8>, Error> {
-        let folder = Folder::new()?;
-        for file in &probe.files {
-            let path = folder.path().join(&file.path);
-            if let Some(parent) = path.parent() {
-                std::fs::create_dir_all(parent)?;
-            }
-            std::fs::write(path, file.contents.bytes())?;
-        }
+        let folder = Folder::new(&probe.files)?;
+        let object = folder.path().join(CRATE).with_extension("o");
         let mut command = Command::new(self.path());
         // The compiler's own temporary files are removed with the folder.
         for variable in ["TMPDIR", "TMP", "TEMP"] {
@@ -117,14 +111,15 @@ impl Compiler {
         if let Some(cpu) = &self.cpu {
             command.arg(format!("-Ctarget-cpu={cpu}"));
         }
-        command.args(["--emit=obj", "--out-dir"]).arg(folder.path());
+        // `--out-dir` would create the folder again if a signal has removed it.
+        command.args(["--emit=obj", "-o"]).arg(&object);
         let output = self.run(command.arg(folder.path().join(ROOT_FILE)))?;
         // The compiler can ignore a processor that it does not know.
         let is_ignored = String::from_utf8_lossy(&output.stderr).contains(UNKNOWN_CPU);
         if !output.status.success() || is_ignored {
             return Err(self.refused(&output, folder.path()));
         }
-        Ok(std::fs::read(folder.path().join(CRATE).with_extension("o"))?)
+        Ok(std::fs::read(object)?)
     }
 
     /// Whether the functions are compiled for several processors, as is the default on x86-64.
