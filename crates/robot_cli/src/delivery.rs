@@ -1,6 +1,7 @@
 //! Files that commands write, and the check that they are up to date.
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -75,6 +76,12 @@ impl OutputArguments {
     /// The file that is given, if there is one.
     pub(crate) fn file(&self) -> Option<&PathBuf> {
         self.output.as_ref().filter(|path| file_of(Some(path)).is_some())
+    }
+
+    /// The file that is given, if its name has one of these endings.
+    pub(crate) fn file_ending_in(&self, endings: &[&str]) -> Option<&PathBuf> {
+        let has = |end: &OsStr| endings.iter().any(|ending| end.eq_ignore_ascii_case(ending));
+        self.file().filter(|path| path.extension().is_some_and(has))
     }
 
     /// Whether neither a file nor standard output is given.

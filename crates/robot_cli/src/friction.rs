@@ -19,10 +19,10 @@ pub(crate) fn has_friction(file: &str, robot: &Robot) -> Result<(), Failure> {
 }
 
 /// Parses the width of a smooth sign function, whose magnitude is in the range of robot files.
-fn width(text: &str) -> Result<f64, String> {
+fn width(text: &str) -> Result<Formula, String> {
     let width = values::number(text)?;
     match (LEAST..=LARGEST).contains(&width) {
-        true => Ok(width),
+        true => Formula::parse(&width.to_string()).map_err(|error| error.message),
         false => Err(format!(
             "it is {}; it must be a positive velocity from {LEAST:e} to {LARGEST:e}",
             number(width)
@@ -38,7 +38,7 @@ pub(crate) struct FrictionArguments {
     friction: bool,
     /// Smooth Coulomb friction without a `smoothing`: replace sign(qd) with tanh(qd / WIDTH), rad/s or m/s
     #[arg(long, value_name = "WIDTH", requires = "friction", allow_hyphen_values = true, value_parser = width)]
-    smoothing: Option<f64>,
+    smoothing: Option<Formula>,
 }
 
 impl FrictionArguments {
@@ -48,16 +48,12 @@ impl FrictionArguments {
     }
 
     /// Replaces the sign function in dry friction with a smooth one, if the option is given.
-    pub(crate) fn apply_smoothing(&self, robot: &mut Robot) -> Result<(), Failure> {
-        let Some(width) = self.smoothing else {
-            return Ok(());
-        };
-        let Ok(formula) = Formula::parse(&width.to_string()) else { return Ok(()) };
+    pub(crate) fn apply_smoothing(&self, robot: &mut Robot) {
+        let Some(formula) = &self.smoothing else { return };
         for link in &mut robot.links {
             if link.friction != Friction::none() && link.friction.smoothing.is_none() {
                 link.friction.smoothing = Some(formula.clone());
             }
         }
-        Ok(())
     }
 }

@@ -28,7 +28,7 @@ pub(crate) fn robot(
     if friction.is_wanted() {
         has_friction(&file.source().name, &robot)?;
     }
-    friction.apply_smoothing(&mut robot)?;
+    friction.apply_smoothing(&mut robot);
     Ok(robot)
 }
 

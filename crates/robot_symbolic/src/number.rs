@@ -282,8 +282,8 @@ impl From<Rational> for Number {
 /// Whether a decimal text that is read as `value` is below the range of `f64`: `1e-400` is not 0.
 #[must_use]
 pub fn is_below_range(text: &str, value: f64) -> bool {
-    let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
-    value == 0.0 && mantissa.contains(|digit| matches!(digit, '1'..='9'))
+    let mantissa = || text.split(['e', 'E']).next().unwrap_or(text);
+    value == 0.0 && mantissa().contains(|digit| matches!(digit, '1'..='9'))
 }
 
 #[cfg(test)]

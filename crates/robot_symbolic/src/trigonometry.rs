@@ -179,13 +179,17 @@ fn reduced_root(square: &Rational) -> Option<(Rational, i64)> {
     let mut rest = numerator.checked_mul(denominator)?;
     let mut factor = 1;
     for divisor in 2..=MOST {
+        if divisor > rest / divisor {
+            break;
+        }
         while rest % (divisor * divisor) == 0 {
             rest /= divisor * divisor;
             factor *= divisor;
         }
     }
     let is_shorter = if denominator == 1 { factor > 1 } else { rest <= SMALL };
-    is_shorter.then(|| Some((Rational::new(factor, denominator)?, rest)))?
+    let factor = Rational::new(factor, denominator).filter(|_| is_shorter)?;
+    Some((factor, rest))
 }
 
 #[cfg(test)]

@@ -35,9 +35,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
         // An input with such a name is reported as an input.
-        if let Some(path) = self.output.file()
-            && path.extension().is_some_and(|end| end.eq_ignore_ascii_case("urdf"))
-        {
+        if let Some(path) = self.output.file_ending_in(&["urdf"]) {
             let toml = shown(&path.with_extension("toml"));
             let message = format!("a robot file is TOML; name the file {toml}");
             return Err(Failure::Usage(vec![message]));

@@ -1,6 +1,5 @@
 //! `report`: a page about a robot.
 
-use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -95,8 +94,7 @@ impl Arguments {
 
     /// Checks that the name of the page does not end as that of another kind of file.
     fn check_ending(&self, others: &[&str]) -> Result<(), Failure> {
-        let is_other = |end: &OsStr| others.iter().any(|other| end.eq_ignore_ascii_case(other));
-        match self.output.file().filter(|path| path.extension().is_some_and(is_other)) {
+        match self.output.file_ending_in(others) {
             None => Ok(()),
             Some(path) => {
                 let html = shown(&path.with_extension("html"));

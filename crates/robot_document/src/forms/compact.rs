@@ -67,12 +67,9 @@ fn take_economical_torques<'g>(writer: &Writer<'_, 'g>, quantities: &mut [Quanti
 /// different parts. `None` if one is too long or has the root of a sum that depends on the state, such as the force in a
 /// joint with dry friction.
 fn expansion<'g>(quantities: &[Quantity<'g>]) -> Option<Vec<Polynomial<'g>>> {
-    let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
-    let moving = moving(&values);
-    let is_root = |atom: Expr<'_>| {
-        let of_motion = |argument: Expr<'_>| !is_leaf(argument) && moving.contains(&argument.id());
-        matches!(atom.view(), View::Call(Function::Sqrt, argument) if of_motion(argument))
-    };
+    let of_motion =
+        |argument: Expr<'_>| !is_leaf(argument) && moving(&[argument]).contains(&argument.id());
+    let is_root = |atom: Expr<'_>| matches!(atom.view(), View::Call(Function::Sqrt, argument) if of_motion(argument));
     let expanded = quantities.iter().map(|quantity| {
         let expanded = residues::polynomial(quantity.value, &coefficients::LIMITS).ok()?;
         let has_root = expanded.atoms().into_iter().any(is_root);

@@ -99,8 +99,8 @@ fn introduction(found: &BaseParameters<'_>) -> String {
 const MOMENTS: &str = "In the names of base parameters, SXX is the second moment ∫ x² dm of a \
     link, SXY is ∫ x y dm and so on, and MX, MY, MZ are the first moments, in Denavit-Hartenberg \
     frames: z is the joint axis, and the origin is the point where the common normal with the \
-    parent's joint axis meets it if both joints are revolute, and otherwise the file's origin; a D marks a parameter that differs from the file's parameter \
-    of the same name.";
+    parent's joint axis meets it if both joints are revolute, and otherwise the file's origin; a D \
+    marks a parameter that differs from the file's parameter of the same name.";
 
 /// The explanation of the name of a friction that is the same in both directions.
 const UNITED: &str = "FC is constant dry friction that is the same in both directions.";

@@ -21,6 +21,6 @@ pub use digits::DIGITS;
 pub(crate) use digits::{has_longer, number, tidied, tidied_text};
 pub(crate) use order::BRACKETS;
 pub use order::{Order, Rank};
-pub(crate) use order::{is_motion, is_rate};
+pub(crate) use order::{is_motion, is_rate, is_root_of_number};
 pub use symbols::SymbolTable;
 pub use trigonometry::Trigonometry;

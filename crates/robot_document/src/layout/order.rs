@@ -85,9 +85,7 @@ impl<'r> Order<'r> {
     #[must_use]
     pub fn rank(&self, atom: Expr<'_>) -> Rank {
         let View::Symbol(symbol) = atom.view() else {
-            let is_root =
-                matches!(atom.view(), View::Call(Function::Sqrt, of) if of.as_number().is_some());
-            return if is_root { ROOTS } else { (2 * default_rank(atom), 0, 0) };
+            return if is_root_of_number(atom) { ROOTS } else { (2 * default_rank(atom), 0, 0) };
         };
         let name = atom.graph().symbol_name(symbol);
         if let Some(rank) = self.parameters.get(name.as_str()) {
@@ -124,4 +122,9 @@ fn motion(name: &str) -> Option<(JointVariable, usize)> {
 /// Whether a name is that of a joint velocity or acceleration.
 pub(crate) fn is_rate(name: &str) -> bool {
     motion(name).is_some_and(|(variable, _)| variable != JointVariable::Position)
+}
+
+/// Whether an expression is the root of a number, as in the sines of π/4 and π/6.
+pub(crate) fn is_root_of_number(expr: Expr<'_>) -> bool {
+    matches!(expr.view(), View::Call(Function::Sqrt, of) if of.as_number().is_some())
 }

@@ -4,15 +4,14 @@ use robot_dynamics::mechanism::{Mechanism, MechanismLink, MechanismOptions};
 use robot_model::robot::{Inertia, Move, Payload, Placement, Robot};
 use robot_symbolic::print::{exact_text, to_text};
 use robot_symbolic::{
-    AngleSums, Expr, Formula, Function, Graph, Number, Polynomial, PolynomialOptions, Rational,
-    View, walk,
+    AngleSums, Expr, Formula, Graph, Number, Polynomial, PolynomialOptions, Rational, walk,
 };
 
 use super::{dh, drives, heading, numbers, paragraph};
 use crate::document::{Block, Cell, Inline, Table};
 use crate::error::Error;
 use crate::figure::Figure;
-use crate::layout::{Order, SymbolTable, has_longer, tidied};
+use crate::layout::{Order, SymbolTable, has_longer, is_root_of_number, tidied};
 use crate::math::Math;
 use crate::robot::rows::{self, FrameRow, LinkRow};
 use crate::robot::words;
@@ -219,10 +218,9 @@ impl Values<'_> {
     }
 }
 
-/// Whether an expression contains roots of numbers, as the sines of π/4 and π/6 do.
+/// Whether an expression contains roots of numbers.
 fn has_roots(value: Expr<'_>) -> bool {
-    let is_root = |part: &Expr<'_>| matches!(part.view(), View::Call(Function::Sqrt, argument) if argument.as_number().is_some());
-    walk::reachable(&[value]).iter().any(is_root)
+    walk::reachable(&[value]).into_iter().any(is_root_of_number)
 }
 
 /// The largest denominator of a number that people write as a fraction.

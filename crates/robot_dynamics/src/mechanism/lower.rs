@@ -6,7 +6,7 @@ use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
 use super::direction::unit_vector;
-use super::snapped::{constant, quarters};
+use super::snapped::{Near, near};
 use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
 use crate::vector::{Matrix, Vector};
 
@@ -143,14 +143,11 @@ impl<'g> Lowering<'g, '_> {
     fn angle(&mut self, name: &str, formula: &Formula) -> Expr<'g> {
         // The exact value is needed, because rounding would make `pi/2` a floating-point number, whose cosine is not 0.
         let exact = formula.lower(self.graph, &mut |name| self.graph.symbol(name));
-        let Some(number) = constant(formula) else {
-            return exact;
-        };
-        let Some((quarters, change)) = quarters(&number, self.options.snap) else {
+        let Some(Near { quarters, angle, change }) = near(formula, self.options.snap) else {
             return exact;
         };
         if change != 0.0 {
-            self.snapped.push(Snap { name: name.to_owned(), angle: number.to_f64(), change });
+            self.snapped.push(Snap { name: name.to_owned(), angle, change });
         }
         self.graph.pi() * quarters / 2
     }

@@ -7,9 +7,26 @@ use robot_symbolic::{Formula, Number};
 
 use super::Snap;
 
+/// A constant angle and the multiple of π/2 near it.
+pub(super) struct Near {
+    /// The multiple, in quarter turns.
+    pub(super) quarters: i64,
+    /// The angle, rad.
+    pub(super) angle: f64,
+    /// The multiple minus the angle, rad.
+    pub(super) change: f64,
+}
+
+/// The multiple of π/2 from which a formula without symbols differs by at most the tolerance, rad.
+pub(super) fn near(formula: &Formula, tolerance: f64) -> Option<Near> {
+    let number = constant(formula)?;
+    let (quarters, change) = quarters(&number, tolerance)?;
+    Some(Near { quarters, angle: number.to_f64(), change })
+}
+
 /// The multiple of π/2, in quarter turns, from which a constant angle differs by at most the tolerance, and the
 /// multiple minus the angle, rad.
-pub(super) fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
+fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
     let value = angle.to_f64();
     let quarters = (value / FRAC_PI_2).round();
     let change = quarters * FRAC_PI_2 - value;
@@ -47,26 +64,25 @@ pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
 fn place(name: &str, placement: &mut Placement, tolerance: f64, snaps: &mut Vec<Snap>) {
     for step in &mut placement.0 {
         let Move::Rotate(_, formula) = step else { continue };
-        let Some((angle, change)) = snap(formula, tolerance) else { continue };
+        let Some(Near { angle, change, .. }) = snap(formula, tolerance) else { continue };
         if change != 0.0 {
             snaps.push(Snap { name: name.to_owned(), angle, change });
         }
     }
 }
 
-/// Replaces a constant angle within the tolerance of a multiple of π/2 by that multiple. Returns the angle, rad, and
-/// the multiple minus the angle; `None` if there is no such multiple.
-fn snap(formula: &mut Formula, tolerance: f64) -> Option<(f64, f64)> {
-    let number = constant(formula)?;
-    let (quarters, change) = quarters(&number, tolerance)?;
-    if let Ok(multiple) = Formula::parse(&multiple_text(quarters)) {
+/// Replaces a constant angle within the tolerance of a multiple of π/2 by that multiple. `None` if there is no such
+/// multiple.
+fn snap(formula: &mut Formula, tolerance: f64) -> Option<Near> {
+    let near = near(formula, tolerance)?;
+    if let Ok(multiple) = Formula::parse(&multiple_text(near.quarters)) {
         *formula = multiple;
     }
-    Some((number.to_f64(), change))
+    Some(near)
 }
 
 /// The value of a formula without symbols, such as 1.5708 or π/2 + 10⁻⁷.
-pub(super) fn constant(formula: &Formula) -> Option<Number> {
+fn constant(formula: &Formula) -> Option<Number> {
     formula.as_number().or_else(|| {
         let value = formula.evaluate(|_| f64::NAN);
         (formula.is_constant() && value.is_finite()).then(|| Number::real(value))

@@ -67,11 +67,12 @@ fn tip(
         frame_name(reader, &mut table)
     };
     // Components of wrenches are named after the tip, so they would be reported, too.
-    let name = name.filter(|name| {
-        let twice = names.add(name);
-        let is_first = twice.is_none();
-        twice.into_iter().for_each(|diagnostic| reader.report(diagnostic));
-        is_first
+    let name = name.filter(|name| match names.add(name) {
+        None => true,
+        Some(twice) => {
+            reader.report(twice);
+            false
+        }
     });
     let last = links.checked_sub(1).map_or(Parent::Base, Parent::Link);
     let parent = table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry, LINK));

@@ -3,7 +3,7 @@
 //! Torques are products of masses, squared lengths and other values. Beyond these bounds such products could overflow
 //! or underflow, and the values would be meaningless for a robot.
 
-use robot_symbolic::{Formula, Rational};
+use robot_symbolic::Formula;
 
 use super::locations::{BodyLocation, LinkLocation, Locations};
 use super::reader::Reader;
@@ -25,9 +25,14 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
     let of_gravity = locations.gravity.as_ref().unwrap_or(&locations.name);
     range.all(&robot.gravity, "gravity", of_gravity);
     for (link, place) in robot.links.iter().zip(&locations.links) {
+        range.link(link, place);
         // A joint that mimics another has no limits of its own.
         let own = robot.coordinates.iter().find(|one| one.joint == link.joint.name);
-        range.link(link, own.and_then(|one| one.limits.as_ref()), place);
+        if let Some(limits) = own.and_then(|one| one.limits.as_ref()) {
+            let limits = limits.each_ref().map(Formula::number);
+            let at = place.limits.as_ref().unwrap_or(&place.joint);
+            range.all(&limits, &format!("a limit of `{}`", link.joint.name), at);
+        }
     }
     for (frame, place) in robot.frames.iter().zip(&locations.frames) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
@@ -41,11 +46,11 @@ struct Range<'r, 'a> {
 }
 
 impl Range<'_, '_> {
-    fn link(&mut self, link: &Link, limits: Option<&[Rational; 2]>, place: &LinkLocation) {
+    fn link(&mut self, link: &Link, place: &LinkLocation) {
         let at = place.origin.as_ref().unwrap_or(&place.name);
         let pose = format!("the pose of `{}`", link.name);
         self.placement(&link.placement, (&pose, at), (&pose, at));
-        self.joint(&link.joint, limits, place);
+        self.joint(&link.joint, place);
         let of_friction = place.friction.as_ref().unwrap_or(&place.joint);
         self.friction(&link.friction, &link.joint.name, of_friction);
         let Drive { armature, rotor_inertia, gear_ratio, .. } = &link.drive;
@@ -57,12 +62,9 @@ impl Range<'_, '_> {
         }
     }
 
-    fn joint(&mut self, joint: &Joint, limits: Option<&[Rational; 2]>, place: &LinkLocation) {
+    fn joint(&mut self, joint: &Joint, place: &LinkLocation) {
         let at = place.axis.as_ref().unwrap_or(&place.joint);
         self.axis(&joint.axis, &joint.name, at);
-        let limits = limits.map(|limits| limits.each_ref().map(Formula::number));
-        let of_limits = place.limits.as_ref().unwrap_or(&place.joint);
-        self.all(limits.iter().flatten(), &format!("a limit of `{}`", joint.name), of_limits);
         let what = format!("the ratio of `{}`", joint.name);
         self.all([&joint.ratio], &what, &place.joint);
         self.divisor([&joint.ratio], &what, &place.joint);

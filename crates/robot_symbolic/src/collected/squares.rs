@@ -45,6 +45,9 @@ fn by_sine(terms: &Terms, cosine: Variable, variables: &Variables<'_>) -> Terms 
 
 /// Cancels sines with their reciprocals, which are variables of their own: sin² x/sin² x is 1.
 fn canceled(terms: Terms, variables: &Variables<'_>) -> Terms {
+    if !variables.have_reciprocals() {
+        return terms;
+    }
     let common = |powers: &Powers| {
         let both = |(variable, exponent): (Variable, u16)| {
             let below = variables.reciprocal(variable)?;
@@ -53,10 +56,6 @@ fn canceled(terms: Terms, variables: &Variables<'_>) -> Terms {
         };
         Powers::from_unsorted(powers.iter().filter_map(both).flatten())
     };
-    let is_canceled = |(powers, _): &Term| !common(powers).is_one();
-    if !terms.as_slice().iter().any(is_canceled) {
-        return terms;
-    }
     let quotient = |(powers, number): &Term| {
         let rest = powers.quotient(&common(powers)).unwrap_or_else(|| powers.clone());
         (rest, number.clone())

@@ -85,6 +85,11 @@ impl<'g> Variables<'g> {
         self.places.get(&(atom.id(), false)).copied()
     }
 
+    /// Whether any variable is a reciprocal.
+    pub(super) fn have_reciprocals(&self) -> bool {
+        self.meanings.iter().any(|(_, inverse)| *inverse)
+    }
+
     /// The variable of the reciprocal of a variable; `None` for reciprocals and if it does not occur.
     pub(super) fn reciprocal(&self, variable: Variable) -> Option<Variable> {
         let (atom, inverse) = self.meanings.get(usize::from(variable))?;

@@ -205,17 +205,25 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
     }
     moving.mimic = element.child(reader, "mimic").and_then(|mimic| follows(reader, &mimic));
     let limit = element.child(reader, "limit");
-    if has_limits && moving.mimic.is_none() {
-        unlimited(reader, element, limit.as_ref());
-    }
-    if let Some(limit) = limit {
-        if has_limits {
-            let mimics = moving.mimic.is_some();
-            (moving.limits, moving.of_limits) = limits(reader, &limit, element, mimics);
+    let mimics = moving.mimic.is_some();
+    match &limit {
+        Some(limit) => {
+            if has_limits {
+                (moving.limits, moving.of_limits) = limits(reader, limit, element, mimics);
+            }
+            moving.unread = unread(reader, limit);
         }
-        moving.unread = unread(reader, &limit);
+        None if has_limits && !mimics => {
+            let message = format!(
+                "the joint `{}` has no `<limit>`, which URDF requires; it has no limits",
+                quote(written_name(element))
+            );
+            let note = Diagnostic::note(code::TAKEN_DEFAULT, message);
+            reader.report(note.at(&element.tag(), "`<limit>` is missing"));
+        }
+        None => {}
     }
-    if moving.mimic.is_some() && moving.limits.is_some() {
+    if mimics && moving.limits.is_some() {
         // The leading joint determines the motion.
         moving.unread.extend(limit.iter().flat_map(|limit| attributes(limit, &["lower", "upper"])));
     }
@@ -286,24 +294,6 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Notes that a joint has no limits, although URDF requires `<limit>` for its type.
-fn unlimited(reader: &mut Reader<'_>, joint: &Element<'_, '_>, limit: Option<&Element<'_, '_>>) {
-    let name = quote(written_name(joint));
-    let (message, label) = match limit {
-        None => (
-            format!("the joint `{name}` has no `<limit>`, which URDF requires; it has no limits"),
-            "`<limit>` is missing",
-        ),
-        Some(limit) if ["lower", "upper"].iter().all(|one| limit.attribute(one).is_none()) => (
-            format!("the joint `{name}` has neither a lower nor an upper limit; it has no limits"),
-            "`lower` and `upper` are missing",
-        ),
-        Some(_) => return,
-    };
-    let place = limit.unwrap_or(joint).tag();
-    reader.report(Diagnostic::note(code::TAKEN_DEFAULT, message).at(&place, label));
-}
-
 /// Reads the lower and upper limits. As URDF specifies, a limit that is left out is 0, which is noted unless the joint
 /// `mimics` another. `None` if both are equal.
 fn limits(
@@ -313,10 +303,17 @@ fn limits(
     mimics: bool,
 ) -> (Option<[Rational; 2]>, Option<Span>) {
     let attributes = [element.attribute("lower"), element.attribute("upper")];
+    let name = quote(written_name(joint));
     if attributes.iter().all(Option::is_none) {
+        if !mimics {
+            let message = format!(
+                "the joint `{name}` has neither a lower nor an upper limit; it has no limits"
+            );
+            let note = Diagnostic::note(code::TAKEN_DEFAULT, message);
+            reader.report(note.at(&element.tag(), "`lower` and `upper` are missing"));
+        }
         return (None, None);
     }
-    let name = quote(written_name(joint));
     // Some files express the absence of limits by infinite ones.
     let [lower, upper] = attributes.each_ref();
     match [infinite(lower) == Some('-'), infinite(upper) == Some('+')] {

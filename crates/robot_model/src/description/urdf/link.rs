@@ -94,17 +94,15 @@ fn mass(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<(Formula, 
 
 /// Reads the tensor. The products of inertia in URDF are entries of the tensor, as in this project.
 fn tensor(reader: &mut Reader<'_>, element: &Element<'_, '_>) -> Option<Inertia> {
-    let names = ["ixx", "iyy", "izz", "ixy", "ixz", "iyz"];
-    let is_moment = |name: &str| ["ixx", "iyy", "izz"].contains(&name);
-    let example = |name| if is_moment(name) { "0.01" } else { "0" };
-    let attributes = names.map(|name| element.require(reader, name, example(name)));
+    let moments = ["ixx", "iyy", "izz"].map(|name| element.require(reader, name, "0.01"));
+    let products = ["ixy", "ixz", "iyz"].map(|name| element.require(reader, name, "0"));
     let mut entry = |attribute: &Option<Attribute<'_>>| {
         let [entry] = formulas::<1>(reader, attribute.as_ref()?, "a moment of inertia", "0.01")?;
         Some(entry)
     };
-    let entries = attributes.each_ref().map(&mut entry);
-    let [Some(xx), Some(yy), Some(zz), Some(xy), Some(xz), Some(yz)] = entries else {
-        return None;
-    };
+    let [xx, yy, zz] = moments.each_ref().map(&mut entry);
+    let [xy, xz, yz] = products.each_ref().map(&mut entry);
+    let (Some(xx), Some(yy), Some(zz)) = (xx, yy, zz) else { return None };
+    let (Some(xy), Some(xz), Some(yz)) = (xy, xz, yz) else { return None };
     Some(Inertia { xx, yy, zz, xy, xz, yz })
 }
