@@ -42,7 +42,7 @@ pub(crate) fn report(seed: u64) -> Result<(String, String), Box<dyn Error>> {
 
 fn show_parameters(estimate: &Estimate, text: &mut String) -> Result<(), Box<dyn Error>> {
     let truth = study::true_parameters();
-    writeln!(text, "{:<8} {:>12} {:>12} {:>12}", "", "true", "estimated", "deviation")?;
+    writeln!(text, "{:<8} {:>12} {:>12} {:>12}", "", "true", "estimated", "std. dev.")?;
     let found = estimate.parameters.iter().zip(estimate.deviations.iter());
     for ((name, value), (found, deviation)) in names()?.iter().zip(truth).zip(found) {
         writeln!(text, "{name:<8} {value:>12.6} {found:>12.6} {deviation:>12.6}")?;
@@ -50,8 +50,11 @@ fn show_parameters(estimate: &Estimate, text: &mut String) -> Result<(), Box<dyn
     let distance = estimate.distance(&truth);
     let degrees = SAMPLES as usize * JOINTS - PARAMETERS;
     let residual = estimate.residual;
-    writeln!(text, "\nchi-square of the errors: {distance:.1} for {PARAMETERS} degrees")?;
-    writeln!(text, "chi-square of the residual: {residual:.1} for {degrees} degrees")?;
+    writeln!(
+        text,
+        "\nchi-square of the errors: {distance:.1} with {PARAMETERS} degrees of freedom"
+    )?;
+    writeln!(text, "chi-square of the residual: {residual:.1} with {degrees} degrees of freedom")?;
     Ok(())
 }
 

@@ -226,7 +226,7 @@ class Robot:
     ) -> Identification:
         """Estimates the base parameters from joint torques, by least squares over all rows.
 
-        `noise` is the standard deviation of each joint's torques, (n,); each row is then divided by it. Without `noise` all rows have the same weight.
+        `noise` is the standard deviation of the noise in each joint's torques, (n,), in N m or N; each row is then divided by it. Without `noise` all rows have the same weight.
 
         >>> arm = robots.load("planar_2r.toml")
         >>> q, qd, qdd = np.random.default_rng(1).uniform(-1, 1, (3, 50, 2))

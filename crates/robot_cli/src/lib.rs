@@ -17,6 +17,7 @@ mod friction;
 mod function;
 mod help;
 mod interrupt;
+mod limits;
 mod messages;
 mod motion;
 mod options;

@@ -51,10 +51,10 @@ pub(crate) fn lacking(
     Ok(())
 }
 
-/// The width of printed sums, in columns.
+/// The largest width of a line of a printed sum, in columns, without its indentation.
 pub(crate) const COLUMNS: usize = 100;
 
-/// Prints `Q1 = …` on lines, of which all but the first are indented.
+/// Breaks `Q1 = …` into lines, and indents all but the first by four spaces.
 pub(crate) fn sum(whole: &str) -> String {
     let mut lines = wrapped(whole, COLUMNS).join("\n    ");
     lines.push('\n');

@@ -128,7 +128,7 @@ const OTHERS: &[(&str, &str, i64, i64)] = &[
 pub enum UnitError {
     /// An unknown unit or invalid notation: the bytes and the problem.
     Unknown(Range<usize>, String),
-    /// A unit that is not an SI unit.
+    /// A unit that is not a coherent SI unit.
     NotSi {
         /// The bytes of the first such unit.
         span: Range<usize>,
@@ -153,7 +153,7 @@ impl Unit {
     ///
     /// # Errors
     ///
-    /// An error if the text is not a unit, or is not an SI unit; in the latter case, the error contains the
+    /// An error if the text is not a unit, or is not a coherent SI unit; in the latter case, the error contains the
     /// replacement.
     pub fn parse(text: &str) -> Result<Unit, UnitError> {
         let mut dimension = Dimension::default();
@@ -214,7 +214,7 @@ impl Factor<'_> {
         UnitError::Unknown(self.span.clone(), what.into())
     }
 
-    /// The dimension of the factor, and its replacement if it is not an SI unit.
+    /// The dimension of the factor, and its replacement if it is not a coherent SI unit.
     #[allow(clippy::type_complexity)]
     fn resolve(&self) -> Result<(Dimension, Option<(&'static str, i64, i64)>), UnitError> {
         let si = |name: &str| UNITS.iter().find(|(known, _)| *known == name);

@@ -73,7 +73,7 @@ fn far(body: &BodyFacts<'_>, distance: f64, size: f64) -> Diagnostic {
     Diagnostic::warning(code::CENTER_FAR, message)
         .at(body.of_center(), "in the link frame?")
         .because(format!(
-            "judging by its frames and inertia, the link is about {} m in size, and its center of \
+            "judging by its frames and inertia, the size of the link is {} m, and a link's center of \
              mass is normally near its joint",
             significant(size)
         ))

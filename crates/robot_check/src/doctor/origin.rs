@@ -68,8 +68,9 @@ fn suspicion(body: &BodyFacts<'_>, [spread, most]: [f64; 2]) -> Diagnostic {
         .at(body.of_tensor(), "about the center of mass?")
         .and_at(body.of_center(), format!("{} m away", significant(body.center.norm())))
         .because(format!(
-            "along the link, the mass would have a standard deviation of {} m, but between the \
-             ends of the link it can have at most {} m; a tensor about the origin would fit",
+            "the positions of the mass along the link would have a standard deviation of {} m, but \
+             mass between the ends of the link allows at most {} m; a tensor about the frame's \
+             origin would fit",
             significant(spread),
             significant(most)
         ))

@@ -105,7 +105,7 @@ fn dense(body: &BodyFacts<'_>) -> Diagnostic {
         .at(body.of_mass(), "in g?")
         .and_at(body.of_tensor(), "in units other than kg m^2, or a placeholder?")
         .because(format!(
-            "parts of it would be denser than {} kg/m^3; osmium, the densest element, has {DENSEST}",
+            "parts of it would be denser than {} kg/m^3; osmium, the densest element, has {DENSEST} kg/m^3",
             significant(density(body))
         ))
         .help("give the mass in kg, and the tensor about the center of mass in kg m^2")

@@ -109,7 +109,8 @@ fn plain(robot: &Robot, set: &BaseSet) -> String {
     let (count, all) = (set.list.len(), set.standard.len());
     let mut shown = format!("{}: {count} base parameters of {all}", robot.name);
     if robot.base_frames == BaseFrames::DenavitHartenberg {
-        shown.push_str(", moments in Denavit-Hartenberg frames");
+        shown
+            .push_str(", moments in Denavit-Hartenberg frames, formulas in the frames of the file");
     }
     shown.push_str(if set.rounded { ", with rounded coefficients\n" } else { "\n" });
     for entry in &set.list {

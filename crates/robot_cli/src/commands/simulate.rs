@@ -17,6 +17,7 @@ use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
 use crate::files;
 use crate::friction::FrictionArguments;
+use crate::limits;
 use crate::motion;
 use crate::progress::Progress;
 use crate::recording::{Recording, plot_path};
@@ -87,6 +88,9 @@ impl Arguments {
         let file = self.robot.open()?;
         let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;
         let start = self.start(&robot)?;
+        if self.q0.is_some() {
+            limits::note("--q0", &start.q, &robot, terminal)?;
+        }
         let friction = self.friction.is_wanted();
         let functions = RobotProgram::functions(friction);
         let options = file.options(terminal)?;

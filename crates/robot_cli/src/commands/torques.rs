@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use clap::Args;
+use robot_model::diagnostic::quote;
 use robot_model::robot::Robot;
 use robot_simulation::plot::contributions_figure;
 use robot_simulation::{Samples, TorqueContributions, Trajectory, torque_contributions};
@@ -123,6 +124,12 @@ impl Arguments {
         let Some(path) = &self.trajectory else {
             let texts: Vec<&str> = self.expressions.iter().map(|text| text.trim()).collect();
             let texts: Vec<&str> = texts.into_iter().filter(|text| !text.is_empty()).collect();
+            let joined = texts.iter().find(|text| text.matches('=').count() > 1);
+            if let Some(text) = joined {
+                let text = quote(text);
+                let message = format!("--expressions: `{text}`: separate coordinates by `;`");
+                return Err(Failure::Usage(vec![message]));
+            }
             let (parameters, time) = (self.settings.pairs(), self.time.unwrap_or_default());
             let found = Trajectory::from_expressions(robot, &parameters, &texts, time, self.step);
             return Ok(Parts::Known(found?, 0));

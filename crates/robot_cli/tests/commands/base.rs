@@ -56,7 +56,7 @@ fn moments_in_other_frames_are_written_in_the_parameters_of_the_file() {
     }
     let shown = output(&["base", &robot("planar_2r"), "--base-frames", "denavit_hartenberg"], "");
     for line in [
-        "planar_2r: 6 base parameters of 20, moments in Denavit-Hartenberg frames",
+        "planar_2r: 6 base parameters of 20, moments in Denavit-Hartenberg frames, formulas in the frames of the file",
         "MXR_1 = MX_1 + l1*M_2",
         "SYY_2 = ZZ_2",
     ] {

@@ -361,8 +361,8 @@ mod tests {
         );
     }
 
-    /// The result of a pass is discarded if it costs as much as before, and that of a reordering if it waits longer or
-    /// adds an operation.
+    /// The result of a pass is discarded unless it costs less than before; that of a reordering is discarded if its
+    /// longest chain is longer or if it has more operations.
     #[test]
     fn results_of_passes_are_taken_if_they_are_better() {
         let program = |value: u32| {

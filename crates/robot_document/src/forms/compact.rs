@@ -246,7 +246,7 @@ pub(super) fn tidy(
 pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<ArrangedTerm<'h>> {
     let built = arranged::factored(arranged::terms(value, &writer.order), &writer.order);
     let Some(polynomial) = residues::short_polynomial(value, MAX_TERMS) else { return built };
-    // An expression with functions of sums keeps its structure.
+    // An expression with sines of sums keeps its structure.
     if walk::reachable(&[value]).iter().any(|part| is_of_sum(*part)) {
         return built;
     }
@@ -263,9 +263,10 @@ pub(super) fn short_terms<'h>(writer: &Writer<'_, '_>, value: Expr<'h>) -> Vec<A
     if is_shorter { collected } else { built }
 }
 
-/// Whether an expression is a function of something other than a symbol or a number.
+/// Whether an expression is the sine or cosine of something other than a symbol or a number.
 fn is_of_sum(expr: Expr<'_>) -> bool {
-    matches!(expr.view(), View::Call(_, argument) if !is_leaf(argument))
+    let View::Call(Function::Sin | Function::Cos, argument) = expr.view() else { return false };
+    !is_leaf(argument)
 }
 
 /// Writes each part of the expressions that contains only parameters in its shortest form: sums of pseudo-inertias

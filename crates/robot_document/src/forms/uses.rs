@@ -1,4 +1,5 @@
-//! How often the names of common parts are used: those that nothing uses in the end are not defined.
+//! Decides by the uses of their names which common parts keep a definition: parts that nothing uses in the end are left
+//! out, and rarely used ones are written where they are used.
 
 use robot_symbolic::{Expr, Id, View, walk};
 use rustc_hash::{FxHashMap, FxHashSet};

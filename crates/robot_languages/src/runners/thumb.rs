@@ -165,7 +165,7 @@ fn alone(tree: &Tree<'_>, function: &Function<'_>, names: &Names) -> String {
     )
 }
 
-/// The instructions in a listing of objdump that jump, except returns.
+/// The lines of an objdump listing whose instruction is a jump or a call, except returns by `bx lr`.
 fn jumps(listing: &str) -> Vec<String> {
     let is_jump = |line: &&str| {
         let Some(instruction) = line.split('\t').nth(2) else { return false };

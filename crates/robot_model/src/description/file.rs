@@ -69,7 +69,11 @@ fn lower_tables(reader: &mut Reader<'_>, mut root: Table<'_>) -> Option<Lowered>
 
 /// Checks `format`; returns false if it is another format, of which nothing else is read.
 fn format(reader: &mut Reader<'_>, root: &mut Table<'_>) -> bool {
-    let Some(entry) = root.require(reader, "format", "format = 1") else {
+    let Some(entry) = root.require_with(
+        reader,
+        "format",
+        "add `format = 1` as the first line, before all tables",
+    ) else {
         return true;
     };
     let number = match entry.value.get_ref() {

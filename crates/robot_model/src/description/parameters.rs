@@ -131,10 +131,13 @@ fn unit(reader: &mut Reader<'_>, value: Value<'_>, nominal: Option<&Rational>) -
                 (None, Some(factor)) => {
                     format!("write \"{unit}\" and multiply values by {}", decimal(&factor))
                 }
-                (None, None) => format!("write \"{unit}\" and convert the values"),
+                (None, None) => format!(
+                    "write \"{unit}\" and convert the values: 1 deg is pi/180 rad, 1 rev is 2*pi rad, 1 rpm is \
+                     pi/30 rad/s"
+                ),
             };
-            Diagnostic::error(code::UNIT_NOT_SI, "this unit is not an SI unit")
-                .at(&place(span), "not SI")
+            Diagnostic::error(code::UNIT_NOT_SI, "this unit is not a coherent SI unit")
+                .at(&place(span), "not coherent")
                 .because("values are never converted silently")
                 .help(remedy)
         }

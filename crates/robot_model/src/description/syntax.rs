@@ -178,8 +178,10 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
         Some(
             "close the string with the quote that opens it, on the same line; control characters must be escaped",
         )
+    } else if starts("missing comma between") {
+        Some("separate the entries of an inline table by commas, and close it with `}`")
     } else if starts("unclosed") {
-        Some("close it with the bracket or the quotes that belong to it")
+        Some("add the missing closing bracket or quotation mark")
     } else if NUMBER.into_iter().any(starts) {
         Some("write a number as `12`, `-0.35` or `1.5e-3`")
     } else if message.contains("recurs") {

@@ -35,6 +35,19 @@ pub(super) fn is_hidden(character: char) -> bool {
     is_control || is_invisible(character)
 }
 
+/// An inline table of this shape, for messages.
+fn example(shape: &Shape) -> &'static str {
+    match shape.what {
+        "a joint" => "{ type = \"revolute\", axis = \"z\" }",
+        "an origin" => "{ xyz = [0, 0, 1] }",
+        "an inertia" => "{ xx = 1, yy = 1, zz = 1 }",
+        "a `friction` table" => "{ viscous = 0.1 }",
+        "a drive" => "{ armature = 0.1 }",
+        "a `mimic` table" => "{ joint = \"1\" }",
+        _ => "{ … }",
+    }
+}
+
 impl Reader<'_> {
     pub(super) fn wrong_type(&mut self, value: Value<'_>, expected: &str) {
         let found = match value.get_ref() {
@@ -61,11 +74,11 @@ impl Reader<'_> {
         match value.get_ref() {
             DeValue::Table(keys) => Some(Table::new(keys, value.span(), shape)),
             _ => {
-                let what = shape.what;
+                let (what, example) = (shape.what, example(shape));
                 let expected = match (what.starts_with('['), what.strip_suffix(" table")) {
                     (true, _) => format!("one table {what}"),
-                    (false, Some(named)) => format!("{named} table `{{ … }}`"),
-                    (false, None) => format!("{what} as a table `{{ … }}`"),
+                    (false, Some(named)) => format!("{named} table `{example}`"),
+                    (false, None) => format!("{what} as a table `{example}`"),
                 };
                 self.wrong_type(value, &expected);
                 None
@@ -242,7 +255,10 @@ impl Reader<'_> {
             }
             _ => {
                 let what = quantity.what;
-                self.wrong_type(value, &format!("{what}, a number or an expression in quotes"));
+                self.wrong_type(
+                    value,
+                    &format!("{what} as a number or as an expression in quotes"),
+                );
                 return Reader::unknown();
             }
         };

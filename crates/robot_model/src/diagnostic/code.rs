@@ -58,9 +58,9 @@ codes! {
     EXPRESSION = "R0302", "An expression is not valid.";
     UNKNOWN_SYMBOL = "R0303", "An expression contains a name that is not a parameter.";
     UNIT = "R0304", "A unit is unknown.";
-    UNIT_NOT_SI = "R0305", "A unit is not an SI unit.";
+    UNIT_NOT_SI = "R0305", "A unit is not a coherent SI unit.";
     DIMENSION = "R0306", "Units do not match.";
-    UNIT_OF_NUMBER = "R0307", "The units match only if a number in the expression has one.";
+    UNIT_OF_NUMBER = "R0307", "The units match only if a number in the expression has a unit.";
     UNKNOWN_LINK = "R0401", "A parent is not a link of the file.";
     CYCLE = "R0402", "A link is its own ancestor.";
     ZERO_AXIS = "R0403", "A joint axis has no direction.";

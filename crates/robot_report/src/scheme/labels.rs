@@ -177,7 +177,8 @@ impl Room {
         self.all_lines().map(|line| label.length_within(line)).sum()
     }
 
-    /// The cost of another line: the length on symbols, and that along other lines.
+    /// The cost of an additional line: its length on symbols plus its length along other lines; length along axes of frames
+    /// counts `ON_AXIS` times.
     pub(crate) fn cost_of_line(&self, [from, to]: [Point; 2]) -> f64 {
         let symbols: f64 =
             self.symbols.iter().map(|symbol| symbol.length_within(&[from, to])).sum();

@@ -16,7 +16,7 @@ type Point = Vector2<f64>;
 pub(crate) enum Shape {
     /// Shapes that belong together.
     Group(Group),
-    /// A line through points.
+    /// A polyline, or a polygon if it is closed.
     Line(Line),
     /// A cylinder seen from the side.
     Cylinder(Cylinder),
@@ -33,7 +33,7 @@ pub(crate) struct Group {
     parts: Vec<Shape>,
 }
 
-/// A line through points.
+/// A polyline, or a polygon if it is closed.
 #[derive(Clone, Debug)]
 pub(crate) struct Line {
     points: Vec<Point>,
@@ -75,7 +75,7 @@ pub(crate) fn group() -> Group {
     Group::default()
 }
 
-/// A line through points.
+/// A polyline, or a polygon if it is closed.
 pub(crate) fn line(points: &[Point], is_closed: bool) -> Line {
     Line { points: points.to_vec(), is_closed, class: "" }
 }

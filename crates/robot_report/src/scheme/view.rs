@@ -36,7 +36,8 @@ pub(crate) fn views(robot: &Robot) -> [View; 6] {
     ANGLES.map(view)
 }
 
-/// The [vertical](View::vertical) base axis, and the next one, which points toward the viewer.
+/// Two unit vectors along base axes: the [vertical](View::vertical) one, which points up, and that of the next axis in the
+/// order x, y, z, x, which faces the viewer before the view is turned.
 pub(crate) fn upright(robot: &Robot) -> [Vector3<f64>; 2] {
     let gravity = robot.gravity.each_ref().map(|part| text::value(robot, part));
     let gravity = Vector3::from(gravity.map(|part| if part.is_finite() { part } else { 0.0 }));

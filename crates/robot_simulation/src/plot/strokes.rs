@@ -37,7 +37,8 @@ const LONGER: f64 = 8.0;
 const LAYERS: i32 = 4;
 /// The distance within which one curve hides another, in px.
 const NEAR: f64 = 1.0;
-/// The fraction of the time for which a curve may hide another; where they part, both are seen anyway.
+/// The largest fraction of the plotted time for which a solid curve may hide another; beyond it, the curve is dashed. Where
+/// the curves differ, both are visible anyway.
 const SHARE: f64 = 0.3;
 
 /// The strokes of the curves of a panel, in their order, and the order in which they are drawn: sums first. `up` is the

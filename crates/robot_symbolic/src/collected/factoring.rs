@@ -305,7 +305,7 @@ impl Formula {
 struct Place {
     /// The number of sums that contain it.
     depth: usize,
-    /// The number of nested parentheses that are still allowed within it.
+    /// The number of levels of parentheses that may still be nested within it.
     brackets: usize,
 }
 

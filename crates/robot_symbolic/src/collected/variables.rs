@@ -90,7 +90,8 @@ impl<'g> Variables<'g> {
         self.meanings.iter().any(|(_, inverse)| *inverse)
     }
 
-    /// The variable of the reciprocal of a variable; `None` for reciprocals and if it does not occur.
+    /// Returns the variable of the reciprocal of a variable; `None` if the variable is itself a reciprocal, or if its
+    /// reciprocal does not occur.
     pub(super) fn reciprocal(&self, variable: Variable) -> Option<Variable> {
         let (atom, inverse) = self.meanings.get(usize::from(variable))?;
         self.places.get(&(atom.id(), true)).copied().filter(|_| !inverse)

@@ -8,7 +8,7 @@ use super::marker::{LINES, MARKER};
 const START: &str = "; the next run replaces this file unless it was edited (sha256 ";
 /// The text after the digits.
 const END: &str = ")";
-/// The number of hexadecimal digits, of 64 that the hash has.
+/// The number of hexadecimal digits in a seal, out of the 64 of the hash.
 const DIGITS: usize = 16;
 
 /// The lines with the mark that have a seal are comments of LaTeX, Typst, and HTML, SVG or Markdown.

@@ -18,7 +18,7 @@ use robot_codegen::module::Function;
 use robot_jit::Executable;
 use robot_model::description::Described;
 use robot_model::robot::Robot;
-use robot_model::variable::WRENCH;
+use robot_model::variable::{JointVariable, WRENCH};
 
 use self::digits::Digits;
 use self::evaluation::{Evaluation, Task, failed};
@@ -26,6 +26,7 @@ use self::output::Printer;
 use crate::Terminal;
 use crate::delivery::{ForceArgument, file_of};
 use crate::failure::Failure;
+use crate::limits;
 use crate::options::help;
 use crate::outgoing::Outgoing;
 use crate::progress::watched;
@@ -104,6 +105,10 @@ impl Arguments {
         let (standard, mut terminal) = terminal.without_input(&mut nothing);
         let terminal = &mut terminal;
         let mut states = self.states(robot, &layout, standard)?;
+        if let States::Given(state) = &states {
+            let positions = state.array(JointVariable::Position.name()).unwrap_or_default();
+            limits::note("--q", positions, robot, terminal)?;
+        }
         let loaded = kind.map(|kind| with_wrench(kind, robot, &layout, &mut states)).transpose()?;
         let (kind, unloadable) = loaded.unzip();
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));

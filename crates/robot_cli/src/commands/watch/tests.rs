@@ -308,7 +308,7 @@ fn the_end_removes_the_own_picture_alone() {
     assert!(!is_good && !picture.exists());
 }
 
-/// The page that stays is sealed, as that of `report`.
+/// The page that remains after a watch is sealed like that of `report`, so a page that was edited is not replaced.
 #[test]
 fn an_edited_page_stays() {
     let (_folder, path, _) = page_in_folder();

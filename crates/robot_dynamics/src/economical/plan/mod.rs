@@ -1,7 +1,6 @@
 //! The options of the economical recursion, as data.
 //!
-//! All options give the same torques but different numbers of operations. The letters in brackets are those of the
-//! ablation tables in `docs/performance.md`.
+//! All options give the same torques but different numbers of operations.
 
 pub(super) mod mechanics;
 pub mod pin;
@@ -14,7 +13,7 @@ use robot_model::robot::Robot;
 pub struct Plan {
     /// The options for each link, in the order of the mechanism.
     pub links: Vec<LinkPlan>,
-    /// \[l\] The unit of length in which the recursion works: the component (0, 1, 2) of this link's position relative
+    /// The unit of length in which the recursion works: the component (0, 1, 2) of this link's position relative
     /// to its parent, which thereby becomes ±1.
     pub unit_length: Option<(usize, usize)>,
 }
@@ -22,25 +21,25 @@ pub struct Plan {
 /// The options for one link.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct LinkPlan {
-    /// \[t\] The position of the working frame's origin on the joint axis.
+    /// The position of the working frame's origin on the joint axis.
     pub origin: Origin,
-    /// \[t, φ\] The rotation of the working frame about the joint axis.
+    /// The rotation of the working frame about the joint axis.
     pub turn: Turn,
-    /// \[a\] Whether the joint joins the parallel group of its parent's joint; rotations then use the sum of the
+    /// Whether the joint joins the parallel group of its parent's joint; rotations then use the sum of the
     /// group's angles. This has no effect if the axes are not parallel.
     pub angle_sum: bool,
-    /// \[c\] Whether the third column of U is computed from the parent's U.
+    /// Whether the third column of U is computed from the parent's U.
     pub column: bool,
-    /// \[u\] Whether, in that case, the third row of U is computed from doubled products, U₃₁ = ω_x 2ω_z − U₁₃. This
+    /// Whether, in that case, the third row of U is computed from doubled products, U₃₁ = ω_x 2ω_z − U₁₃. This
     /// saves an addition if the angular acceleration perpendicular to the axis is not needed otherwise.
     pub doubled: bool,
-    /// \[b\] For each component of the moment, whether products of angular velocities and accelerations are used
+    /// For each component of the moment, whether products of angular velocities and accelerations are used
     /// instead of entries of U.
     pub moment: [bool; 3],
-    /// \[d\] Whether differences of squared angular velocities are computed from the diagonal of U, which saves a
+    /// Whether differences of squared angular velocities are computed from the diagonal of U, which saves a
     /// square if the third column of U is known.
     pub diagonal: bool,
-    /// \[m, z\] The entries of the parent's inertia that are made to vanish because a part of the link's mass, first
+    /// The entries of the parent's inertia that are made to vanish because a part of the link's mass, first
     /// moment and second moment along its joint axis, in this order, remains with the link.
     pub residual: [Option<Entry>; 3],
     /// The acceleration that is assumed for the joint if it can be chosen freely.

@@ -173,7 +173,8 @@ fn unrelated_numbers(kind: u64, index: u32, same_in_set: bool) -> [DoubleDouble;
     })
 }
 
-/// A value at the points, with bounds on the rounding error of its evaluation in `f64`.
+/// A value at each sample point, in double-double arithmetic, with bounds on the rounding errors that an evaluation in
+/// `f64` would have.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sample {
     values: [DoubleDouble; POINTS],
