@@ -17,9 +17,9 @@ impl Trigonometry {
     pub fn range_of_angles(self) -> &'static str {
         match self {
             Trigonometry::Polynomial => {
-                "Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for \
-                 larger angles the sines and cosines, and everything computed from them, are \
-                 NaN. Wrap angles that grow without bound."
+                "The magnitude of an angle must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = \
+                 131072 rad): beyond that, the sines and cosines, and everything computed from \
+                 them, are NaN. Wrap angles that grow without bound."
             }
             Trigonometry::Standard => {
                 "Angles may be of any size: sines and cosines come from the standard library."

@@ -44,7 +44,7 @@ pub(crate) fn functions(module: &Module) -> Element {
         let once = counts.constructor.operations();
         (holding("code", function.name.as_str()).into(), of_kinds(&counts.call), Some(once))
     });
-    let caption = "Operations per call of each function. Subtractions count as additions, sign changes are not counted; \
+    let caption = "Operations per call of each function. Subtractions count as additions; sign changes are not counted; \
         operations are multiplications, additions and divisions together. The last column counts the operations that \
         are done only once for each set of parameters.";
     counted(caption, ["Function", "Once per set of parameters"], rows.collect())

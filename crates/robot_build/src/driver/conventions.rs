@@ -9,10 +9,11 @@ pub const CONVENTIONS: [&str; 7] = [
     "Inertia tensors are about the center of mass, in link axes unless the file says otherwise.",
     "A tip's wrench is the wrench that the tip exerts on its surroundings, in the tip's axes, \
      with the moment about the tip's origin; the external wrench, which acts on the tip, is its \
-     negative. With upright axes, a mass m that hangs from the tip is force z = +m g.",
+     negative. If the tip's z axis points up, a mass m that hangs at rest from the tip's origin has the \
+     wrench with the force z = +m g.",
     "Armature, rotor inertia and gear ratio are separate values; the reflected inertia is \
      armature + ratio² · rotor inertia.",
-    "Friction is b q̇, an offset, and dry friction times sgn q̇, as far as the joint has them. Dry \
-     friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where \
+    "Friction is the sum of b q̇, an offset, and dry friction times sgn q̇, of those that the joint \
+     has. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where \
      F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.",
 ];

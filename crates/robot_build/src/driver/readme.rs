@@ -119,7 +119,7 @@ fn functions(text: &mut String, sections: &Sections<'_>) {
 fn paragraph_of_counts(text: &mut String, constructor: Option<&str>) {
     let once = constructor.map(|constructor| {
         format!(
-            "; the last columns are the operations of `{constructor}`, once per set of parameters"
+            "; the last three columns are the operations of `{constructor}`, once per set of parameters"
         )
     });
     let (heads, lines) = match constructor {
@@ -129,7 +129,7 @@ fn paragraph_of_counts(text: &mut String, constructor: Option<&str>) {
     line_of(
         text,
         format_args!(
-            "Operations per call. Subtractions count as additions, sign changes are not counted{}.\n\n\
+            "Operations per call. Subtractions count as additions; sign changes are not counted{}.\n\n\
              | function | mul | add | div | sqrt | abs, sign, tanh | sin | cos |{heads}\n\
              |---|---|---|---|---|---|---|---|{lines}",
             once.unwrap_or_default()
@@ -152,7 +152,7 @@ fn check_values(text: &mut String, sections: &Sections<'_>) {
             line_of(
                 text,
                 format_args!(
-                    "At the nominal parameters, and {} for parameters without a nominal value:\n",
+                    "At the nominal parameters; those without a nominal value are {}:\n",
                     plain(&stated.join(", "))
                 ),
             );

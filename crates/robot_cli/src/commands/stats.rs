@@ -25,7 +25,7 @@ use crate::text;
   robot-symbolic stats robots/puma560.toml --function inverse_dynamics --options
   robot-symbolic stats robots/puma560.toml --function mass_matrix,bias --bundle both=mass_matrix,bias
 
-Subtractions count as additions, sign changes are not counted, and a fused multiply-add counts as two
+Subtractions count as additions; sign changes are not counted, and a fused multiply-add counts as two
 operations. `other` counts absolute values, signs and hyperbolic tangents. The operations of the constructor,
 once per set of parameters, are counted separately. All functions are derived in one graph, and the passes
 depend on its order, so the count of a function can differ by a few operations from that of the function alone.

@@ -172,7 +172,7 @@ impl<'r, 'g> Derivation<'r, 'g> {
             0 => rotation.to_owned(),
             count if count == kinds.len() => translation.to_owned(),
             _ => format!(
-                "{rotation}; {translation} for the prismatic joints at {}",
+                "{rotation}; {translation} at the entries of prismatic joints, {} (counted from 0)",
                 translations.join(", ")
             ),
         }

@@ -65,8 +65,8 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
         order = format!("{order} {OF_DENAVIT_HARTENBERG}");
     }
     let doc = [
-        "The base parameters β; the regressor over them times β is the joint torques. Each is \
-         named after an inertial or drive parameter, with R if others are regrouped with it. XX \
+        "The base parameters β; the regressor over them times β gives the joint torques. Each is \
+         named after an inertial or drive parameter, with an R if others are regrouped into it. XX \
          to ZZ are entries of a link's inertia tensor about the origin of its frame, MX to MZ \
          its first moment, M its mass; IA is a drive's reflected inertia (armature), FV, FP and \
          FN its viscous, forward and backward friction, FO its friction offset, IC the coupling \
@@ -80,7 +80,7 @@ pub(super) fn base_values<'g>(derivation: &Derivation<'_, 'g>) -> Option<Functio
         vec![Output::new(
             "base_parameters",
             "The base parameters",
-            "kg, kg m, kg m²; friction and offsets in N m or N",
+            "kg, kg m, kg m²; viscous friction in N m s/rad or N s/m, other friction and offsets in N m or N",
             vec![values.len()],
             values,
         )],

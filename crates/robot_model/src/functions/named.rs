@@ -52,17 +52,14 @@ pub(super) fn suffixes(robot: &Robot) -> Vec<(FrameRef, String)> {
         FrameRef::of(robot).map(|frame| (frame, identifier(frame, robot))).collect();
     let mut found: Vec<(FrameRef, String)> = vec![];
     for (frame, name) in &frames {
-        let mut suffix = match frame {
-            FrameRef::Named(index) => {
-                let is_same = |(other, same): &&(FrameRef, String)| {
-                    matches!(other, FrameRef::Named(_)) && same == name
-                };
-                match frames.iter().filter(is_same).count() {
-                    1 => name.clone(),
-                    _ => format!("{name}_{}", index + 1),
-                }
-            }
-            FrameRef::Link(_) => name.clone(),
+        let is_named = |frame: &FrameRef| matches!(frame, FrameRef::Named(_));
+        let is_same = |(other, same): &&(FrameRef, String)| {
+            is_named(other) == is_named(frame) && same == name
+        };
+        // If only one of several had the number, its name could be the other's name in the file.
+        let mut suffix = match (frame, frames.iter().filter(is_same).count()) {
+            (_, 1) => name.clone(),
+            (FrameRef::Named(index) | FrameRef::Link(index), _) => format!("{name}_{}", index + 1),
         };
         // A suffix `dot_qd…` would make the name look like that of the other kind, `jacobian_dot_qd…`.
         if suffix == "dot_qd" || suffix.starts_with("dot_qd_") {

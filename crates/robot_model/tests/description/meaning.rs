@@ -420,6 +420,22 @@ fn a_name_that_was_made_is_not_that_of_another_link() {
     }
 }
 
+/// Names that become the same in code: each link is found by its own name.
+#[test]
+fn links_are_found_by_their_own_names() {
+    let names = ["A", "a", "a.b", "a_b"];
+    let links: String = names.map(|name| revolute(name, "")).concat();
+    let robot = read(&format!("format = 1\n[robot]\nname = \"r\"\n{links}")).robot;
+    let asked = |name: &str| functions::named(&robot, name).unwrap().frame();
+    for (index, name) in names.into_iter().enumerate() {
+        assert_eq!(asked(&format!("jacobian_{name}")), Some(FrameRef::Link(index)), "{name}");
+    }
+    for (name, kind) in functions::names(&robot) {
+        assert_eq!(functions::named(&robot, &name), Ok(kind), "{name}");
+    }
+    assert_eq!(asked("jacobian_a_b_4"), Some(FrameRef::Link(3)));
+}
+
 #[test]
 fn symbols_of_a_robot_are_its_variables() {
     let more = "[parameters]\ng = 9.81\n".to_owned() + &revolute("1", "");

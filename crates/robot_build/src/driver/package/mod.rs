@@ -166,7 +166,7 @@ impl Parts<'_> {
             "// {}\n\
              //! The check values of the README.\n\n\
              use {name}::*;\n\n\
-             /// Compares to a fraction of the largest entry.\n\
+             /// Compares entries, to within a fraction of the largest one.\n\
              fn assert_close<T>(found: &[T], stated: &[f64])\n\
              where\n    \
                  T: ::core::marker::Copy + ::core::convert::Into<f64>,\n\

@@ -41,15 +41,8 @@ fn doc(header: &Header<'_>, function: &Function<'_>) -> Vec<String> {
     let counts = header.tree.module.counts(function.source);
     let names = function.inputs.iter().map(|input| input.name.as_str());
     let mut lines = common::function(function.source, names, &counts.call);
-    let place = lines.len() - 2;
-    if let [_, _, ..] = function.source.outputs.as_slice() {
-        let outputs = function.source.outputs.iter().zip(&function.outputs);
-        let outputs = outputs.map(|(output, array)| {
-            let meaning = common::quantity(&output.doc, &output.name, &output.unit, &output.shape);
-            format!("- `{}`: {meaning}", array.name)
-        });
-        lines.splice(place..place, [String::new()].into_iter().chain(outputs));
-    }
+    let outputs = function.outputs.iter().map(|array| array.name.as_str());
+    common::add_results(&mut lines, None, function.source, outputs);
     comment::of_paragraphs(&lines)
 }
 

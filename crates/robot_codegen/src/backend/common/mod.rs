@@ -15,5 +15,6 @@ pub use self::namer::{Namer, Reserved, field_names, identifier, type_name};
 pub use self::paragraph::{comment_lines, wrapped};
 pub use self::scalar::{Scalar, check_range};
 pub use self::text::{
-    comment_line, function, markdown, markdown_line, operations, paragraphs, parameter, quantity,
+    add_results, comment_line, function, markdown, markdown_line, operations, paragraphs,
+    parameter, quantity,
 };

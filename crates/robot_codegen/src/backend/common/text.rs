@@ -55,7 +55,8 @@ pub fn quantity(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> Strin
         line.push_str(&format!(", in {}", markdown_line(unit)));
     }
     if let [rows, columns] = shape {
-        line.push_str(&format!("; {rows} rows of {columns}"));
+        let rows = if *rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
+        line.push_str(&format!("; {rows} of {columns}"));
     }
     line.push('.');
     line
@@ -92,6 +93,28 @@ pub fn function<'n>(
     }
     lines.extend([String::new(), format!("{}.", operations(counts))]);
     lines
+}
+
+/// Adds the results of a function, if it has several, to its documentation, after the line `heading` if there is one: each by
+/// its name in the code.
+pub fn add_results<'n>(
+    lines: &mut Vec<String>,
+    heading: Option<&str>,
+    function: &Function,
+    names: impl IntoIterator<Item = &'n str>,
+) {
+    if function.outputs.len() < 2 {
+        return;
+    }
+    let outputs = function.outputs.iter().zip(names).map(|(output, name)| {
+        let meaning = quantity(&output.doc, &output.name, &output.unit, &output.shape);
+        format!("- `{name}`: {meaning}")
+    });
+    // The last two lines are those of the operations.
+    let place = lines.len().saturating_sub(2);
+    let heading = heading.map(str::to_owned);
+    let added: Vec<String> = [String::new()].into_iter().chain(heading).chain(outputs).collect();
+    lines.splice(place..place, added);
 }
 
 /// `12 multiplications, 8 additions, 1 division`

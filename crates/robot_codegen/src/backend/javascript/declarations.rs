@@ -1,7 +1,7 @@
 //! The TypeScript declarations of a module.
 
 use super::{Printer, documentation};
-use crate::backend::common::{ConstantValue, comment_line};
+use crate::backend::common::{self, ConstantValue, comment_line};
 use crate::backend::flat::Function;
 
 /// Prints the declarations.
@@ -57,7 +57,12 @@ fn model(printer: &Printer<'_>) -> Vec<String> {
 /// Prints the parameters, and the functions that set several of them together.
 pub(in crate::backend) fn parameters(printer: &Printer<'_>) -> Vec<String> {
     let tree = printer.tree;
-    let mut lines = interface("Parameters", &tree.parameters);
+    let mut lines = vec!["export interface Parameters {".to_owned()];
+    for (spec, field) in tree.module.parameters.iter().zip(&tree.parameters) {
+        lines.extend(documentation(&[common::parameter(spec)], "    "));
+        lines.push(format!("    {field}: number;"));
+    }
+    lines.extend(["}", ""].map(str::to_owned));
     lines.push("export declare function nominal(): Parameters;".to_owned());
     for (setter, name) in printer.options.setters.iter().zip(&tree.setters) {
         let arguments = setter.arguments.iter().map(|argument| {

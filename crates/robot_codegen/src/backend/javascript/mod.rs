@@ -255,7 +255,10 @@ impl Printer<'_> {
     pub(in crate::backend) fn function_doc(&self, function: &Function<'_>) -> Vec<String> {
         let counts = self.tree.module.counts(function.source);
         let names = function.inputs.iter().map(|array| array.name.as_str());
-        common::function(function.source, names, &counts.call)
+        let mut doc = common::function(function.source, names, &counts.call);
+        let outputs = function.outputs.iter().map(|array| array.name.as_str());
+        common::add_results(&mut doc, Some("Returns:"), function.source, outputs);
+        doc
     }
 
     fn function(&self, function: &Function<'_>) -> Vec<String> {

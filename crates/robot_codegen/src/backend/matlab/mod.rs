@@ -254,6 +254,8 @@ impl Printer<'_> {
         let counts = self.tree.module.counts(function.source);
         let names = function.inputs.iter().map(|array| array.name.as_str());
         let mut doc = common::function(function.source, names, &counts.call);
+        let results = function.outputs.iter().map(|array| array.name.as_str());
+        common::add_results(&mut doc, Some("Returns:"), function.source, results);
         doc.extend([
             String::new(),
             "Inputs may have a column for each of several states: vectors are then given in columns, matrices in pages."

@@ -248,7 +248,10 @@ impl Printer<'_> {
         lines.push(format!("def {}({}):", function.name, arguments.join(", ")));
         let counts = self.tree.module.counts(function.source);
         let names = function.inputs.iter().map(|array| array.name.as_str());
-        lines.extend(docstring(&common::function(function.source, names, &counts.call), "    "));
+        let mut doc = common::function(function.source, names, &counts.call);
+        let outputs = function.outputs.iter().map(|array| array.name.as_str());
+        common::add_results(&mut doc, Some("Returns, in this order:"), function.source, outputs);
+        lines.extend(docstring(&doc, "    "));
         lines.extend(function.inputs.iter().map(|Array { name, length, .. }| {
             format!("    _check_length({name}, \"{name}\", {length})")
         }));

@@ -31,7 +31,7 @@ pub(super) fn text(printer: &Printer<'_>) -> String {
 }
 
 const LOAD: &str = "/**
- * Loads the module from its bytes, a compiled module, a response or an address; by default from the file beside this one.
+ * Loads the module from its bytes, a compiled module, a response or a URL; by default from the file beside this one.
  */
 export declare function load(
     source?: WebAssembly.Module | ArrayBuffer | ArrayBufferView | Response | URL | string,
@@ -39,17 +39,17 @@ export declare function load(
 
 /** The functions of the module, and its memory for calls that copy nothing. */
 export interface Robot {
-    /** What the module exports: functions of addresses. */
+    /** The module's exports: functions that take addresses. */
     readonly exports: WebAssembly.Exports;
     readonly memory: WebAssembly.Memory;
-    /** Takes memory for so many numbers, for good; gives its address. */
+    /** Allocates memory for `count` numbers, which is never freed, and returns its address. */
     allocate(count: number): number;
     /** The numbers at an address, until the memory grows. */
     numbers(address: number, count: number): NUMBERS;";
 
 const MODEL: &str = "    /** Computes everything that depends only on the parameters, once. */
     create_model(parameters: Parameters): Model;
-    /** The same in the memory of a model that there is. */
+    /** Computes the same in the memory of an existing model, which is overwritten. */
     update_model(model: Model, parameters: Parameters): void;";
 
 fn declaration(printer: &Printer<'_>, function: &Function<'_>, batch: Option<&str>) -> Vec<String> {

@@ -47,7 +47,7 @@ fn row(function: &Function<'_>, batch: Option<&str>) -> String {
 }
 
 const LOADER: &str = r#"/**
- * Loads the module from its bytes, a compiled module, a response or an address; by default from the file beside this
+ * Loads the module from its bytes, a compiled module, a response or a URL; by default from the file beside this
  * one.
  */
 export async function load(source = new URL("ADDRESS", import.meta.url)) {

@@ -32,13 +32,9 @@ fn documentation(printer: &Printer<'_>, function: &Function<'_>) -> Vec<String> 
     let counts = printer.tree.module.counts(function.source);
     let names = function.inputs.iter().map(|array| array.name.as_str());
     let mut lines = common::function(function.source, names, &counts.call);
-    if function.outputs.len() > 1 {
-        let names: Vec<String> =
-            function.outputs.iter().map(|array| format!("`{}`", array.name)).collect();
-        let place = lines.len() - 2;
-        lines.insert(place, format!("Returns the entries of {}.", names.join(", then of ")));
-        lines.insert(place, String::new());
-    }
+    let outputs = function.outputs.iter().map(|array| array.name.as_str());
+    let heading = Some("Returns the entries of these, in this order:");
+    common::add_results(&mut lines, heading, function.source, outputs);
     comment(&lines).collect()
 }
 

@@ -110,7 +110,7 @@ void loop()
         text.push_str(&printer.test_of(check));
     }
     text.push_str(
-        "    Serial.println(failures ? \"FAILED\" : \"all check values are met\");\n    delay(10000);\n}\n",
+        "    Serial.println(failures ? \"FAILED\" : \"all results match the check values\");\n    delay(10000);\n}\n",
     );
     text
 }

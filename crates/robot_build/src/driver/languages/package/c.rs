@@ -31,7 +31,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Vec<File> {
 pub(super) fn options(parts: &Parts<'_>) -> String {
     let sines = match parts.options.trigonometry {
         Trigonometry::Polynomial => {
-            "`-ffast-math` reorders sums: sines would be wrong, and the header does not compile"
+            "`-ffast-math` reorders sums, which makes sines wrong, so the header refuses to compile with it"
         }
         Trigonometry::Standard => "`-ffast-math` reorders sums: last bits differ",
     };
@@ -99,7 +99,7 @@ add_library({name} INTERFACE)
 target_include_directories({name} INTERFACE ${{CMAKE_CURRENT_SOURCE_DIR}})
 # Products and sums are not fused, so that results have the same bits on every machine.
 target_compile_options({name} INTERFACE $<$<C_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
-# Some versions of gcc fuse pairs of them all the same, where they make vectors of straight code.
+# Some versions of gcc still fuse products and sums when they vectorize straight-line code.
 target_compile_options({name} INTERFACE $<$<C_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 if(UNIX)
   target_link_libraries({name} INTERFACE m)
@@ -201,7 +201,11 @@ add_test(NAME {name} COMMAND {name}_test)
             "/* {} */\n/* The check values of the README. */\n\n#include \"{name}.h\"\n\n#include <stdio.h>\n\n",
             unnamed_header()
         );
-        text.push_str(&self.comparison());
+        text.push_str(
+            &self.comparison(
+                "compile with -ffp-contract=off and, with gcc, -fno-tree-slp-vectorize",
+            ),
+        );
         text.push_str(&self.hidden());
         if self.has_bits() {
             text.push_str(FLAGS);
@@ -216,7 +220,7 @@ add_test(NAME {name} COMMAND {name}_test)
         for check in self.parts.checks {
             text.push_str(&self.test_of(check));
         }
-        text.push_str("    printf(failures ? \"FAILED\\n\" : \"all check values are met\\n\");\n    return failures != 0;\n}\n");
+        text.push_str("    printf(failures ? \"FAILED\\n\" : \"all results match the check values\\n\");\n    return failures != 0;\n}\n");
         text
     }
 
@@ -239,13 +243,13 @@ static void hide({real} *numbers, int count)
         )
     }
 
-    /// Prints the function that compares results with stated values.
-    pub(super) fn comparison(&self) -> String {
+    /// Prints the function that compares results with stated values; `remedy` is the advice if bits differ.
+    pub(super) fn comparison(&self, remedy: &str) -> String {
         let real = self.real();
         let mut text = format!(
             "static int failures = 0;
 
-/* Compares to a fraction of the largest entry, and, where the code promises them, all bits. */
+/* Compares entries to within a fraction of the largest one and, where the code promises equal bits, bit by bit. */
 static void check(const char *what, const {real} *found, const {real} *stated, int count)
 {{
     double size = 0.0;
@@ -257,7 +261,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
     }}
     for (i = 0; i < count; i++) {{
         if (!(fabs((double)found[i] - (double)stated[i]) <= {} * size)) {{
-            printf(\"%s: entry %d is %.17g, stated is %.17g\\n\", what, i, (double)found[i], (double)stated[i]);
+            printf(\"%s: entry %d is %.17g, expected %.17g\\n\", what, i, (double)found[i], (double)stated[i]);
             failures++;
         }}
         differs |= memcmp(&found[i], &stated[i], sizeof found[i]);
@@ -265,7 +269,7 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
 ",
             self.tolerance(),
         );
-        text.push_str(&self.bits());
+        text.push_str(&self.bits(remedy));
         text.push_str("}\n\n");
         text
     }
@@ -275,16 +279,17 @@ static void check(const char *what, const {real} *found, const {real} *stated, i
         has_bits(self.parts)
     }
 
-    fn bits(&self) -> String {
+    fn bits(&self, remedy: &str) -> String {
         if !self.has_bits() {
             return "    (void)differs;\n".to_owned();
         }
-        "    if (differs) {
-        printf(\"%s: last bits differ: compile with -ffp-contract=off and, with gcc, -fno-tree-slp-vectorize\\n\", what);
+        format!(
+            "    if (differs) {{
+        printf(\"%s: last bits differ: {remedy}\\n\", what);
         failures++;
-    }
+    }}
 "
-        .to_owned()
+        )
     }
 
     pub(super) fn tolerance(&self) -> &'static str {

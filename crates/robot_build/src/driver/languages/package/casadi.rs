@@ -21,7 +21,7 @@ pub(super) fn usage(tree: &Tree<'_>, casadi: &Casadi) -> String {
     let with = casadi.functions.iter().find(|(_, has_jacobian)| *has_jacobian);
     let Some((function, _)) = with.or(casadi.functions.first()) else { return String::new() };
     let mut text = format!(
-        "\nFor CasADi and the programs that accept its functions (acados, do-mpc, Opti), compile `{name}_casadi.c` to a \
+        "\nFor CasADi and the programs that accept its functions (acados, do-mpc), compile `{name}_casadi.c` to a \
          shared library, with CMake or like this:\n\n```sh\ncc -std=c99 -O2 -ffp-contract=off -shared -fPIC {name}_casadi.c -o \
          lib{name}_casadi.so -lm\n```\n\n```python\nimport casadi\n\nf = casadi.external(\"{function}\", \
          \"./lib{name}_casadi.so\")\n```\n\nEach function has the name `casadi_{name}_…`. Matrices are stored by columns, as \

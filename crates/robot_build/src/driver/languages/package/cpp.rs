@@ -41,7 +41,7 @@ target_include_directories({name} INTERFACE ${{CMAKE_CURRENT_SOURCE_DIR}})
 target_compile_features({name} INTERFACE cxx_std_17)
 # Products and sums are not fused, so that results have the same bits on every machine.
 target_compile_options({name} INTERFACE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>)
-# Some versions of gcc fuse pairs of them all the same, where they make vectors of straight code.
+# Some versions of gcc still fuse products and sums when they vectorize straight-line code.
 target_compile_options({name} INTERFACE $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
 
 enable_testing()
@@ -117,7 +117,7 @@ fn test(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         text.push_str(&test_of(parts, tree, function, check));
     }
     text.push_str(
-        "    puts(failures ? \"FAILED\" : \"all check values are met\");\n    return failures != 0;\n}\n",
+        "    puts(failures ? \"FAILED\" : \"all results match the check values\");\n    return failures != 0;\n}\n",
     );
     text
 }

@@ -34,7 +34,7 @@ add_library({name} INTERFACE)
 target_include_directories({name} INTERFACE ${{CMAKE_CURRENT_SOURCE_DIR}})
 target_compile_features({name} INTERFACE cuda_std_17)
 # Products and sums are not fused, so that results have the same bits on every machine. Without these lines they are
-# fused: faster, and other last bits.
+# fused, which is faster but changes the last bits.
 target_compile_options({name} INTERFACE $<$<COMPILE_LANG_AND_ID:CUDA,NVIDIA>:-fmad=false>)
 target_compile_options({name} INTERFACE $<$<COMPILE_LANG_AND_ID:CUDA,Clang>:-ffp-contract=off>)
 target_compile_options({name} INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-ffp-contract=off>)
@@ -93,13 +93,14 @@ fn readme(printer: &Printer<'_>) -> String {
          device memory, so neighboring threads read neighboring numbers. Arrays have elements of type `{real}`; a matrix is \
          an array, row by row.{} To test it:\n\n```sh\nnvcc -std=c++17 -O3 -fmad=false example.cu -o example && ./example\n```\n\nor with \
          CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without `-fmad=false` the compiler fuses products and \
-         sums: this is faster, but last bits differ, and the test says so. With `-use_fast_math` divisions and roots are also \
+         sums: this is faster, but last bits differ{}. With `-use_fast_math` divisions and roots are also \
          approximate. The header can also be compiled at run time (NVRTC, CuPy's `RawModule`): kernels then have their plain names.\n",
         if printer.tree.has_parameters() {
             " A kernel takes the model by value; the host computes it once."
         } else {
             ""
-        }
+        },
+        if printer.has_bits() { ", and the test says so" } else { "" }
     ));
     let constructor = printer.names.item("model_init");
     let what = "CUDA C++: straight-line code without branches or allocation";
@@ -115,7 +116,7 @@ fn example(printer: &Printer<'_>) -> String {
          <cstdio>\n#include <cstring>\n\n",
         unnamed_header()
     );
-    text.push_str(&printer.comparison());
+    text.push_str(&printer.comparison("compile with -fmad=false and without -use_fast_math"));
     text.push_str(
         "/* Waits for the kernel. */
 static void finish(const char *what)
@@ -162,7 +163,7 @@ static void finish(const char *what)
     }
     text.push_str(
         "    cudaFree(memory);
-    printf(failures ? \"FAILED\\n\" : \"all check values are met\\n\");
+    printf(failures ? \"FAILED\\n\" : \"all results match the check values\\n\");
     return failures != 0;
 }
 ",

@@ -61,7 +61,7 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         usage.push_str(&format!("robot.{}({arguments});\n", function.name));
     }
     usage.push_str(
-        "```\n\nInputs are arrays of any kind; one of another length than documented throws a `RangeError`. \
+        "```\n\nInputs are arrays of any kind; a call with an array of the wrong length throws a `RangeError`. \
          Outputs are new `Float64Array`s, or the arrays that are passed after the inputs, so a loop need not allocate; a matrix is an array, row by row. Test it with `node test.mjs`.\n",
     );
     parts.readme(tree, "JavaScript", &usage, "create_model")
@@ -82,7 +82,7 @@ function check(what, found, stated) {{
     const size = Math.max(0, ...stated.map(Math.abs));
     const meets = found.length === stated.length && found.every((value, i) => Math.abs(value - stated[i]) <= 1e-12 * size);
     if (!meets) {{
-        throw new Error(`${{what}} gives ${{found}}, stated is ${{stated}}`);
+        throw new Error(`${{what}} gives ${{found}}, expected ${{stated}}`);
     }}
 }}
 
@@ -100,6 +100,6 @@ function check(what, found, stated) {{
             numbers(&stated, ", ")
         ));
     }
-    text.push_str("console.log(\"all check values are met\");\n");
+    text.push_str("console.log(\"all results match the check values\");\n");
     text
 }

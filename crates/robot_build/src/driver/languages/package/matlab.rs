@@ -85,7 +85,7 @@ fn test(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         }
     }
     text.push_str(
-        "disp('all check values are met');
+        "disp('all results match the check values');
 end
 
 function check(what, found, stated)

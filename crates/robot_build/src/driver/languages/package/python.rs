@@ -90,7 +90,7 @@ def check(what, found, stated):
     size = max(map(abs, stated), default=0.0)
     assert len(found) == len(stated), what
     for a, b in zip(found, stated):
-        assert abs(a - b) <= 1e-12 * size, f\"{{what}} gives {{a}}, stated is {{b}}\"
+        assert abs(a - b) <= 1e-12 * size, f\"{{what}} gives {{a}}, expected {{b}}\"
 
 
 {}",
@@ -106,6 +106,6 @@ def check(what, found, stated):
             numbers(&stated, ", ")
         ));
     }
-    text.push_str("print(\"all check values are met\")\n");
+    text.push_str("print(\"all results match the check values\")\n");
     text
 }

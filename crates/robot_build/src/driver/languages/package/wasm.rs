@@ -57,7 +57,10 @@ fn call(tree: &Tree<'_>, name: &str, check: &CheckValue, states: Option<usize>) 
 
 fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     let name = &tree.name;
-    let real = if parts.options.scalar == Scalar::F64 { "Float64Array" } else { "Float32Array" };
+    let (real, lanes) = match parts.options.scalar {
+        Scalar::F64 => ("Float64Array", 2),
+        Scalar::F32 => ("Float32Array", 4),
+    };
     let mut usage = format!(
         "```js\nimport {{ {} }} from \"./{name}.mjs\";\n\nconst robot = await load();\n{}",
         imports(tree),
@@ -70,19 +73,21 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     usage.push_str(&format!(
         "```\n\n`{name}.mjs` loads `{name}.wasm` from its own folder, in a browser or in Node.js; `load` also accepts the module's \
          bytes, its URL, a response or a compiled module. Inputs are arrays of any kind. Outputs are new `{real}`s, or \
-         the arrays that are passed after the inputs; a matrix is an array, row by row. Test it with `node test.mjs`.\n\n\
-         Functions whose names end in `_batch` take many states: after the model comes the number `n` of states, and each array has \
-         entry `j` of state `i` at `j * n + i`. They compute in 128-bit lanes.\n\n\
+         the arrays that are passed after the inputs; single numbers are returned as such; a matrix is an array, row by row. Test it with `node test.mjs`.\n\n\
+         Functions whose names end in `_batch` take many states: {} is the number `n` of states, and each array has \
+         entry `j` of state `i` at `j * n + i`. They compute {lanes} states at a time in 128-bit vectors.\n\n\
          The wrapped functions copy arrays into and out of the module's memory. To avoid copies, keep arrays there and call \
-         `robot.exports`, whose functions take addresses:\n\n"
+         `robot.exports`, whose functions take addresses:\n\n",
+        if tree.has_parameters() { "after the model, the next argument" } else { "the first argument" }
     ));
     if let Some((function, _)) = first {
         usage.push_str(&uncopied(tree, function));
     }
-    usage.push_str(
-        "\nFor these, the functions over columns take, after the model, the number of states and the distance from one column to \
+    usage.push_str(&format!(
+        "\nFor these, the functions over columns {}take the number of states and the distance from one column to \
          the next in numbers. When memory grows, earlier views of it become empty.\n",
-    );
+        if tree.has_parameters() { "first take the model; they " } else { "" }
+    ));
     parts.readme(tree, "WebAssembly", &usage, "create_model")
 }
 
@@ -138,7 +143,7 @@ function check(what, found, stated) {{
     const size = Math.max(0, ...stated.map(Math.abs));
     const meets = found.length === stated.length && found.every((value, i) => Math.abs(value - stated[i]) <= {tolerance} * size);
     if (!meets) {{
-        throw new Error(`${{what}} gives ${{found}}, stated is ${{stated}}`);
+        throw new Error(`${{what}} gives ${{found}}, expected ${{stated}}`);
     }}{bits}
 }}
 
@@ -175,6 +180,6 @@ function batch(what, found, stated) {{
             text.push_str(&format!("batch(\"{over_columns}\", {called}, [{stated}]);\n"));
         }
     }
-    text.push_str("console.log(\"all check values are met\");\n");
+    text.push_str("console.log(\"all results match the check values\");\n");
     text
 }

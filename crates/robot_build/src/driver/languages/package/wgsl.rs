@@ -152,8 +152,8 @@ def main():
         meets = (abs(found - stated) <= 1e-4 * abs(stated).max()).all()
         if not meets:
             failed += 1
-            print(f"{function['name']} gives {found.ravel()}, stated is {stated.ravel()}")
-    print("FAILED" if failed else f"all check values are met ({robot.name})")
+            print(f"{function['name']} gives {found.ravel()}, expected {stated.ravel()}")
+    print("FAILED" if failed else f"all results match the check values ({robot.name})")
     return 1 if failed else 0
 
 
