@@ -3,6 +3,7 @@
 use robot_model::diagnostic::{number, significant};
 use robot_model::robot::{JointKind, Robot};
 use robot_model::variable::JointVariable;
+use robot_symbolic::Rational;
 
 use crate::Terminal;
 use crate::failure::Failure;
@@ -27,7 +28,7 @@ fn outside(positions: &[f64], robot: &Robot) -> Option<String> {
     let mut found = vec![];
     for ((coordinate, symbol), position) in robot.coordinates.iter().zip(symbols).zip(positions) {
         let Some(limits) = &coordinate.limits else { continue };
-        let [lower, upper] = limits.each_ref().map(|limit| limit.to_f64());
+        let [lower, upper] = limits.each_ref().map(Rational::to_f64);
         if !(lower..=upper).contains(position) {
             found.push((symbol, *position, [lower, upper], coordinate.kind));
         }

@@ -67,8 +67,7 @@ pub enum Cause {
 }
 
 /// The usual reasons for small steps.
-const SMALL: &str =
-    "Look for stiff springs, friction with a small `smoothing` and discontinuous forces";
+const SMALL: &str = "Look for stiff springs, friction with a small `smoothing`, and discontinuous or very large forces";
 
 impl fmt::Display for Cause {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -77,8 +76,8 @@ impl fmt::Display for Cause {
                 write!(formatter, "the steps became too small. {SMALL}, or increase the tolerance")
             }
             Cause::Accelerations => formatter.write_str(
-                "the accelerations do not have finite values. Either the mass matrix is singular \
-                 (a coordinate moves no mass) or the motion has diverged",
+                "the accelerations do not have finite values: the mass matrix is singular (a \
+                 coordinate moves no mass), the motion has diverged, or a torque is too large",
             ),
             Cause::Torques => formatter.write_str(
                 "the joint torques do not have finite values there; look for a division by zero, \

@@ -41,7 +41,7 @@ mod trajectory;
 pub use contributions::{TorqueContributions, torque_contributions};
 pub use dynamics::{DryFriction, Dynamics, Features, State, TorqueLaw, from_fn};
 pub use error::{Cause, Error};
-pub use motion::{Energies, Motion};
+pub use motion::{Energies, Motion, is_energy};
 pub use program::RobotProgram;
 pub use samples::Samples;
 pub use simulation::{SimulationOptions, simulate};

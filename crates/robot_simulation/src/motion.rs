@@ -84,3 +84,9 @@ impl Motion {
         table
     }
 }
+
+/// Whether a column of a table is one of the energies of [`Motion::table`].
+#[must_use]
+pub fn is_energy(column: &str) -> bool {
+    matches!(column, "kinetic" | "potential" | "energy")
+}

@@ -10,6 +10,7 @@ use robot_symbolic::Formula;
 use crate::csv::unit;
 use crate::dynamics::{Features, State, TorqueLaw};
 use crate::error::Error;
+use crate::motion::is_energy;
 use crate::table::{Table, check_times};
 use crate::{expressions, features};
 
@@ -203,8 +204,7 @@ fn linear(times: &[f64], values: &[f64], t: f64) -> f64 {
 /// Whether a column belongs to a motion, apart from its torques.
 fn is_of_motion(name: &str) -> bool {
     let motion = |(variable, _)| JointVariable::MOTION.contains(&variable);
-    matches!(name, "t" | "kinetic" | "potential" | "energy")
-        || JointVariable::parse(name).is_some_and(motion)
+    name == "t" || is_energy(name) || JointVariable::parse(name).is_some_and(motion)
 }
 
 fn meanings(robot: &Robot, parameters: &[(&str, f64)]) -> BTreeMap<String, Meaning> {

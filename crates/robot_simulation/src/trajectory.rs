@@ -10,6 +10,7 @@ use robot_symbolic::{Expr, Formula, Graph, walk};
 use crate::csv::unit;
 use crate::error::Error;
 use crate::kinks::{Kink, kinks, poles};
+use crate::motion::is_energy;
 use crate::table::{Table, check_times};
 use crate::{expressions, grid};
 
@@ -31,8 +32,7 @@ pub struct Trajectory {
 
 /// Whether a column belongs to a simulated motion but not to a trajectory.
 fn is_result(name: &str) -> bool {
-    matches!(name, "kinetic" | "potential" | "energy")
-        || matches!(JointVariable::parse(name), Some((JointVariable::Torque, _)))
+    is_energy(name) || matches!(JointVariable::parse(name), Some((JointVariable::Torque, _)))
 }
 
 /// The names of the wrench components: `fx` … for a single tip, or `fx_NAME` … for each of several tips.

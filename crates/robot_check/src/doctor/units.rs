@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use robot_model::diagnostic::significant;
 use robot_model::diagnostic::{Diagnostic, Span, code};
+use robot_model::robot::JointKind;
 
-use super::facts::{BodyFacts, RobotFacts};
+use super::facts::{BodyFacts, LinkFacts, RobotFacts};
 
 /// The largest plausible radius of gyration, m. That of a rod of 10 m is 2.9 m; the largest industrial arms reach 5 m.
 const WIDEST: f64 = 3.0;
@@ -13,6 +14,8 @@ const WIDEST: f64 = 3.0;
 const DENSEST: f64 = 22_590.0;
 /// The largest plausible length of a link of a robot on a fixed base, m; 20 mm that are read as m reach it.
 const LONGEST: f64 = 20.0;
+/// The largest plausible position of a prismatic joint, m; cranes have shorter ones.
+const FARTHEST: f64 = 100.0;
 /// The largest plausible acceleration of gravity, m/s²; that of Jupiter is 24.8 m/s².
 const HEAVIEST: f64 = 30.0;
 
@@ -26,6 +29,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
             let place = link.place.origin.as_ref().unwrap_or(&link.place.name);
             found.push(long("the frame of", &link.link.name, link.arm, place));
         }
+        found.extend(far(facts, link));
         for body in &link.bodies {
             let (name, distance) = (&body.body.name, body.center.norm());
             if distance > LONGEST {
@@ -52,6 +56,21 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
                 .help("give it in m/s^2"),
         );
     }
+}
+
+/// The warning about the limits of a prismatic joint.
+fn far(facts: &RobotFacts<'_>, link: &LinkFacts<'_>) -> Option<Diagnostic> {
+    let coordinate = facts.robot.coordinates.get(link.link.joint.coordinate)?;
+    let limits = coordinate.limits.as_ref().filter(|_| coordinate.kind == JointKind::Prismatic)?;
+    let farthest = limits.iter().fold(0.0_f64, |most, limit| most.max(limit.to_f64().abs()));
+    let place = link.place.limits.as_ref().filter(|_| farthest > FARTHEST)?;
+    let message = format!("a limit of `{}` is {} m", link.link.joint.name, significant(farthest));
+    Some(
+        Diagnostic::warning(code::UNITS, message)
+            .at(place, "in mm, or in degrees?")
+            .because("the joint is prismatic, and no robot has such a long one")
+            .help("give the limits in m; leave out `limits` if the joint has none"),
+    )
 }
 
 /// Whether one of the values of a body is reported by this module.

@@ -1,17 +1,19 @@
 //! The dimensions of symbols and terms.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use robot_model::robot::{JointKind, Robot};
+use robot_model::robot::{Friction, JointKind, Robot};
 use robot_model::unit::Dimension;
 use robot_model::variable::JointVariable;
-use robot_symbolic::{Expr, Function, View};
+use robot_symbolic::{Expr, Function, View, walk};
 
 use super::term::Term;
 
 /// The dimension of every symbol of a robot; `None` if the file gives no unit.
 pub(super) struct Dimensions {
     symbols: BTreeMap<String, Option<Dimension>>,
+    /// The symbols in the robot's friction.
+    friction: BTreeSet<String>,
 }
 
 impl Dimensions {
@@ -39,7 +41,17 @@ impl Dimensions {
                 symbols.insert(name.clone(), Some(Dimension::MOMENT));
             }
         }
-        Dimensions { symbols }
+        Dimensions { symbols, friction: of_friction(robot) }
+    }
+
+    /// Whether a term is one of friction: whether it has the sign of a velocity or a symbol of the robot's friction.
+    pub(super) fn is_of_friction(&self, term: &Term<'_>) -> bool {
+        let atoms: Vec<Expr<'_>> = term.factors.iter().map(|factor| factor.atom).collect();
+        walk::reachable(&atoms).into_iter().any(|part| match part.view() {
+            View::Symbol(symbol) => self.friction.contains(&*part.graph().symbol_name(symbol)),
+            View::Call(function, _) => matches!(function, Function::Sign | Function::Tanh),
+            _ => false,
+        })
     }
 
     /// The dimension of a term, which is that of the product of its symbols' powers; `None` if a factor has an unknown
@@ -51,27 +63,38 @@ impl Dimensions {
     pub(super) fn of_term(&self, term: &Term<'_>) -> Result<Option<Dimension>, String> {
         let mut product = Some(Dimension::NONE);
         for factor in &term.factors {
+            self.know(factor.atom)?;
             let exponent = i8::try_from(factor.exponent).unwrap_or(i8::MAX);
             product = product
-                .zip(self.of_atom(factor.atom)?)
+                .zip(self.of_atom(factor.atom))
                 .map(|(product, dimension)| product.product(dimension.to_power(exponent)));
         }
         Ok(product)
     }
 
     /// The dimension of a symbol or function; `None` if it is unknown.
-    fn of_atom(&self, atom: Expr<'_>) -> Result<Option<Dimension>, String> {
+    fn of_atom(&self, atom: Expr<'_>) -> Option<Dimension> {
         match atom.view() {
             View::Symbol(symbol) => {
-                let name = atom.graph().symbol_name(symbol);
-                self.symbols.get(&name).copied().ok_or(name)
+                self.symbols.get(&*atom.graph().symbol_name(symbol)).copied().flatten()
             }
             View::Pi
             | View::Call(Function::Sin | Function::Cos | Function::Sign | Function::Tanh, _) => {
-                Ok(Some(Dimension::NONE))
+                Some(Dimension::NONE)
             }
-            _ => Ok(None),
+            _ => None,
         }
+    }
+
+    /// Returns the name of a symbol in a factor that the robot does not have as an error.
+    fn know(&self, atom: Expr<'_>) -> Result<(), String> {
+        for part in walk::reachable(&[atom]) {
+            let name = part.as_symbol().map(|symbol| part.graph().symbol_name(symbol));
+            if let Some(name) = name.filter(|name| !self.symbols.contains_key(&**name)) {
+                return Err(name.to_string());
+            }
+        }
+        Ok(())
     }
 
     /// Whether the derived terms of equations, each given with the dimension of its quantity, have these dimensions as
@@ -88,4 +111,23 @@ impl Dimensions {
         let mut known = known.peekable();
         known.peek().is_some() && known.all(|agrees| agrees)
     }
+}
+
+fn of_friction(robot: &Robot) -> BTreeSet<String> {
+    let formulas = robot.links.iter().flat_map(|link| {
+        let Friction {
+            viscous,
+            coulomb,
+            spindle_diameter,
+            coulomb_positive,
+            coulomb_negative,
+            offset,
+            smoothing,
+        } = &link.friction;
+        let formulas =
+            [viscous, coulomb, spindle_diameter, coulomb_positive, coulomb_negative, offset];
+        formulas.into_iter().chain(smoothing)
+    });
+    let symbols = formulas.flat_map(robot_symbolic::Formula::symbols);
+    symbols.map(|(name, _)| name.to_owned()).collect()
 }

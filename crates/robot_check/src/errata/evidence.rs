@@ -31,6 +31,8 @@ pub enum Evidence {
     },
     /// The printed term contains a symbol that the robot does not have.
     UnknownSymbol(String),
+    /// The printed term is one of friction, which the derived equations do not contain.
+    Friction,
 }
 
 /// The text of the evidence, such as `has units kg m s^-1, but a force has kg m s^-2: a time derivative is missing`.
@@ -72,6 +74,9 @@ impl fmt::Display for Evidence {
             }
             Evidence::UnknownSymbol(symbol) => {
                 write!(formatter, "the robot does not have the symbol {symbol}")
+            }
+            Evidence::Friction => {
+                write!(formatter, "friction is not compared: leave its terms out")
             }
         }
     }

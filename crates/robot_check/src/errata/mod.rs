@@ -196,6 +196,12 @@ fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
 }
 
 fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
+    if equation.quantity.contains(['+', '-', '*']) {
+        let message = "the left side is a sum or a product";
+        return Diagnostic::error(code::EXPRESSION, message)
+            .at(&equation.span, "")
+            .help("solve the equation for one quantity: `Q1 = …`, in LaTeX `\\tau_1 = …`");
+    }
     let message = format!("the robot does not have the quantity `{}`", quote(&equation.quantity));
     let (links, last) = (robot.links.len(), robot.degrees_of_freedom());
     Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(format!(
@@ -423,10 +429,15 @@ impl<'g> Compared<'_, 'g> {
         known: &Known<'_>,
         lines: &Lines,
     ) -> Difference {
-        let units = printed.and_then(|term| known.of_units(term, self.dimension));
+        let is_friction =
+            |term: &&Term<'_>| derived.is_none() && known.dimensions.is_of_friction(term);
+        let units = match printed.filter(is_friction) {
+            Some(_) => Some(Evidence::Friction),
+            None => printed.and_then(|term| known.of_units(term, self.dimension)),
+        };
         let same = derived.and_then(|term| known.printed.support(term, &self.name()));
         let nearest = match (printed, derived) {
-            (Some(term), None) => term.nearest(&self.derived),
+            (Some(term), None) if units != Some(Evidence::Friction) => term.nearest(&self.derived),
             _ => None,
         };
         Difference {

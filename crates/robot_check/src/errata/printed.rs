@@ -96,6 +96,13 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
     let (number, latex) = numbered(left.text);
     let number = number.or(entry.number.clone()).unwrap_or_default();
     let column = right.rows()?;
+    if column.is_some() && !symbols.is_vector(latex) {
+        let message = "this is an equation of matrices or vectors that is not compared";
+        return Err(Diagnostic::error(code::EXPRESSION, message)
+            .at(&left.span, "")
+            .help("write an equation for each entry, such as `\\tau_1 = …`")
+            .into());
+    }
     let quantity = symbols.quantity(latex, column.is_some());
     let (rows, axes) = match column {
         None => (vec![right], &[""][..]),

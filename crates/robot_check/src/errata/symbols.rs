@@ -100,11 +100,19 @@ impl Symbols {
     /// The name of the quantity, or of the vector of quantities, that LaTeX on a left side denotes. Other text is
     /// returned unchanged.
     pub(super) fn quantity(&self, latex: &str, vector: bool) -> String {
-        let plain = |key: String| VECTOR_SIGNS.iter().fold(key, |key, sign| key.replace(sign, ""));
         let known = if vector { &self.vectors } else { &self.quantities };
-        let key = plain(symbol_key(latex));
-        known.get(&key).cloned().unwrap_or_else(|| latex.trim().to_owned())
+        known.get(&plain_key(latex)).cloned().unwrap_or_else(|| latex.trim().to_owned())
     }
+
+    /// Whether LaTeX on a left side denotes a vector of quantities.
+    pub(super) fn is_vector(&self, latex: &str) -> bool {
+        self.vectors.contains_key(&plain_key(latex))
+    }
+}
+
+/// The key of a symbol without the signs of a vector.
+fn plain_key(latex: &str) -> String {
+    VECTOR_SIGNS.iter().fold(symbol_key(latex), |key, sign| key.replace(sign, ""))
 }
 
 /// The name of the symbol or quantity that infix text denotes: `tau1` is the joint torque `Q1`. Other text is returned

@@ -6,6 +6,7 @@ use robot_model::diagnostic::quote;
 use robot_simulation::csv::{
     Lines, cells, miscounted, number, numbers, unit, wrong_header, wrong_number,
 };
+use robot_simulation::is_energy;
 
 use super::{Layout, Place, Sink, State};
 use crate::failure::Failure;
@@ -62,22 +63,18 @@ pub(super) fn has_wrench(header: &str, layout: &Layout) -> bool {
     wrenches.any(|array| array.columns.iter().any(|name| cells.contains(&name.as_str())))
 }
 
-/// The column of the time, which no function of a robot takes, and the remedy if it is there.
-const TIME: &str = "t";
-const MOTION: &str = " For joint torques along a motion over time, use `torques --trajectory`; \
-    otherwise leave this column out";
-
 fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
     let mut errors = vec![];
     let columns = layout.columns();
     for (index, name) in header.iter().enumerate() {
-        if !columns.contains(name) {
+        if *name == "t" || is_energy(name) {
+            // Simulated motions have these columns, which no function of a robot takes.
+        } else if !columns.contains(name) {
             let unknown =
                 format!("unknown column `{}`.{}", quote(name), text::meant(name, &columns));
             let unit = unit(name);
             let unknown = if unit.is_empty() { &unknown } else { unknown.trim_end_matches('.') };
-            let motion = if *name == TIME { MOTION } else { "" };
-            errors.push(format!("the header: {unknown}{unit}{motion}"));
+            errors.push(format!("the header: {unknown}{unit}"));
         } else if header[..index].contains(name) {
             errors.push(format!("`{name}` appears twice in the header"));
         }

@@ -202,14 +202,19 @@ fn a_header_is_checked_without_states() {
     assert_eq!(complaint(1, &arguments, "q1,q2\n"), expected);
 }
 
-/// `simulate` and recordings have a column of the time.
+/// The output of `simulate` is a file of states: its time and energies are not inputs of functions.
 #[test]
-fn a_column_of_the_time_has_a_remedy() {
-    let arguments = ["eval", &robot("planar_2r"), "--function", "gravity", "--states", "-"];
-    let done = run_with(&arguments, b"t,q1,q2\n0,0,0\n");
-    assert_eq!(done.code, 1);
-    assert!(done.errors.contains("unknown column `t`"), "{}", done.errors);
-    assert!(done.errors.contains("use `torques --trajectory`"), "{}", done.errors);
+fn a_simulated_motion_is_a_file_of_states() {
+    let (folder, file) = (folder("streams-motion"), robot("planar_2r"));
+    let motion = folder.join("motion.csv");
+    let path = motion.to_str().unwrap();
+    let simulated = ["simulate", &file, "--q0", "1,0.5", "--time", "0.05", "-o", path];
+    assert_eq!(run_with(&simulated, b"").code, 0);
+    let arguments = ["eval", &file, "--function", "regressor_base", "--states", path];
+    let done = run_with(&arguments, b"");
+    assert_eq!((done.code, done.output.matches("regressor").count()), (0, 6), "{}", done.errors);
+    let misspelled = ["eval", &file, "--function", "gravity", "--states", "-"];
+    assert!(run_with(&misspelled, b"t,q1,q3\n0,0,0\n").errors.contains("unknown column `q3`"));
 }
 
 /// A wrench at the last of many states determines the function for all of them, from a file and from a stream.

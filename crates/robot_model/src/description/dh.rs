@@ -72,7 +72,7 @@ impl Table {
         self.taken += 1;
         self.rows.next().unwrap_or_else(|| LinkRow {
             convention: self.convention,
-            kind: None,
+            kind: Some(JointKind::Revolute),
             row: Row {
                 a: Reader::unknown(),
                 alpha: Reader::unknown(),
@@ -90,8 +90,9 @@ impl Table {
             return;
         }
         let (rows, links) = (self.count, self.taken);
+        let plural = if rows == 1 { "" } else { "s" };
         let message = format!(
-            "the DH table has {rows} rows, but the number of links that take a row is {links}"
+            "the DH table has {rows} row{plural}, but the number of links that take a row is {links}"
         );
         reader.report(
             Diagnostic::error(code::WRONG_COUNT, message)

@@ -93,6 +93,11 @@ pub(super) fn read(
             // Without a type, the other keys cannot be checked.
             None => return joint,
         }
+    } else if let Some(entry) = table.get("type") {
+        let message = "`type` does not belong here: the DH row gives it";
+        reader.report(Diagnostic::error(code::CONFLICT, message).at(&entry.key, "no effect").help(
+            "remove it, or write it in the row; a row without `type` is that of a revolute joint",
+        ));
     }
     if let Some(entry) = table.get("name") {
         joint.name = reader.name(entry.value, "a joint", Kind::Label).unwrap_or(joint.name);

@@ -95,7 +95,9 @@ fn dh(reader: &mut Reader<'_>, entry: &Entry<'_>, kind: Option<JointKind>) -> Fr
 
 /// Reads the convention. It has no default, because the two conventions give different robots.
 pub(super) fn convention(reader: &mut Reader<'_>, table: &mut Table<'_>) -> Option<DhConvention> {
-    let entry = table.require(reader, "convention", "convention = \"modified\"")?;
+    let help = "add `convention = \"standard\"` if the frame of a link is at its far end, on the next joint's axis, or \
+                `convention = \"modified\"` if it is on the link's own joint axis";
+    let entry = table.require_with(reader, "convention", help)?;
     let word = reader.word(entry.value, "a DH convention", CONVENTIONS)?;
     DhConvention::ALL.into_iter().find(|convention| convention.name() == word)
 }

@@ -44,7 +44,8 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         if follows_comma(span.start) {
             continue;
         }
-        let (message, help) = words(text, error.message(), &span);
+        let message = words(error.message());
+        let help = remedy(text, error.message(), &span);
         let mut diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
         diagnostic.help = help.map(str::to_owned);
         found.push(diagnostic);
@@ -133,14 +134,23 @@ fn first_character(text: &str) -> &str {
     text.get(..end).unwrap_or_default()
 }
 
-/// The message of the parser, and a remedy for the most frequent cases.
-fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str>) {
+/// The message of the parser.
+fn words(message: &str) -> String {
+    let message = message.strip_suffix(", expected nothing").unwrap_or(message);
+    if message.contains("recurs") {
+        return "the file is nested too deeply".to_owned();
+    }
+    format!("invalid TOML: {message}")
+}
+
+/// A remedy for the most frequent messages of the parser.
+fn remedy(text: &str, message: &str, span: &Span) -> Option<&'static str> {
     let rest = text.get(span.start..).unwrap_or_default();
     let starts = |start: &str| message.starts_with(start);
     let found = text.get(span.clone()).filter(|found| !found.is_empty());
     let found = found.unwrap_or_else(|| first_character(rest));
     let is_space = |character: char| character.is_whitespace() && !character.is_ascii();
-    let help = if is_decimal_comma(text, span.start) {
+    if is_decimal_comma(text, span.start) {
         Some("use a decimal point: write `0.5` instead of `0,5`")
     } else if found.contains(is_space) {
         Some(
@@ -188,12 +198,5 @@ fn words(text: &str, message: &str, span: &Span) -> (String, Option<&'static str
         Some("use at most four levels, which is enough for every robot file")
     } else {
         None
-    };
-    let message = message.strip_suffix(", expected nothing").unwrap_or(message);
-    let message = if message.contains("recurs") {
-        "the file is nested too deeply".to_owned()
-    } else {
-        format!("invalid TOML: {message}")
-    };
-    (message, help)
+    }
 }

@@ -14,10 +14,19 @@ pub(super) fn order(reader: &mut Reader<'_>, draft: &mut Draft) -> Option<Vec<us
     names(reader, links, frames);
     let known: Vec<Named> = links.iter().map(|link| link.name.clone()).collect();
     let mut complete = true;
-    let parents = links.iter_mut().map(|link| &mut link.parent);
-    let parents = parents.chain(frames.iter_mut().map(|frame| &mut frame.parent));
-    for parent in parents {
-        complete &= resolve(reader, parent, &known, "name a link of this file, or \"base\"");
+    let of_link = "name a link of this file, or \"base\"";
+    for link in &mut *links {
+        complete &= resolve(reader, &mut link.parent, &known, of_link);
+    }
+    let of_frames: Vec<String> = frames.iter().map(|frame| frame.name.name.clone()).collect();
+    for frame in &mut *frames {
+        let help = match &frame.parent {
+            Parent::Name(parent) if of_frames.contains(&parent.name) => {
+                "links carry frames: name the link of that frame, and give the pose relative to the link"
+            }
+            _ => of_link,
+        };
+        complete &= resolve(reader, &mut frame.parent, &known, help);
     }
     if let Some(payload) = payload {
         let help = "name a moving link of this file, a tip or a frame";

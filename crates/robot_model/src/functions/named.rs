@@ -33,12 +33,15 @@ impl FrameRef {
         named.chain((0..robot.links.len()).map(FrameRef::Link))
     }
 
-    /// The frames for which a kind of function is generated if no frame is specified: the named frames or, if there are
-    /// none, the frames of the links without children.
+    /// The frames for which a kind of function is generated if no frame is specified: the named frames that move or, if
+    /// there are none, the frames of the links without children.
     #[must_use]
     pub fn usual(robot: &Robot) -> Vec<FrameRef> {
-        if !robot.frames.is_empty() {
-            return (0..robot.frames.len()).map(FrameRef::Named).collect();
+        let moving =
+            |index: &usize| robot.frames.get(*index).is_some_and(|frame| frame.link.is_some());
+        let named: Vec<usize> = (0..robot.frames.len()).filter(moving).collect();
+        if !named.is_empty() {
+            return named.into_iter().map(FrameRef::Named).collect();
         }
         let is_last = |index: &usize| robot.links.iter().all(|link| link.parent != Some(*index));
         (0..robot.links.len()).filter(is_last).map(FrameRef::Link).collect()

@@ -1,9 +1,9 @@
 //! Printing of a comparison as text and JSON.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use robot_check::errata::{Comparison, Difference, MistakeKind};
+use robot_check::errata::{Comparison, Difference, Evidence, MistakeKind};
 use serde_json::{Value, json};
 
 use crate::screen::{ADDED, CHANGED, REMOVED, TITLE, styled_lines};
@@ -34,7 +34,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
             let _ = writeln!(shown, "    {evidence}");
         }
     }
-    shown + &summary(comparison) + "\n" + &hint(comparison)
+    shown + &summary(comparison) + "\n" + &hint(comparison) + &of_symbols(comparison)
 }
 
 /// The relative difference of coefficients below which they may be the same number with other digits.
@@ -63,6 +63,25 @@ fn hint(comparison: &Comparison) -> String {
              equations printed with `--digits 17` have more digits\n"
         ),
     }
+}
+
+/// A line about symbols that the robot does not have; empty if there are none.
+fn of_symbols(comparison: &Comparison) -> String {
+    let evidence = comparison.differences.iter().flat_map(|difference| &difference.evidence);
+    let unknown = evidence.filter_map(|one| match one {
+        Evidence::UnknownSymbol(name) => Some(name.as_str()),
+        _ => None,
+    });
+    let unknown: BTreeSet<&str> = unknown.collect();
+    if unknown.is_empty() {
+        return String::new();
+    }
+    let names: Vec<&str> = unknown.into_iter().collect();
+    format!(
+        "note: not symbols of the robot: {}; coordinates are q1, qd1, qdd1, in LaTeX q_1, \\dot q_1, \\ddot q_1, and \
+         parameters have the names of the robot file\n",
+        names.join(", ")
+    )
 }
 
 /// Colors the text: published terms as removed ones, derived terms as added ones.

@@ -104,11 +104,7 @@ impl Arguments {
         let mut nothing = std::io::empty();
         let (standard, mut terminal) = terminal.without_input(&mut nothing);
         let terminal = &mut terminal;
-        let mut states = self.states(robot, &layout, standard)?;
-        if let States::Given(state) = &states {
-            let positions = state.array(JointVariable::Position.name()).unwrap_or_default();
-            limits::note("--q", positions, robot, terminal)?;
-        }
+        let mut states = self.states(robot, &layout, standard, terminal)?;
         let loaded = kind.map(|kind| with_wrench(kind, robot, &layout, &mut states)).transpose()?;
         let (kind, unloadable) = loaded.unzip();
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
@@ -201,11 +197,16 @@ impl Arguments {
         robot: &Robot,
         layout: &'l Layout,
         standard: &'t mut dyn Read,
+        terminal: &mut Terminal<'_>,
     ) -> Result<States<'l, 't>, Failure> {
         let Some(path) = &self.states else {
             let (state, wrong) = self.state.state(robot, layout);
-            let given = States::Given(state);
-            return if wrong.is_empty() { Ok(given) } else { Err(Failure::Usage(wrong)) };
+            if !wrong.is_empty() {
+                return Err(Failure::Usage(wrong));
+            }
+            let positions = state.array(JointVariable::Position.name()).unwrap_or_default();
+            limits::note("--q", positions, robot, terminal)?;
+            return Ok(States::Given(state));
         };
         Ok(States::Read(Input::open(path, standard)?))
     }
