@@ -8,13 +8,13 @@
 /// - Roll, pitch and yaw are rotations about fixed axes: R = Rz(yaw) Ry(pitch) Rx(roll).
 /// - The gravity vector is the acceleration of gravity: it points down.
 /// - Inertia tensors are about the center of mass, in link axes unless the file says otherwise.
-/// - A tip's wrench is the wrench that the tip exerts on its surroundings, in the tip's axes, with the moment about the tip's origin; the external wrench, which acts on the tip, is its negative. With upright axes, a mass m that hangs from the tip is force z = +m g.
+/// - A tip's wrench is the wrench that the tip exerts on its surroundings, in the tip's axes, with the moment about the tip's origin; the external wrench, which acts on the tip, is its negative. If the tip's z axis points up, a mass m that hangs at rest from the tip's origin has the wrench with the force z = +m g.
 /// - Armature, rotor inertia and gear ratio are separate values; the reflected inertia is armature + ratio² · rotor inertia.
-/// - Friction is b q̇, an offset, and dry friction times sgn q̇, as far as the joint has them. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.
+/// - Friction is the sum of b q̇, an offset, and dry friction times sgn q̇, of those that the joint has. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.
 ///
 /// Other functions can be generated too: list them with `functions = ["…"]` in `[code]` of the robot file or in the macro, `.functions(["…"])` in the builder, or the command's option for functions; `"all"` selects all. Also available for this robot:
 /// `inverse_dynamics_wrench`, `inverse_dynamics_friction`, `inverse_dynamics_wrench_friction`, `link_wrenches`, `mass_matrix`, `mass_matrix_lower`, `bias`, `gravity`, `forward_dynamics`, `forward_dynamics_wrench`, `forward_dynamics_friction`, `forward_dynamics_wrench_friction`, `forward_kinematics`, `frame_poses`, `jacobian`, `jacobian_dot_qd`, `energies`, `coriolis_matrix`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`, `regressor`, `regressor_base`, `base_parameters`.
-/// - Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for larger angles the sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without bound.
+/// - The magnitude of an angle must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): beyond that, the sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without bound.
 #[allow(
     dead_code,
     non_snake_case,
@@ -242,11 +242,11 @@ pub mod trttr1 {
         /// Inverse dynamics: the joint torques τ (generalized forces Q) that produce the accelerations `qdd`: M q̈ + C q̇ + g.
         /// Without friction.
         ///
-        /// - `q`: Joint positions, in rad; m for the prismatic joints at \[0\], \[2\], \[3\].
-        /// - `qd`: Joint velocities, in rad/s; m/s for the prismatic joints at \[0\], \[2\], \[3\].
-        /// - `qdd`: Joint accelerations, in rad/s²; m/s² for the prismatic joints at \[0\], \[2\], \[3\].
+        /// - `q`: Joint positions, in rad; m at the entries of prismatic joints, \[0\], \[2\], \[3\] (counted from 0).
+        /// - `qd`: Joint velocities, in rad/s; m/s at the entries of prismatic joints, \[0\], \[2\], \[3\] (counted from 0).
+        /// - `qdd`: Joint accelerations, in rad/s²; m/s² at the entries of prismatic joints, \[0\], \[2\], \[3\] (counted from 0).
         ///
-        /// Returns: Joint torques, in N m; N for the prismatic joints at \[0\], \[2\], \[3\].
+        /// Returns: Joint torques, in N m; N at the entries of prismatic joints, \[0\], \[2\], \[3\] (counted from 0).
         ///
         /// 32 multiplications, 20 additions, 2 sines, 2 cosines.
         #[inline]

@@ -217,7 +217,7 @@ fn the_test_in_wasm_compares_bits_where_they_are_stated() {
 fn the_readme_in_c_tells_what_fast_math_does() {
     let source = Source { name: "a.toml".to_owned(), text: ARM.to_owned() };
     for (trigonometry, words) in [
-        (Trigonometry::Polynomial, "sines would be wrong, and the header does not compile."),
+        (Trigonometry::Polynomial, "makes sines wrong, so the header refuses to compile with it."),
         (Trigonometry::Standard, "reorders sums: last bits differ."),
     ] {
         let options = Options { trigonometry, ..options(Scalar::F64) };

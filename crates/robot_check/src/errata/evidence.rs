@@ -31,6 +31,8 @@ pub enum Evidence {
     },
     /// The printed term contains a symbol that the robot does not have.
     UnknownSymbol(String),
+    /// The printed term contains the name of a quantity of the robot, such as `F_l5.x`, which is not a symbol.
+    OtherQuantity(String),
     /// The printed term is one of friction, which the derived equations do not contain.
     Friction,
 }
@@ -69,7 +71,7 @@ impl fmt::Display for Evidence {
                 "the derived term appears, except for the factor {factor}, in {}",
                 equations.join(", ")
             ),
-            Evidence::UnknownSymbol(symbol) if is_quantity(symbol) => {
+            Evidence::OtherQuantity(symbol) => {
                 write!(formatter, "{symbol} is another quantity and not a symbol of the robot")
             }
             Evidence::UnknownSymbol(symbol) => {
@@ -83,7 +85,7 @@ impl fmt::Display for Evidence {
 }
 
 /// Whether a name is that of a quantity, such as `Q1` or `F_l5.x`.
-fn is_quantity(name: &str) -> bool {
+pub(super) fn is_quantity(name: &str) -> bool {
     let number = |kind: Kind| name.strip_prefix(kind.name());
     let mut numbers = Kind::ALL.into_iter().filter_map(number);
     numbers.any(|number| number.starts_with(|first: char| first.is_ascii_digit()))

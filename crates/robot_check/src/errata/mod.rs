@@ -203,6 +203,14 @@ fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
             .help("solve the equation for one quantity: `Q1 = …`, in LaTeX `\\tau_1 = …`");
     }
     let message = format!("the robot does not have the quantity `{}`", quote(&equation.quantity));
+    let vector = [".x", ".y", ".z"].iter().find_map(|axis| equation.quantity.strip_suffix(axis));
+    if let Some(vector) = vector.filter(|vector| vector.contains('\\')) {
+        let message = format!("`{}` is not a vector that is compared", quote(vector));
+        return Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(
+            "these are the vectors a_{c}^{1}, F^{1}, M_{c}^{1}, F_{l}^{1} and M_{l}^{1} of each link; write an \
+             equation for each entry of others, such as `\\tau_1 = …`",
+        );
+    }
     let (links, last) = (robot.links.len(), robot.degrees_of_freedom());
     Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(format!(
         "the quantities are a_c1.x to a_c{links}.z, F, M_c, F_l and M_l likewise, and Q1 to \
@@ -397,6 +405,7 @@ impl Known<'_> {
                 Some(Evidence::Dimension { printed, expected })
             }
             Ok(_) => None,
+            Err(symbol) if evidence::is_quantity(&symbol) => Some(Evidence::OtherQuantity(symbol)),
             Err(symbol) => Some(Evidence::UnknownSymbol(symbol)),
         }
     }

@@ -2,9 +2,9 @@
 
 /**
  * cuda.
- * - Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for larger angles the
- *   sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without
- *   bound.
+ * - The magnitude of an angle must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad):
+ *   beyond that, the sines and cosines, and everything computed from them, are NaN. Wrap angles that
+ *   grow without bound.
  * - Compiled without contraction of products and sums (-fmad=false) and without -use_fast_math,
  *   results have the same bits on every machine.
  */

@@ -4,8 +4,8 @@
  * The functions of `double_.h` for CasADi's `external`, with exact Jacobians where the header computes
  * them.
  *
- * Arrays are dense columns, and matrices lie column by column. Where CasADi gives no array, its
- * entries are 0.
+ * Arrays are dense columns, and matrices are stored column by column. If CasADi passes a null pointer
+ * for an input, its entries are 0.
  */
 #include "double_.h"
 
@@ -35,7 +35,7 @@ static void take_(double *to, const casadi_real *from, int length)
     }
 }
 
-/* A matrix that lies row by row, column by column. */
+/* Copies a matrix that is stored row by row to an array that is stored column by column. */
 static void give_(casadi_real *to, const double *from, int rows, int columns)
 {
     int i, j;

@@ -2,9 +2,9 @@
 
 /**
  * javascript.
- * - Angles must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad): for larger angles the
- *   sines and cosines, and everything computed from them, are NaN. Wrap angles that grow without
- *   bound.
+ * - The magnitude of an angle must be below 2³⁰ = 1073741824 rad (in f32 below 2¹⁷ = 131072 rad):
+ *   beyond that, the sines and cosines, and everything computed from them, are NaN. Wrap angles that
+ *   grow without bound.
  */
 
 /** Numbers, in an array of any kind. */
@@ -32,7 +32,13 @@ export interface Model {
 
 export declare function create_model(parameters: Parameters): Model;
 export interface Parameters {
+    /**
+     * p; nominally 0.75.
+     */
     p: number;
+    /**
+     * r; nominally 0.75.
+     */
     r: number;
 }
 
