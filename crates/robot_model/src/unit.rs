@@ -223,13 +223,32 @@ impl Factor<'_> {
         }
         let other = OTHERS.iter().find(|(known, ..)| *known == self.name);
         let Some((_, unit, numerator, denominator)) = other else {
-            return Err(
-                self.fault(format!("`{}` is not a unit", crate::diagnostic::quote(self.name)))
-            );
+            let name = crate::diagnostic::quote(self.name);
+            let meant = meant(self.name).map(|meant| format!("; did you mean `{meant}`?"));
+            let meant = meant.unwrap_or_default();
+            return Err(self.fault(format!("`{name}` is not a unit{meant}")));
         };
         let dimension = si(unit).map_or_else(Dimension::default, |(_, dimension)| *dimension);
         Ok((dimension, Some((unit, *numerator, *denominator))))
     }
+}
+
+/// The notation that was probably meant: `kg` for `Kg`, `N m` for `Nm`, `m^2` for `m²` and `m2`.
+fn meant(name: &str) -> Option<String> {
+    let is_known = |name: &&str| UNITS.iter().any(|(known, _)| known == name);
+    if let Some((known, _)) = UNITS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
+        return Some((*known).to_owned());
+    }
+    let powers = [('²', '2'), ('³', '3'), ('2', '2'), ('3', '3')];
+    for (sign, exponent) in powers {
+        if let Some(base) = name.strip_suffix(sign).filter(is_known) {
+            return Some(format!("{base}^{exponent}"));
+        }
+    }
+    let (first, second) = (1..name.len())
+        .filter_map(|at| name.split_at_checked(at))
+        .find(|(first, second)| is_known(first) && is_known(second))?;
+    Some(format!("{first} {second}"))
 }
 
 /// Splits a text into factors; the exponent of the factor after `/` is negated.
@@ -308,6 +327,26 @@ mod tests {
         assert_eq!(not_si("kg g").0, "kg kg");
         assert_eq!(not_si("N/mm"), ("N/m".to_owned(), rational(1000, 1)));
         assert_eq!(not_si("deg"), ("rad".to_owned(), None));
+    }
+
+    #[test]
+    fn usual_notations_are_suggested() {
+        for (text, meant) in [
+            ("Kg", "kg"),
+            ("n", "N"),
+            ("Nm", "N m"),
+            ("kgm", "kg m"),
+            ("m2", "m^2"),
+            ("kg m²", "m^2"),
+            ("rads", "rad s"),
+        ] {
+            let Err(UnitError::Unknown(_, message)) = Unit::parse(text) else { panic!("{text}") };
+            assert!(message.ends_with(&format!("did you mean `{meant}`?")), "{text}: {message}");
+        }
+        for text in ["furlong", "é", "²", "stone"] {
+            let Err(UnitError::Unknown(_, message)) = Unit::parse(text) else { panic!("{text}") };
+            assert!(!message.contains("mean"), "{text}: {message}");
+        }
     }
 
     #[test]

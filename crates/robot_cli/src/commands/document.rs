@@ -66,7 +66,7 @@ fn source_path(text: &str) -> Result<PathBuf, String> {
     }
     let path = PathBuf::from(text);
     let is_typeset = path.extension().is_some_and(|extension| extension == "pdf");
-    let refusal = "only sources are written; name the file NAME.tex, NAME.typ or NAME.md";
+    let refusal = "only sources are written: name the file NAME.tex, NAME.typ or NAME.md, and make a PDF of it with `pdflatex` or `typst compile`";
     if is_typeset { Err(refusal.to_owned()) } else { Ok(path) }
 }
 

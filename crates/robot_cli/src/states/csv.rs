@@ -1,5 +1,6 @@
 //! States from CSV: a header such as `q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz`, then a line for each state.
 
+use std::borrow::Cow;
 use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
@@ -70,8 +71,8 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
         if *name == "t" || is_energy(name) {
             // Simulated motions have these columns, which no function of a robot takes.
         } else if !columns.contains(name) {
-            let unknown =
-                format!("unknown column `{}`.{}", quote(name), text::meant(name, &columns));
+            let meant = text::meant(&in_our_order(name), &columns);
+            let unknown = format!("unknown column `{}`.{meant}", quote(name));
             let unit = unit(name);
             let unknown = if unit.is_empty() { &unknown } else { unknown.trim_end_matches('.') };
             errors.push(format!("the header: {unknown}{unit}"));
@@ -88,6 +89,15 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
         }
     }
     errors
+}
+
+/// The name `qd1` for `dq1`, as other programs name velocities and accelerations; others unchanged.
+fn in_our_order(name: &str) -> Cow<'_, str> {
+    let ds = name.len() - name.trim_start_matches('d').len();
+    match name.get(ds..).and_then(|rest| rest.strip_prefix('q')) {
+        Some(number) if ds > 0 => Cow::Owned(format!("q{}{number}", &name[..ds])),
+        _ => Cow::Borrowed(name),
+    }
 }
 
 /// The meaning of the columns of a file.

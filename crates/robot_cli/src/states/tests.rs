@@ -99,6 +99,9 @@ fn everything_that_is_wrong_with_json_is_named() {
 fn everything_that_is_wrong_with_csv_is_named() {
     let header = errors("q1,q3,q1\n");
     assert!(header[0].contains("unknown column `q3`. Did you mean `q1`?"), "{header:?}");
+    let other = errors("q1,q2,dq1,ddq2\n0,0,0,0\n");
+    assert!(other[0].contains("`dq1`. Did you mean `qd1`?"), "{other:?}");
+    assert!(other[1].contains("`ddq2`. Did you mean `qdd2`?"), "{other:?}");
     assert_eq!(header[1..], ["`q1` appears twice in the header", "the header lacks q2 of `q`"]);
     // Files that other programs write have a remedy.
     let deg = errors("q1 [deg],q2\n");

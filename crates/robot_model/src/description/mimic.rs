@@ -154,9 +154,11 @@ fn no_leader(reader: &Reader<'_>, wanted: &Named, links: &[&DraftLink]) -> Diagn
     }
     let moving = links.iter().filter(|link| link.joint.kind.is_some());
     let names = moving.map(|link| link.joint.name.name.as_str());
-    let label = match reader.nearest(&wanted.name, names) {
-        Some(near) => format!("did you mean `{near}`?"),
-        None => "no joint has this name".to_owned(),
+    let of_link = links.iter().find(|link| link.name.name == wanted.name);
+    let label = match (of_link, reader.nearest(&wanted.name, names)) {
+        (Some(link), _) => format!("a link; its joint is `{}`", quote(&link.joint.name.name)),
+        (None, Some(near)) => format!("did you mean `{near}`?"),
+        (None, None) => "no joint has this name".to_owned(),
     };
     Diagnostic::error(code::MIMIC, format!("`{name}` is not a joint of this robot"))
         .at(&wanted.span, label)
