@@ -262,3 +262,40 @@ fn a_term_without_a_value_is_a_wrong_input() {
         assert!(shown.contains("printed:2:"), "{shown}");
     }
 }
+
+/// Symbols of a textbook that are not the robot's, inside a cosine as well, are named once with those of the robot.
+#[test]
+fn symbols_that_the_robot_lacks_are_named() {
+    let path = crate::folder("compare-symbols").join("printed");
+    std::fs::write(&path, "\\[ \\tau_2 = I_2 \\ddot q_1 + g m_2 r_2 \\cos(\\theta_2) \\]").unwrap();
+    let shown = run(&["compare", &robot("planar_2r"), path.to_str().unwrap()]).output;
+    assert!(shown.contains("the robot does not have the symbol theta2"), "{shown}");
+    assert!(shown.ends_with("and parameters have the names of the robot file\n"), "{shown}");
+    assert_eq!(
+        shown.matches("note: not symbols of the robot: theta2; coordinates are q1").count(),
+        1
+    );
+}
+
+/// Friction is not compared, as the messages about its terms say, whether its parameters have names or not.
+#[test]
+fn terms_of_friction_are_named() {
+    let folder = crate::folder("compare-friction");
+    let (file, document) = (folder.join("arm.toml"), folder.join("arm.txt"));
+    let arm = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nb_y = 0.2\n[[link]]\nname = \"1\"\n\
+               joint = { type = \"revolute\", axis = \"z\" }\nmass = 1\ncenter_of_mass = [0.1, 0, 0]\n\
+               inertia = { xx = 1, yy = 1, zz = 1 }\nfriction = { viscous = \"b_y\", coulomb_torque = 0.3 }\n";
+    std::fs::write(&file, arm).unwrap();
+    let file = file.to_str().unwrap();
+    let printed = output(&["equations", file, "--form", "expanded", "--friction"], "");
+    std::fs::write(&document, &printed).unwrap();
+    let found = run(&["compare", file, document.to_str().unwrap()]);
+    assert_eq!(found.code, 1, "{}", found.errors);
+    let said = found.output.matches("friction is not compared: leave its terms out").count();
+    assert_eq!(
+        (said, found.output.matches("nearest").count()),
+        (2, 0),
+        "{printed}{}",
+        found.output
+    );
+}

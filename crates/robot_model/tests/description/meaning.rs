@@ -436,6 +436,21 @@ fn links_are_found_by_their_own_names() {
     assert_eq!(asked("jacobian_a_b_4"), Some(FrameRef::Link(3)));
 }
 
+/// The Jacobian of a frame that is fixed to the base is 0.
+#[test]
+fn the_usual_frames_move() {
+    let frame =
+        |name: &str, parent: &str| format!("[[frame]]\nname = \"{name}\"\nparent = \"{parent}\"\n");
+    let of = |frames: String| {
+        let links = revolute("1", "");
+        read(&format!("format = 1\n[robot]\nname = \"r\"\n{links}{frames}")).robot
+    };
+    let (world, tool) = (frame("world", "base"), frame("tool", "1"));
+    assert_eq!(FrameRef::usual(&of(world.clone())), [FrameRef::Link(0)]);
+    assert_eq!(FrameRef::usual(&of(world + &tool)), [FrameRef::Named(1)]);
+    assert_eq!(FrameRef::usual(&of(String::new())), [FrameRef::Link(0)]);
+}
+
 #[test]
 fn symbols_of_a_robot_are_its_variables() {
     let more = "[parameters]\ng = 9.81\n".to_owned() + &revolute("1", "");
