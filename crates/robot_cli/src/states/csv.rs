@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::io::BufRead;
 
 use robot_model::diagnostic::quote;
+use robot_model::variable::JointVariable;
 use robot_simulation::csv::{
     Lines, cells, miscounted, number, numbers, unit, wrong_header, wrong_number,
 };
@@ -93,10 +94,15 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
 
 /// The name `qd1` for `dq1`, as other programs name velocities and accelerations; others unchanged.
 fn in_our_order(name: &str) -> Cow<'_, str> {
-    let ds = name.len() - name.trim_start_matches('d').len();
-    match name.get(ds..).and_then(|rest| rest.strip_prefix('q')) {
-        Some(number) if ds > 0 => Cow::Owned(format!("q{}{number}", &name[..ds])),
-        _ => Cow::Borrowed(name),
+    let position = name.trim_start_matches('d');
+    let variable = match name.len() - position.len() {
+        1 => JointVariable::Velocity,
+        2 => JointVariable::Acceleration,
+        _ => return Cow::Borrowed(name),
+    };
+    match position.strip_prefix(JointVariable::Position.name()) {
+        Some(number) => Cow::Owned(format!("{}{number}", variable.name())),
+        None => Cow::Borrowed(name),
     }
 }
 
