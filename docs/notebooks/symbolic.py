@@ -1,5 +1,5 @@
 # %% [markdown]
-# # Notebook: the same equations by SymPy
+# # Notebook: the same equations derived with SymPy
 #
 # A program that prints equations must be checked by an independent program. Here SymPy derives the equations of a
 # planar arm with three links by Lagrange's method, using only the positions of the centers of mass. The notebook then

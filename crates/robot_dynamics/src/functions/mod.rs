@@ -166,13 +166,17 @@ impl<'r, 'g> Derivation<'r, 'g> {
                 JointKind::Revolute => false,
                 JointKind::Prismatic => true,
             })
-            .map(|(index, _)| format!("[{index}]"))
+            .map(|(index, _)| index.to_string())
             .collect();
         match translations.len() {
             0 => rotation.to_owned(),
             count if count == kinds.len() => translation.to_owned(),
+            1 => format!(
+                "{rotation}; {translation} for the prismatic joint (entry {}, counted from 0)",
+                translations.concat()
+            ),
             _ => format!(
-                "{rotation}; {translation} at the entries of prismatic joints, {} (counted from 0)",
+                "{rotation}; {translation} for the prismatic joints (entries {}, counted from 0)",
                 translations.join(", ")
             ),
         }
