@@ -338,6 +338,22 @@ impl Friction {
             smoothing: None,
         }
     }
+
+    /// All its formulas.
+    pub fn formulas(&self) -> impl Iterator<Item = &Formula> {
+        let Friction {
+            viscous,
+            coulomb,
+            spindle_diameter,
+            coulomb_positive,
+            coulomb_negative,
+            offset,
+            smoothing,
+        } = self;
+        let formulas =
+            [viscous, coulomb, spindle_diameter, coulomb_positive, coulomb_negative, offset];
+        formulas.into_iter().chain(smoothing)
+    }
 }
 
 impl Drive {

@@ -2,7 +2,7 @@
 //!
 //! `data-is` marks an element that shows a link or a parameter, `data-of` one that depends on some.
 
-use robot_model::robot::{Body, Drive, Friction, Inertia, Joint, Move};
+use robot_model::robot::{Body, Drive, Inertia, Joint, Move};
 use robot_model::robot::{Link, Placement, Robot};
 use robot_symbolic::Formula;
 
@@ -38,17 +38,7 @@ fn formulas(link: &Link) -> Vec<&Formula> {
         found.extend([mass, xx, yy, zz, xy, xz, yz]);
         found.extend(placement(place));
     }
-    let Friction {
-        viscous,
-        coulomb,
-        spindle_diameter,
-        coulomb_positive,
-        coulomb_negative,
-        offset,
-        smoothing,
-    } = &link.friction;
-    found.extend([viscous, coulomb, spindle_diameter, coulomb_positive, coulomb_negative, offset]);
-    found.extend(smoothing);
+    found.extend(link.friction.formulas());
     let Drive { armature, rotor_inertia, gear_ratio, .. } = &link.drive;
     found.extend([armature, rotor_inertia, gear_ratio]);
     found

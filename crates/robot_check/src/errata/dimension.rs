@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use robot_model::robot::{Friction, JointKind, Robot};
+use robot_model::robot::{JointKind, Robot};
 use robot_model::unit::Dimension;
 use robot_model::variable::JointVariable;
-use robot_symbolic::{Expr, Function, View, walk};
+use robot_symbolic::{Expr, Formula, Function, View, walk};
 
 use super::term::Term;
 
@@ -113,21 +113,8 @@ impl Dimensions {
     }
 }
 
+/// The symbols in the robot's friction.
 fn of_friction(robot: &Robot) -> BTreeSet<String> {
-    let formulas = robot.links.iter().flat_map(|link| {
-        let Friction {
-            viscous,
-            coulomb,
-            spindle_diameter,
-            coulomb_positive,
-            coulomb_negative,
-            offset,
-            smoothing,
-        } = &link.friction;
-        let formulas =
-            [viscous, coulomb, spindle_diameter, coulomb_positive, coulomb_negative, offset];
-        formulas.into_iter().chain(smoothing)
-    });
-    let symbols = formulas.flat_map(robot_symbolic::Formula::symbols);
-    symbols.map(|(name, _)| name.to_owned()).collect()
+    let formulas = robot.links.iter().flat_map(|link| link.friction.formulas());
+    formulas.flat_map(Formula::symbols).map(|(name, _)| name.to_owned()).collect()
 }
