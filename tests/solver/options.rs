@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use robot_dynamics::economical::{
     Plan, Recursion, Solver,
-    plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
+    plan::{Entry, FreeAcceleration, LinkPlan, Origin, Place, Turn},
 };
 use robot_dynamics::matrix::Pivots;
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
@@ -71,7 +71,7 @@ fn all() -> LinkPlan {
         moment: [true; 3],
         diagonal: true,
         residual: [Some(Entry::X), Some(Entry::Xz), Some(Entry::XxYy)],
-        free: FreeRate::Still,
+        free: FreeAcceleration::Still,
         composite_sum: true,
         projected_at: None,
     }
@@ -117,8 +117,8 @@ fn forced(robot: &Robot, base: &LinkPlan) -> Vec<Forced> {
         let off = |plan: &mut LinkPlan| plan.residual[kind] = None;
         add(name, Shown::Torques, &off, &|plan| plan.residual[kind] = Some(entry));
     }
-    for free in FreeRate::ALL.into_iter().skip(1) {
-        let off = |plan: &mut LinkPlan| plan.free = FreeRate::Zero;
+    for free in FreeAcceleration::ALL.into_iter().skip(1) {
+        let off = |plan: &mut LinkPlan| plan.free = FreeAcceleration::Zero;
         add(format!("free {free:?}"), Shown::Accelerations, &off, &|plan| plan.free = free);
     }
     let off = |plan: &mut LinkPlan| plan.composite_sum = false;

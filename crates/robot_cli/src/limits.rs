@@ -8,22 +8,24 @@ use robot_symbolic::Rational;
 use crate::Terminal;
 use crate::failure::Failure;
 
-/// Notes that joint positions, given as `option`, are outside their limits. They have no effect on the dynamics, but
-/// such a position may be in degrees.
+/// Notes that joint positions, given as `text` with an option, are outside their limits. They have no effect on the
+/// dynamics, but such a position may be in degrees.
 pub(crate) fn note(
-    option: &str,
+    (option, text): (&str, &str),
     positions: &[f64],
     robot: &Robot,
     terminal: &mut Terminal<'_>,
 ) -> Result<(), Failure> {
-    if let Some(text) = outside(positions, robot) {
-        writeln!(terminal.errors, "note: {option}: {text}")?;
+    // Who writes a unit or a multiple of pi knows that numbers are in radians.
+    let may_be_degrees = !text.contains(['d', '°', 'p']);
+    if let Some(found) = outside(positions, may_be_degrees, robot) {
+        writeln!(terminal.errors, "note: {option}: {found}")?;
     }
     Ok(())
 }
 
 /// The text about the positions outside their limits, if there are any.
-fn outside(positions: &[f64], robot: &Robot) -> Option<String> {
+fn outside(positions: &[f64], may_be_degrees: bool, robot: &Robot) -> Option<String> {
     let symbols = robot.symbols(JointVariable::Position);
     let mut found = vec![];
     for ((coordinate, symbol), position) in robot.coordinates.iter().zip(symbols).zip(positions) {
@@ -41,7 +43,9 @@ fn outside(positions: &[f64], robot: &Robot) -> Option<String> {
         [..] => format!(", and so are {}", others.join(", ")),
     };
     let in_degrees = found.iter().find(|(_, position, [lower, upper], kind)| {
-        *kind == JointKind::Revolute && (*lower..=*upper).contains(&position.to_radians())
+        may_be_degrees
+            && *kind == JointKind::Revolute
+            && (*lower..=*upper).contains(&position.to_radians())
     });
     let remedy = in_degrees.map_or_else(String::new, |(_, position, ..)| {
         format!("; a value in degrees is written {}deg", number(*position))
@@ -94,7 +98,9 @@ mod tests {
             ),
             ([0.0, 0.0, 1.0, 0.0], Some("q3 = 1 m is outside its limits, 0 to 0.5 m")),
         ] {
-            assert_eq!(outside(&positions, &robot).as_deref(), expected, "{positions:?}");
+            assert_eq!(outside(&positions, true, &robot).as_deref(), expected, "{positions:?}");
         }
+        let turned = outside(&[3.0, 0.0, 0.0, 0.0], false, &robot);
+        assert_eq!(turned.as_deref(), Some("q1 = 3 rad is outside its limits, -2 to 2 rad"));
     }
 }

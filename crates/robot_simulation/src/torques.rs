@@ -74,10 +74,7 @@ impl Torques {
             match coordinate(robot, name).map(|index| formulas.get_mut(index)) {
                 Ok(Some(place @ None)) => *place = Some(formula),
                 Ok(_) => {
-                    wrong.push(format!(
-                        "torque `{}` is given twice, by the number or the name of its joint; leave one out",
-                        quote(name)
-                    ));
+                    wrong.push(format!("torque `{}` is given twice; leave one out", quote(name)));
                 }
                 Err(message) => wrong.push(message),
             }

@@ -31,8 +31,10 @@ pub struct Trajectory {
 }
 
 /// Whether a column belongs to a simulated motion but not to a trajectory.
-fn is_result(name: &str) -> bool {
-    is_energy(name) || matches!(JointVariable::parse(name), Some((JointVariable::Torque, _)))
+fn is_result(name: &str, robot: &Robot) -> bool {
+    let count = robot.degrees_of_freedom();
+    is_energy(name)
+        || matches!(JointVariable::parse(name), Some((JointVariable::Torque, joint)) if joint < count)
 }
 
 /// The names of the wrench components: `fx` … for a single tip, or `fx_NAME` … for each of several tips.
@@ -80,7 +82,7 @@ impl Trajectory {
             wrong.push(format!("{source}: there is no column `{name}`"));
         }
         for name in table.names() {
-            if name != "t" && !is_result(name) && needed.iter().all(|known| *known != name) {
+            if name != "t" && !is_result(name, robot) && needed.iter().all(|known| *known != name) {
                 let (name, unit) = (quote(name), unit(name));
                 wrong.push(format!("{source}: the column `{name}` is unknown{unit}"));
             }

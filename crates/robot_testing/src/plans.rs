@@ -2,7 +2,7 @@
 
 use robot_dynamics::economical::{
     Plan,
-    plan::{Entry, FreeRate, LinkPlan, Origin, Place, Turn},
+    plan::{Entry, FreeAcceleration, LinkPlan, Origin, Place, Turn},
 };
 use robot_model::robot::Robot;
 use robot_numeric::random::Random;
@@ -26,7 +26,7 @@ pub fn random_plan(random: &mut Random, robot: &Robot) -> Plan {
         diagonal: random.once_in(2),
         moment: [0; 3].map(|_| random.once_in(2)),
         residual: [0; 3].map(|_| random.once_in(3).then(|| Entry::ALL[random.index(8)])),
-        free: FreeRate::ALL[random.index(6)],
+        free: FreeAcceleration::ALL[random.index(6)],
         composite_sum: random.once_in(2),
         projected_at: random
             .once_in(2)

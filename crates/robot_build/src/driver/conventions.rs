@@ -13,7 +13,7 @@ pub const CONVENTIONS: [&str; 7] = [
      wrench with the force z = +m g.",
     "Armature, rotor inertia and gear ratio are separate values; the reflected inertia is \
      armature + ratio² · rotor inertia.",
-    "Friction is the sum of b q̇, an offset, and dry friction times sgn q̇, of those that the joint \
-     has. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where \
+    "Friction is the sum of the terms that the joint has: b q̇, an offset, dry friction times \
+     sgn q̇. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where \
      F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.",
 ];

@@ -44,14 +44,20 @@ impl Dimensions {
         Dimensions { symbols, friction: of_friction(robot) }
     }
 
-    /// Whether a term is one of friction: whether it has the sign of a velocity or a symbol of the robot's friction.
-    pub(super) fn is_of_friction(&self, term: &Term<'_>) -> bool {
-        let atoms: Vec<Expr<'_>> = term.factors.iter().map(|factor| factor.atom).collect();
-        walk::reachable(&atoms).into_iter().any(|part| match part.view() {
-            View::Symbol(symbol) => self.friction.contains(&*part.graph().symbol_name(symbol)),
-            View::Call(function, _) => matches!(function, Function::Sign | Function::Tanh),
-            _ => false,
-        })
+    /// The symbols that only the robot's friction has, given the derived terms.
+    pub(super) fn of_friction_alone<'t, 'g: 't>(
+        &self,
+        derived: impl Iterator<Item = &'t Term<'g>>,
+    ) -> BTreeSet<String> {
+        let mut alone = self.friction.clone();
+        for factor in derived.flat_map(|term| &term.factors) {
+            for part in walk::reachable(&[factor.atom]) {
+                if let Some(symbol) = part.as_symbol() {
+                    alone.remove(&*part.graph().symbol_name(symbol));
+                }
+            }
+        }
+        alone
     }
 
     /// The dimension of a term, which is that of the product of its symbols' powers; `None` if a factor has an unknown

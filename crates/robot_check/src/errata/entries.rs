@@ -116,7 +116,7 @@ fn not_an_equation(part: &Part<'_>) -> Diagnostic {
     let in_words = |c: char| c.is_alphanumeric() || matches!(c, ' ' | ',' | ':' | '.');
     let is_heading = part.text.contains(' ') && part.text.chars().all(in_words);
     let help = if is_heading {
-        "begin a heading with `#`; of the forms that `equations` prints, `expanded` and `collected` can be read"
+        "begin a heading with `#`; of the forms that `equations` prints, `expanded` and `collected` without friction can be read"
     } else {
         "write `quantity = terms`, with a number such as `(31)` in front if it has one"
     };

@@ -23,7 +23,7 @@ mod tests;
 use std::collections::{BTreeMap, BTreeSet};
 
 use robot_model::functions::Effects;
-use robot_symbolic::{AngleSums, Expr, Formula, Graph, PolynomialOptions, walk};
+use robot_symbolic::{AngleSums, Expr, Formula, Function, Graph, PolynomialOptions, View, walk};
 
 use dimension::Dimensions;
 pub use evidence::Evidence;
@@ -363,7 +363,9 @@ fn find(
     }
     let derived = compared.iter().map(|one| (one.derived.as_slice(), one.dimension));
     let has_units = dimensions.explain(derived);
-    let known = Known { printed, dimensions, has_units };
+    let friction =
+        dimensions.of_friction_alone(compared.iter().flat_map(|one| one.derived.as_slice()));
+    let known = Known { printed, dimensions, has_units, friction };
     let (mut wrong, mut rounded, mut differences, mut errors) = (0, 0, vec![], vec![]);
     for one in compared {
         let left = term::leftover(&one.print, &one.derived);
@@ -395,9 +397,21 @@ struct Known<'d> {
     dimensions: &'d Dimensions,
     /// Whether the dimension of a term is that of its symbols.
     has_units: bool,
+    /// The symbols that only friction has.
+    friction: BTreeSet<String>,
 }
 
 impl Known<'_> {
+    /// Whether a term is one of friction: whether it has the sign of a velocity or a symbol of friction alone.
+    fn is_of_friction(&self, term: &Term<'_>) -> bool {
+        let atoms: Vec<Expr<'_>> = term.factors.iter().map(|factor| factor.atom).collect();
+        walk::reachable(&atoms).into_iter().any(|part| match part.view() {
+            View::Symbol(symbol) => self.friction.contains(&*part.graph().symbol_name(symbol)),
+            View::Call(function, _) => matches!(function, Function::Sign | Function::Tanh),
+            _ => false,
+        })
+    }
+
     /// The evidence from the units of a printed term.
     fn of_units(&self, term: &Term<'_>, expected: Dimension) -> Option<Evidence> {
         match self.dimensions.of_term(term) {
@@ -438,9 +452,7 @@ impl<'g> Compared<'_, 'g> {
         known: &Known<'_>,
         lines: &Lines,
     ) -> Difference {
-        let is_friction =
-            |term: &&Term<'_>| derived.is_none() && known.dimensions.is_of_friction(term);
-        let units = match printed.filter(is_friction) {
+        let units = match printed.filter(|term| known.is_of_friction(term)) {
             Some(_) => Some(Evidence::Friction),
             None => printed.and_then(|term| known.of_units(term, self.dimension)),
         };

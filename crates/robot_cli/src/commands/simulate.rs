@@ -88,8 +88,8 @@ impl Arguments {
         let file = self.robot.open()?;
         let robot = motion::robot(&file, &self.settings, &self.friction, terminal)?;
         let start = self.start(&robot)?;
-        if self.q0.is_some() {
-            limits::note("--q0", &start.q, &robot, terminal)?;
+        if let Some(text) = &self.q0 {
+            limits::note(("--q0", text), &start.q, &robot, terminal)?;
         }
         let friction = self.friction.is_wanted();
         let functions = RobotProgram::functions(friction);

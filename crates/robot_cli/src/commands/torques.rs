@@ -126,8 +126,11 @@ impl Arguments {
             let texts: Vec<&str> = texts.into_iter().filter(|text| !text.is_empty()).collect();
             let joined = texts.iter().find(|text| text.matches('=').count() > 1);
             if let Some(text) = joined {
-                let text = quote(text);
-                let message = format!("--expressions: `{text}`: separate coordinates by `;`");
+                let remedy = match text.contains("==") {
+                    true => "write `=` once",
+                    false => "separate coordinates by `;`",
+                };
+                let message = format!("--expressions: `{}`: {remedy}", quote(text));
                 return Err(Failure::Usage(vec![message]));
             }
             let (parameters, time) = (self.settings.pairs(), self.time.unwrap_or_default());

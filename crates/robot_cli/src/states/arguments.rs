@@ -40,6 +40,11 @@ impl StateArguments {
         given.iter().any(|one| one.is_some()) || !self.wrench.is_empty()
     }
 
+    /// The joint positions as they are written.
+    pub(crate) fn positions(&self) -> &str {
+        self.q.as_deref().unwrap_or_default()
+    }
+
     /// The given variables, without the wrench, that are not among these inputs.
     pub(crate) fn unused(&self, inputs: &[&str]) -> Vec<&'static str> {
         let given = JointVariable::ALL.into_iter().zip([&self.q, &self.qd, &self.qdd, &self.tau]);

@@ -241,6 +241,15 @@ fn remedies_fit_what_was_written() {
     let open = ["torques", &file, "--expressions", "q1 = sin(2*pi*t; q2=t", "--time", "1"];
     let open = complaint(1, &open, "");
     assert!(open.contains("this parenthesis is not closed") && open.lines().count() == 1, "{open}");
+    for (text, remedy) in
+        [("q1 = t, q2 = t", "separate coordinates by `;`"), ("q1 == t; q2 = t", "write `=` once")]
+    {
+        let shown = complaint(2, &["torques", &file, "--expressions", text, "--time", "1"], "");
+        assert!(shown.contains(remedy), "{shown}");
+    }
+    let more = ["torques", &file, "--trajectory", "-"];
+    let other = complaint(1, &more, "t,q1,q2,qd1,qd2,qdd1,qdd2,tau3\n0,0,0,0,0,0,0,0\n");
+    assert!(other.contains("the column `tau3` is unknown"), "{other}");
     let single = complaint(1, &["generate", &file, "--language", "wgsl", "--scalar", "f64"], "");
     assert!(single.ends_with("WGSL computes only in f32; use `--scalar f32`\n"), "{single}");
     let tip = "\n[[tip]]\nlink = \"2\"\nposition = [0, 0, 0]\n[tip]\nlink = \"1\"\n";

@@ -45,7 +45,7 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Opti
     Some(Table {
         convention,
         place: entry.key,
-        count: rows.len(),
+        count: values.len(),
         taken: 0,
         rows: rows.into_iter(),
     })

@@ -45,7 +45,7 @@ const SHARE: f64 = 0.3;
 /// number of pixels per unit of the axis of values.
 ///
 /// A curve that lies on an earlier one is dashed, so that both are seen; a third one has shorter dashes, which leave
-/// parts of the second.
+/// parts of the second visible.
 pub(super) fn strokes(
     t: &[f64],
     curves: &[Curve],

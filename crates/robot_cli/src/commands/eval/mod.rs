@@ -205,7 +205,7 @@ impl Arguments {
                 return Err(Failure::Usage(wrong));
             }
             let positions = state.array(JointVariable::Position.name()).unwrap_or_default();
-            limits::note("--q", positions, robot, terminal)?;
+            limits::note(("--q", self.state.positions()), positions, robot, terminal)?;
             return Ok(States::Given(state));
         };
         Ok(States::Read(Input::open(path, standard)?))

@@ -43,7 +43,7 @@ pub struct LinkPlan {
     /// moment and second moment along its joint axis, in this order, remains with the link.
     pub residual: [Option<Entry>; 3],
     /// The acceleration that is assumed for the joint if it can be chosen freely.
-    pub free: FreeRate,
+    pub free: FreeAcceleration,
     /// Whether composite inertias use the home axes of the parallel group, as motions do with `angle_sum`.
     pub composite_sum: bool,
     /// The place, on the way to the base, at which this link's wrench for a unit acceleration of its joint is projected
@@ -54,7 +54,7 @@ pub struct LinkPlan {
 /// The acceleration that is assumed for a joint in forward dynamics. The recursion may be evaluated at any accelerations
 /// q̈*, not only at 0, because q̈ = q̈* + M⁻¹ (τ − τ(q̈*)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum FreeRate {
+pub enum FreeAcceleration {
     /// The acceleration 0.
     Zero,
     /// The acceleration for which the link's own acceleration along the joint axis vanishes: ε_z for a revolute joint,
@@ -70,15 +70,15 @@ pub enum FreeRate {
     NextY,
 }
 
-impl FreeRate {
+impl FreeAcceleration {
     /// All choices.
-    pub const ALL: [FreeRate; 6] = [
-        FreeRate::Zero,
-        FreeRate::Still,
-        FreeRate::Upper,
-        FreeRate::Lower,
-        FreeRate::NextX,
-        FreeRate::NextY,
+    pub const ALL: [FreeAcceleration; 6] = [
+        FreeAcceleration::Zero,
+        FreeAcceleration::Still,
+        FreeAcceleration::Upper,
+        FreeAcceleration::Lower,
+        FreeAcceleration::NextX,
+        FreeAcceleration::NextY,
     ];
 }
 
@@ -160,7 +160,7 @@ impl LinkPlan {
         moment: [false; 3],
         diagonal: false,
         residual: [None; 3],
-        free: FreeRate::Zero,
+        free: FreeAcceleration::Zero,
         composite_sum: false,
         projected_at: None,
     };

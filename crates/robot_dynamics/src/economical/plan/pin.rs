@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use toml::de::{DeTable, DeValue};
 
 use crate::economical::plan::search::Measure;
-use crate::economical::plan::{Entry, FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+use crate::economical::plan::{Entry, FreeAcceleration, LinkPlan, Origin, Place, Plan, Turn};
 
 /// A plan and the mechanics for which it was searched.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,13 +73,13 @@ const ENTRIES: [(&str, Option<Entry>); 9] = [
     ("xx_yy", Some(Entry::XxYy)),
 ];
 
-const RATES: [(&str, FreeRate); 6] = [
-    ("zero", FreeRate::Zero),
-    ("still", FreeRate::Still),
-    ("upper", FreeRate::Upper),
-    ("lower", FreeRate::Lower),
-    ("next_x", FreeRate::NextX),
-    ("next_y", FreeRate::NextY),
+const RATES: [(&str, FreeAcceleration); 6] = [
+    ("zero", FreeAcceleration::Zero),
+    ("still", FreeAcceleration::Still),
+    ("upper", FreeAcceleration::Upper),
+    ("lower", FreeAcceleration::Lower),
+    ("next_x", FreeAcceleration::NextX),
+    ("next_y", FreeAcceleration::NextY),
 ];
 
 const MEASURES: [(&str, Measure); 2] =

@@ -9,7 +9,7 @@ use robot_symbolic::Expr;
 
 use crate::economical::frames::chain::{Chain, ChainLink};
 use crate::economical::frames::joint_frame::{JointFrame, joint_frames};
-use crate::economical::plan::{FreeRate, LinkPlan};
+use crate::economical::plan::{FreeAcceleration, LinkPlan};
 use crate::economical::spatial::rotation::Plane;
 use crate::mechanism::BaseMotion;
 use crate::vector::{Matrix, Vector};
@@ -77,7 +77,7 @@ pub(crate) fn outward<'g>(
         let turning = Turning::of(&groups[index], link, joint_frame.group_turn, before, plan);
         let free = match accelerations {
             Accelerations::Free if chain.drives_alone(index) => Some(plan.free),
-            Accelerations::Free => Some(FreeRate::Zero),
+            Accelerations::Free => Some(FreeAcceleration::Zero),
             Accelerations::Given => None,
         };
         let carried = carried_acceleration(chain, index, joint_frame, parent);
@@ -194,7 +194,7 @@ impl<'g> Turning<'g> {
         link: &ChainLink<'g>,
         joint_frame: &JointFrame<'g>,
         acceleration: Vector<'g>,
-        free: Option<FreeRate>,
+        free: Option<FreeAcceleration>,
         next: Option<(usize, Vector<'g>)>,
     ) -> LinkState<'g> {
         let carried = self.epsilon.0[2];
@@ -210,7 +210,7 @@ impl<'g> Turning<'g> {
             },
         };
         self.epsilon.0[2] = match (free, at_rest) {
-            (Some(FreeRate::Still), _) => carried.graph().zero(),
+            (Some(FreeAcceleration::Still), _) => carried.graph().zero(),
             _ => carried + rate,
         };
         LinkState {
@@ -228,7 +228,7 @@ impl<'g> Turning<'g> {
     /// acceleration 0.
     fn chosen(
         &self,
-        free: FreeRate,
+        free: FreeAcceleration,
         Vector(a): Vector<'g>,
         next: Option<(usize, Vector<'g>)>,
     ) -> Option<(Expr<'g>, Option<Rest>)> {
@@ -238,13 +238,13 @@ impl<'g> Turning<'g> {
             entry.as_number().is_some_and(|number| number.to_f64().abs() > MIN_REACH)
         };
         match free {
-            FreeRate::Zero => None,
-            FreeRate::Still => Some((xy.graph().zero(), None)),
-            FreeRate::Upper => Some((xy, None)),
-            FreeRate::Lower => Some((-xy, None)),
-            FreeRate::NextX | FreeRate::NextY => {
+            FreeAcceleration::Zero => None,
+            FreeAcceleration::Still => Some((xy.graph().zero(), None)),
+            FreeAcceleration::Upper => Some((xy, None)),
+            FreeAcceleration::Lower => Some((-xy, None)),
+            FreeAcceleration::NextX | FreeAcceleration::NextY => {
                 let (child, Vector(p)) = next?;
-                let component = usize::from(free == FreeRate::NextY);
+                let component = usize::from(free == FreeAcceleration::NextY);
                 let lever = p[1 - component];
                 if !reach(lever) {
                     return None;
@@ -264,7 +264,7 @@ impl<'g> Turning<'g> {
         link: &ChainLink<'g>,
         joint_frame: &JointFrame<'g>,
         carried: Vector<'g>,
-        free: Option<FreeRate>,
+        free: Option<FreeAcceleration>,
     ) -> LinkState<'g> {
         // 2 ω × q̇ z + q̈ z
         let twice = link.motion.velocity * 2;
@@ -273,7 +273,7 @@ impl<'g> Turning<'g> {
         let mut acceleration = carried + Vector([y * twice, -(x * twice), zero]);
         let rate = match free {
             None => link.motion.acceleration,
-            Some(FreeRate::Zero) => zero,
+            Some(FreeAcceleration::Zero) => zero,
             Some(_) => -carried.0[2],
         };
         acceleration.0[2] += rate;

@@ -54,7 +54,7 @@ fn readme(printer: &Printer<'_>) -> String {
     }
     usage.push_str(&format!(
         "```\n\nCopy this folder into `libraries` in your sketchbook, or zip it and use *Add .ZIP Library*. The example `{name}` computes \
-         the check values and prints those that differ. Arrays have the type `float`; a matrix is an array, row by row. Values that \
+         the check values and prints those that differ. Arrays have elements of type `float`; a matrix is an array, row by row. Values that \
          depend only on parameters are computed once in `double`, which must have 64 bits: on AVR it does not, so the example does \
          not compile there.\n"
     ));

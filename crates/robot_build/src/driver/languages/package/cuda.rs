@@ -1,5 +1,6 @@
 //! A package in CUDA C++: the header, an example that is also the test, and a file for CMake.
 
+use robot_codegen::Scalar;
 use robot_codegen::backend::SourceFile;
 use robot_codegen::backend::c::{self, BATCH, Names};
 use robot_codegen::backend::flat::{Array, Function};
@@ -93,14 +94,18 @@ fn readme(printer: &Printer<'_>) -> String {
          device memory, so neighboring threads read neighboring numbers. Arrays have elements of type `{real}`; a matrix is \
          an array, row by row.{} To test it:\n\n```sh\nnvcc -std=c++17 -O3 -fmad=false example.cu -o example && ./example\n```\n\nor with \
          CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. Without `-fmad=false` the compiler fuses products and \
-         sums: this is faster, but last bits differ{}. With `-use_fast_math` divisions and roots are also \
-         approximate. The header can also be compiled at run time (NVRTC, CuPy's `RawModule`): kernels then have their plain names.\n",
+         sums: this is faster, but last bits differ{}. {} The header can also be compiled at run time (NVRTC, CuPy's \
+         `RawModule`): kernels then have their plain names.\n",
         if printer.tree.has_parameters() {
             " A kernel takes the model by value; the host computes it once."
         } else {
             ""
         },
-        if printer.has_bits() { ", and the test says so" } else { "" }
+        if printer.has_bits() { ", and the test says so" } else { "" },
+        match printer.parts.options.scalar {
+            Scalar::F64 => "`-use_fast_math` implies `-fmad=true`.",
+            Scalar::F32 => "With `-use_fast_math` divisions and roots are also approximate.",
+        }
     ));
     let constructor = printer.names.item("model_init");
     let what = "CUDA C++: straight-line code without branches or allocation";

@@ -62,7 +62,7 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     }
     usage.push_str(
         "```\n\nInputs are arrays of any kind; a call with an array of the wrong length throws a `RangeError`. \
-         Outputs are new `Float64Array`s, or the arrays that are passed after the inputs, so a loop need not allocate; a matrix is an array, row by row. Test it with `node test.mjs`.\n",
+         Outputs are new `Float64Array`s, or the arrays that are passed after the inputs, so a loop need not allocate; single numbers are returned as such; a matrix is an array, row by row. Test it with `node test.mjs`.\n",
     );
     parts.readme(tree, "JavaScript", &usage, "create_model")
 }

@@ -16,7 +16,7 @@ use robot_symbolic::{Counter, Expr, Graph, Operations, SymbolId, walk};
 
 use crate::economical::Recursion;
 use crate::economical::frames::chain::Base;
-use crate::economical::plan::{FreeRate, LinkPlan, Origin, Place, Plan, Turn};
+use crate::economical::plan::{FreeAcceleration, LinkPlan, Origin, Place, Plan, Turn};
 use crate::mechanism::{Mechanism, MechanismOptions};
 use crate::newton_euler;
 use changes::{Change, frame_changes, motion_changes};
@@ -421,7 +421,7 @@ impl<'m, 'g> Search<'m, 'g> {
             changes.extend(motion_changes());
         }
         if scope.free {
-            for free in FreeRate::ALL {
+            for free in FreeAcceleration::ALL {
                 changes.push(Box::new(move |plan| plan.free = free));
             }
         }
