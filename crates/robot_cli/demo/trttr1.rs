@@ -10,7 +10,7 @@
 /// - Inertia tensors are about the center of mass, in link axes unless the file says otherwise.
 /// - A tip's wrench is the wrench that the tip exerts on its surroundings, in the tip's axes, with the moment about the tip's origin; the external wrench, which acts on the tip, is its negative. If the tip's z axis points up, a mass m that hangs at rest from the tip's origin has the wrench with the force z = +m g.
 /// - Armature, rotor inertia and gear ratio are separate values; the reflected inertia is armature + ratio² · rotor inertia.
-/// - Friction is the sum of the terms that the joint has: b q̇, an offset, dry friction times sgn q̇. Dry friction is constant, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.
+/// - Friction is the sum of the terms that the joint has: b q̇, an offset, dry friction times sgn q̇ (with `smoothing` v, tanh(q̇/v)). Dry friction is constant, with one value or one for each direction, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.
 ///
 /// Other functions can be generated too: list them with `functions = ["…"]` in `[code]` of the robot file or in the macro, `.functions(["…"])` in the builder, or the command's option for functions; `"all"` selects all. Also available for this robot:
 /// `inverse_dynamics_wrench`, `inverse_dynamics_friction`, `inverse_dynamics_wrench_friction`, `link_wrenches`, `mass_matrix`, `mass_matrix_lower`, `bias`, `gravity`, `forward_dynamics`, `forward_dynamics_wrench`, `forward_dynamics_friction`, `forward_dynamics_wrench_friction`, `forward_kinematics`, `frame_poses`, `jacobian`, `jacobian_dot_qd`, `energies`, `coriolis_matrix`, `inverse_dynamics_derivatives`, `forward_dynamics_derivatives`, `regressor`, `regressor_base`, `base_parameters`.
@@ -108,15 +108,15 @@ pub mod trttr1 {
         pub b4: f64,
         /// viscous friction of joint 5, in N m s/rad; nominally 0.8.
         pub b5: f64,
-        /// dry friction coefficient of joint 1, in 1; nominally 0.012.
+        /// dry friction coefficient of joint 1; nominally 0.012.
         pub c1: f64,
-        /// dry friction coefficient of joint 2, in 1; nominally 0.01.
+        /// dry friction coefficient of joint 2; nominally 0.01.
         pub c2: f64,
-        /// dry friction coefficient of joint 3, in 1; nominally 0.012.
+        /// dry friction coefficient of joint 3; nominally 0.012.
         pub c3: f64,
-        /// dry friction coefficient of joint 4, in 1; nominally 0.014.
+        /// dry friction coefficient of joint 4; nominally 0.014.
         pub c4: f64,
-        /// dry friction coefficient of joint 5, in 1; nominally 0.01.
+        /// dry friction coefficient of joint 5; nominally 0.01.
         pub c5: f64,
         /// journal diameter of joint 2, in m; nominally 0.12.
         pub d2: f64,

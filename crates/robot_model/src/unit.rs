@@ -239,6 +239,9 @@ fn meant(name: &str) -> Option<String> {
     if let Some((known, _)) = UNITS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)) {
         return Some((*known).to_owned());
     }
+    if let Some(one) = name.strip_suffix('s').filter(|one| one.len() > 1 && is_known(one)) {
+        return Some(one.to_owned());
+    }
     let powers = [('²', '2'), ('³', '3'), ('2', '2'), ('3', '3')];
     for (sign, exponent) in powers {
         if let Some(base) = name.strip_suffix(sign).filter(is_known) {
@@ -338,7 +341,8 @@ mod tests {
             ("kgm", "kg m"),
             ("m2", "m^2"),
             ("kg m²", "m^2"),
-            ("rads", "rad s"),
+            ("rads", "rad"),
+            ("Ns", "N s"),
         ] {
             let Err(UnitError::Unknown(_, message)) = Unit::parse(text) else { panic!("{text}") };
             assert!(message.ends_with(&format!("did you mean `{meant}`?")), "{text}: {message}");

@@ -14,7 +14,7 @@ const WIDEST: f64 = 3.0;
 const DENSEST: f64 = 22_590.0;
 /// The largest plausible length of a link of a robot on a fixed base, m; 20 mm that are read as m reach it.
 const LONGEST: f64 = 20.0;
-/// The largest plausible position of a prismatic joint, m; cranes have shorter ones.
+/// The largest plausible position of a prismatic joint, m; few cranes travel farther.
 const FARTHEST: f64 = 100.0;
 /// The largest plausible acceleration of gravity, m/s²; that of Jupiter is 24.8 m/s².
 const HEAVIEST: f64 = 30.0;
@@ -68,7 +68,7 @@ fn far(facts: &RobotFacts<'_>, link: &LinkFacts<'_>) -> Option<Diagnostic> {
     Some(
         Diagnostic::warning(code::UNITS, message)
             .at(place, "in mm, or in degrees?")
-            .because("the joint is prismatic, and no robot has such a long one")
+            .because("the joint is prismatic, and few machines travel as far")
             .help("give the limits in m; leave out `limits` if the joint has none"),
     )
 }

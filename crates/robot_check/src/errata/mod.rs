@@ -207,8 +207,8 @@ fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
     if let Some(vector) = vector.filter(|vector| vector.contains('\\')) {
         let message = format!("`{}` is not a vector that is compared", quote(vector));
         return Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(
-            "these are the vectors a_{c}^{1}, F^{1}, M_{c}^{1}, F_{l}^{1} and M_{l}^{1} of each link; write an \
-             equation for each entry of others, such as `\\tau_1 = …`",
+            "the vectors that are compared are a_{c}^{1}, F^{1}, M_{c}^{1}, F_{l}^{1} and M_{l}^{1} of each link; \
+             write an equation for each entry of any other, such as `\\tau_1 = …`",
         );
     }
     let (links, last) = (robot.links.len(), robot.degrees_of_freedom());

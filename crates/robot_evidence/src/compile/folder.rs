@@ -19,7 +19,7 @@ impl Folder {
     pub(crate) fn new(files: &[File]) -> io::Result<Folder> {
         let mut folders = folders();
         let folder = TempDir::new()?;
-        // The folder is not removed while its files are written: to write one creates its folder again.
+        // The folder is not removed while its files are written: writing one creates its folder again.
         write(files, folder.path())?;
         folders.push(folder.path().to_owned());
         Ok(Folder(folder))
@@ -54,7 +54,7 @@ fn write(files: &[File], folder: &Path) -> io::Result<()> {
 const TRIES: usize = 100;
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Removes the temporary folders of all compilers that run in this process; from now on, [`prove`](crate::prove) does not
+/// Removes the temporary folders of all compilers that this process has started; from now on, [`prove`](crate::prove) does not
 /// return. For programs that end at a signal, where no value is dropped.
 pub fn remove_temporary_folders() {
     let mut folders = folders();

@@ -78,7 +78,7 @@ fn of_symbols(comparison: &Comparison) -> String {
     }
     let names: Vec<&str> = unknown.into_iter().collect();
     format!(
-        "note: not symbols of the robot: {}; coordinates are q1, qd1, qdd1, in LaTeX q_1, \\dot q_1, \\ddot q_1, and \
+        "note: not symbols of the robot: {}; joint positions, velocities and accelerations are q1, qd1, qdd1, in LaTeX q_1, \\dot q_1, \\ddot q_1, and \
          parameters have the names of the robot file\n",
         names.join(", ")
     )

@@ -51,7 +51,7 @@ pub fn paragraphs(texts: &[String], name: &str) -> Vec<String> {
 #[must_use]
 pub fn quantity(meaning: &str, name: &str, unit: &str, shape: &[usize]) -> String {
     let mut line = if meaning.is_empty() { markdown_line(name) } else { comment_line(meaning) };
-    if !unit.is_empty() {
+    if !matches!(unit, "" | "1") {
         line.push_str(&format!(", in {}", markdown_line(unit)));
     }
     if let [rows, columns] = shape {

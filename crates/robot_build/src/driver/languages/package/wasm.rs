@@ -84,9 +84,9 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
         usage.push_str(&uncopied(tree, function));
     }
     usage.push_str(&format!(
-        "\nFor these, the functions over columns {}take the number of states and the distance from one column to \
-         the next in numbers. When memory grows, earlier views of it become empty.\n",
-        if tree.has_parameters() { "first take the model; they " } else { "" }
+        "\nOf these, the functions over columns take {}the number of states and the distance from one column to \
+         the next, counted in numbers, before the inputs. When memory grows, earlier views of it become empty.\n",
+        if tree.has_parameters() { "the model, " } else { "" }
     ));
     parts.readme(tree, "WebAssembly", &usage, "create_model")
 }
