@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Cholesky, DMatrix, DVector, Matrix3};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
-use robot_model::functions::{Effects, FunctionKind};
+use robot_model::functions::{Effects, FrameRef, FunctionKind};
 use robot_model::robot::Robot;
 use robot_numeric::random::{Random, Recipe, State};
 use robot_numeric::robots;
@@ -240,8 +240,11 @@ impl<'g> Subject<'_, 'g> {
         let (rotations, positions) = (&poses[0], &poses[1]);
         let jacobians = self.roots(FunctionKind::Jacobian);
         let drifts = self.roots(FunctionKind::JacobianDotQd);
-        assert_eq!((jacobians.len(), drifts.len()), (positions.len() / 3, positions.len() / 3));
-        for (frame, (jacobian, drift)) in jacobians.iter().zip(drifts).enumerate() {
+        let frames = FrameRef::usual(self.robot);
+        assert_eq!((jacobians.len(), drifts.len()), (frames.len(), frames.len()));
+        for (frame, (jacobian, drift)) in frames.into_iter().zip(jacobians.iter().zip(drifts)) {
+            // The poses are those of named frames.
+            let FrameRef::Named(frame) = frame else { continue };
             let found = self.matrix(jacobian);
             let origin = self.slopes(&positions[3 * frame..][..3], |state| &mut state.q);
             let rotation = &rotations[9 * frame..][..9];
