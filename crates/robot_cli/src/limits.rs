@@ -50,10 +50,7 @@ fn outside(positions: &[f64], may_be_degrees: bool, robot: &Robot) -> Option<Str
     let remedy = in_degrees.map_or_else(String::new, |(_, position, ..)| {
         format!("; a value in degrees is written {}deg", number(*position))
     });
-    let unit = match kind {
-        JointKind::Revolute => "rad",
-        JointKind::Prismatic => "m",
-    };
+    let unit = JointVariable::Position.unit(*kind);
     let [lower, upper] = limits.map(significant);
     let position = number(*position);
     Some(format!(

@@ -29,15 +29,8 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         }
     }
     for link in &facts.links {
-        let coordinate = facts.robot.coordinates.get(link.link.joint.coordinate);
-        let limits = coordinate.and_then(|one| match one.kind {
-            JointKind::Revolute => one.limits.as_ref(),
-            JointKind::Prismatic => None,
-        });
-        let (Some(limits), Some(place)) = (limits, &link.place.limits) else { continue };
-        let widest = limits.each_ref().map(|limit| limit.to_f64().abs());
-        let widest = widest.iter().fold(0.0_f64, |a, b| a.max(*b));
-        if widest > FOUR_TURNS {
+        let limit = link.farthest_limit(facts.robot, JointKind::Revolute);
+        if let Some((widest, place)) = limit.filter(|(widest, _)| *widest > FOUR_TURNS) {
             let message =
                 format!("a limit of `{}` is {} rad", link.link.joint.name, significant(widest));
             found.push(degrees(message, widest).at(place, "in degrees?"));

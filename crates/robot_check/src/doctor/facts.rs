@@ -96,7 +96,16 @@ fn travel(robot: &Robot, link: &Link) -> f64 {
     }
 }
 
-impl LinkFacts<'_> {
+impl<'d> LinkFacts<'d> {
+    /// The largest magnitude of the limits of its joint, in rad or m, and their place, if the joint is of this kind and
+    /// has limits.
+    pub(super) fn farthest_limit(&self, robot: &Robot, kind: JointKind) -> Option<(f64, &'d Span)> {
+        let coordinate = robot.coordinates.get(self.link.joint.coordinate)?;
+        let limits = coordinate.limits.as_ref().filter(|_| coordinate.kind == kind)?;
+        let farthest = limits.iter().fold(0.0_f64, |most, limit| most.max(limit.to_f64().abs()));
+        Some((farthest, self.place.limits.as_ref()?))
+    }
+
     /// The largest distance of a point on the link, as marked by other parts of the robot, or of the parent's origin,
     /// plus the travel, m.
     pub(super) fn size(&self) -> f64 {

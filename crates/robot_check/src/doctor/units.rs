@@ -60,10 +60,8 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
 
 /// The warning about the limits of a prismatic joint.
 fn far(facts: &RobotFacts<'_>, link: &LinkFacts<'_>) -> Option<Diagnostic> {
-    let coordinate = facts.robot.coordinates.get(link.link.joint.coordinate)?;
-    let limits = coordinate.limits.as_ref().filter(|_| coordinate.kind == JointKind::Prismatic)?;
-    let farthest = limits.iter().fold(0.0_f64, |most, limit| most.max(limit.to_f64().abs()));
-    let place = link.place.limits.as_ref().filter(|_| farthest > FARTHEST)?;
+    let limit = link.farthest_limit(facts.robot, JointKind::Prismatic);
+    let (farthest, place) = limit.filter(|(farthest, _)| *farthest > FARTHEST)?;
     let message = format!("a limit of `{}` is {} m", link.link.joint.name, significant(farthest));
     Some(
         Diagnostic::warning(code::UNITS, message)

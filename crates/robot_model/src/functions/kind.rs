@@ -281,8 +281,8 @@ impl FunctionKind {
         suffix.map_or_else(|| self.name().to_owned(), |suffix| format!("{}_{suffix}", self.name()))
     }
 
-    /// The functions of single frames that a kind comprises. None for a kind that is a single function, or if only one frame is
-    /// usual ([`FrameRef::usual`]).
+    /// The functions of single frames that a kind comprises. None for a kind that is a single function, or if only one
+    /// frame is usual ([`FrameRef::usual`]).
     #[must_use]
     pub fn parts(self, robot: &Robot) -> Vec<FunctionKind> {
         let frames = FrameRef::usual(robot);
