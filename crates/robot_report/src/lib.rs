@@ -50,7 +50,8 @@ pub struct Input<'a> {
     /// The options for generating the robot's code; the page chooses the functions.
     pub options: &'a Options,
     /// The tolerance in rad within which constant angles are shown as multiples of π/2 in tables and equations, unless
-    /// the options or the file set one. The code uses the angles as they are in the file.
+    /// the options or the file set one. The code then uses its own, smaller default; a tolerance that is set holds for
+    /// both.
     pub snap: f64,
     /// The evidence from the compiler about the code.
     pub compiled: &'a Compiled,

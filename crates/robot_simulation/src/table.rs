@@ -88,7 +88,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// All errors, with their lines.
+    /// An error in the header, or the errors in the lines below it, with their numbers, up to a limit.
     pub fn read(source: &str, text: &str) -> Result<Table, Error> {
         Table::read_from(source, text.as_bytes())
     }
@@ -137,8 +137,8 @@ impl<R: BufRead> TableReader<R> {
         Ok(TableReader { source, lines, names, found: vec![], count: 0, wrong })
     }
 
-    /// Reads the next rows, up to `most`; `None` at the end. If there is an error in the file, it is read to its end to
-    /// find all errors.
+    /// Reads the next rows, up to `most`; `None` at the end. If there is an error in the file, reading goes on to
+    /// find further ones, up to a limit.
     pub(crate) fn rows(&mut self, most: usize) -> Result<Option<Table>, Error> {
         let columns = self.names.iter().map(|name| (name.clone(), vec![]));
         let mut table = Table { columns: columns.collect() };

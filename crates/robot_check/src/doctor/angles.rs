@@ -64,7 +64,7 @@ fn placed(angle: &AngleLocation, snap: f64) -> Option<Diagnostic> {
         Diagnostic::warning(code::ANGLE_NEAR, message)
             .at(&angle.place, format!("off by {} rad", significant(miss)))
             .because(format!(
-                "a rounded right angle leaves a {} of {} instead of 0 in the code and, unless it is \
+                "the rounded angle leaves a {} of {} instead of 0 in the code and, unless it is \
                  snapped, in equations",
                 if quarters.rem_euclid(2.0) == 0.0 { "sine" } else { "cosine" },
                 significant(miss.sin().abs())

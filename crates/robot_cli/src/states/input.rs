@@ -72,8 +72,8 @@ impl<'t> Input<'t> {
     }
 
     /// Whether a state has a wrench that is not 0. If the states have to be read for this, they can be read again.
-    pub(crate) fn is_loaded(&mut self, layout: &Layout) -> std::result::Result<bool, Failure> {
-        if !self.may_be_loaded(layout).map_err(|error| files::cannot_read(&self.name, &error))? {
+    pub(crate) fn has_wrench(&mut self, layout: &Layout) -> std::result::Result<bool, Failure> {
+        if !self.may_have_wrench(layout).map_err(|error| files::cannot_read(&self.name, &error))? {
             return Ok(false);
         }
         let mut search = Search(false);
@@ -82,7 +82,7 @@ impl<'t> Input<'t> {
     }
 
     /// Whether the columns or the keys could be those of a wrench.
-    fn may_be_loaded(&mut self, layout: &Layout) -> Result<bool> {
+    fn may_have_wrench(&mut self, layout: &Layout) -> Result<bool> {
         if self.format == Format::Csv {
             let header = String::from_utf8_lossy(&self.beginning);
             if !csv::has_wrench(header.trim().trim_start_matches('\u{feff}'), layout) {
@@ -227,7 +227,7 @@ struct Search(bool);
 
 impl<'l> Sink<'l> for Search {
     fn state(&mut self, state: &mut State<'l>) -> std::ops::ControlFlow<()> {
-        self.0 = state.is_loaded();
+        self.0 = state.has_wrench();
         if self.0 { std::ops::ControlFlow::Break(()) } else { std::ops::ControlFlow::Continue(()) }
     }
 

@@ -120,7 +120,7 @@ impl<'l> State<'l> {
     }
 
     /// Whether a wrench with a component other than 0 is given.
-    pub(crate) fn is_loaded(&self) -> bool {
+    pub(crate) fn has_wrench(&self) -> bool {
         let mut arrays = self.layout.arrays.iter().zip(&self.arrays);
         arrays.any(|(array, Entries { are_given, entries })| {
             *are_given && array.is_wrench() && entries.iter().any(|entry| *entry != 0.0)

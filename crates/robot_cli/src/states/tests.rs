@@ -34,15 +34,15 @@ impl Sink<'static> for Collected {
 fn read(mut text: &[u8], searched: bool) -> (Collected, bool) {
     let (layout, mut collected) = (layout(), Collected::default());
     let mut input = Input::open(Path::new("-"), &mut text).unwrap();
-    let is_loaded = searched && input.is_loaded(layout).unwrap();
+    let has_wrench = searched && input.has_wrench(layout).unwrap();
     input.read(layout, &mut collected).unwrap();
-    (collected, is_loaded)
+    (collected, has_wrench)
 }
 
 fn states(text: &str) -> Vec<State<'static>> {
-    let (Collected { states, errors }, is_loaded) = read(text.as_bytes(), true);
+    let (Collected { states, errors }, has_wrench) = read(text.as_bytes(), true);
     assert_eq!(errors, [""; 0]);
-    assert_eq!(is_loaded, states.iter().any(State::is_loaded));
+    assert_eq!(has_wrench, states.iter().any(State::has_wrench));
     assert_eq!(read(text.as_bytes(), false).0.states, states);
     states
 }
@@ -67,7 +67,7 @@ fn json_and_csv_give_the_same_states() {
         assert_eq!((json.array("qdd"), csv.array("qdd")), (None, None));
     }
     assert_eq!(json[0].array("q"), Some(&[0.1, -2.0][..]));
-    assert_eq!(json.iter().map(State::is_loaded).collect::<Vec<_>>(), [true, false]);
+    assert_eq!(json.iter().map(State::has_wrench).collect::<Vec<_>>(), [true, false]);
     assert_eq!([json[1].place.to_string(), csv[1].place.to_string()], ["state 2", "line 4"]);
 }
 

@@ -88,6 +88,19 @@ fn what_equations_prints_does_not_differ() {
     }
 }
 
+#[test]
+fn a_tex_file_is_latex_even_without_a_command() {
+    let path = crate::folder("compare-tex").join("paper.tex");
+    std::fs::write(&path, "Q_2 = m_2 g r_2 c_2\n").unwrap();
+    let file = robot("planar_2r");
+    let arguments = ["compare", &file, path.to_str().unwrap()];
+    let outcome = run(&arguments);
+    assert_eq!(outcome.code, 1, "{}", outcome.errors);
+    assert!(outcome.output.contains("printed  g*r2*m2*cos(q2)\n"), "{}", outcome.output);
+    let complaint = complaint(2, &[&arguments[..], &["--notation", "text"]].concat(), "");
+    assert!(complaint.contains("write a product as `m_2*g`"), "{complaint}");
+}
+
 /// The summary of the comparison of a robot's own equations, printed with the given options.
 fn of_own(file: &str, options: &[&str]) -> String {
     let path = crate::folder(&format!("compare-{}", options.concat())).join("equations");

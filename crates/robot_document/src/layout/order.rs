@@ -1,7 +1,8 @@
 //! The order of factors, by which terms are ordered too.
 //!
-//! The factors of a term come in this order: roots of numbers, components of wrenches, masses and inertias, other
-//! parameters, sines and cosines, symbols that a form defines, and last coordinates, velocities and accelerations.
+//! The factors of a term come in this order: roots of numbers, components of wrenches, masses, inertias and the
+//! combinations of them that a form defines, other parameters, sums in parentheses, sines and cosines, other symbols
+//! that a form defines, and last coordinates, velocities and accelerations.
 //! Within each group they are ordered by number; sines and cosines, in sums that are collected and in the compact form,
 //! by the symbols in their angles, the sine of an angle before its cosine. Terms are ordered by their factors, higher
 //! powers of the first factor first: by `compare_powers` of `robot_symbolic`, and by `forms/arranged.rs` in the compact

@@ -3,21 +3,21 @@
 //! The joint torques are zero in all states if and only if the kinetic energy is zero and the potential energy is
 //! constant. The velocity and position of a joint occur only in the energies of its link and of the links farther
 //! outward. The links are therefore treated from the tips inward. Let π be the parameters of a link, including those
-//! that its children have passed on to it; Φ the twist of the joint's unit motion; t the twists, and w the linear
-//! functions of parameters (kinetic energy, potential energy), that the motions of the carrier produce at the link; and
-//! D the derivative of the parameters with respect to the joint position. Then π has no effect beyond that of a body on
-//! the link's carrier if and only if
+//! that its children have passed on to it; Φ the twist of the joint's unit motion; t the twists that the motions of the
+//! carrier produce at the link, and w the linear functions of parameters that are kinetic or potential energies of these
+//! motions; and D the derivative of the parameters with respect to the joint position. Then π has no effect beyond that
+//! of a body on the link's carrier if and only if
 //!
 //! - b(Φ, Φ) π + J = 0 and b(Φ, t) π + ρ a · ω(t) = 0: the momentum along the joint vanishes;
 //! - w D π = 0, and w D π + o = 0 for the potential energy: the energies do not depend on the joint position.
 //!
 //! Here b(t, t) π is twice the kinetic energy, J the drive's reflected inertia, ρ the coupling of its rotor with the
-//! carrier, and o the drive's offset. Only the spans of t and w matter. They are found from the base outward: Φ, b(Φ,
+//! carrier, o the drive's offset, a the joint axis, and ω(t) the angular velocity of the twist t. Only the spans of t and w matter. They are found from the base outward: Φ, b(Φ,
 //! Φ) and b(Φ, t) are added to the spans of the carrier, and the result is closed under the motion of the joint. The
 //! conditions are thus small systems of linear equations, and they are exact.
 //!
 //! These are the spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization of
-//! observability in inertial parameter identification" (2018), extended here by drives.
+//! observability in inertial parameter identification" (2018), extended here to drives.
 
 use robot_model::robot::{LINK_PARAMETERS, Robot};
 

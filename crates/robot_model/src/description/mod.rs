@@ -283,9 +283,12 @@ fn unused(reader: &mut Reader<'_>) {
         .collect();
     for (name, span) in unused {
         reader.report(
-            Diagnostic::warning(code::UNUSED, format!("the parameter `{name}` is not used"))
-                .at(&span, "")
-                .help("remove it, or use it in place of a value"),
+            Diagnostic::warning(
+                code::UNUSED,
+                format!("the robot does not use the parameter `{name}`"),
+            )
+            .at(&span, "")
+            .help("remove it, or use it in place of a value"),
         );
     }
 }

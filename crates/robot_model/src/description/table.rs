@@ -114,14 +114,14 @@ impl<'a> Table<'a> {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "unknown key".to_owned(),
             };
-            let message = format!("`{}` is not a key of {}", quote(name), self.shape.what);
-            reader.report(
-                Diagnostic::error(code::UNKNOWN_KEY, message).at(&key.span(), label).help(format!(
-                    "the keys of {} are {}",
-                    self.shape.what,
-                    list(&self.known)
-                )),
-            );
+            let what = self.shape.what;
+            let message = format!("`{}` is not a key of {what}", quote(name));
+            let help = match self.known.as_slice() {
+                [only] => format!("the only key of {what} is `{only}`"),
+                known => format!("the keys of {what} are {}", list(known)),
+            };
+            let error = Diagnostic::error(code::UNKNOWN_KEY, message);
+            reader.report(error.at(&key.span(), label).help(help));
         }
     }
 }

@@ -70,6 +70,18 @@ pub(super) fn function(token: &str) -> Option<&'static str> {
     }
 }
 
+/// The name in infix text of the function that is written as a word, as in `\operatorname{sgn}`.
+pub(super) fn operator(word: &str) -> Option<&'static str> {
+    match word {
+        "sgn" | "sign" => Some("sign"),
+        "sin" => Some("sin"),
+        "cos" => Some("cos"),
+        "tan" => Some("tan"),
+        "tanh" => Some("tanh"),
+        _ => None,
+    }
+}
+
 impl Token<'_> {
     pub(super) fn is_space(&self) -> bool {
         SPACES.contains(&self.text)

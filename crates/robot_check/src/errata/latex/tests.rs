@@ -50,6 +50,7 @@ fn what_papers_print_is_read() {
         (r"\bar c_2 c_2 {\ddot q}_{1}", "c_bar*cos(q2)*qdd1"),
         (r"1.5 \cdot 10^{-3} g \pi", "1.5*10^(-3)*g*pi"),
         (r"\tan g \tanh^2 g \sgn g \operatorname{tan} g", "tan(g)*tanh(g)^2*sign(g)*tan(g)"),
+        (r"\mathrm{sgn} g \mathrm{sin}^2 q_1 \text{cos} q_1", "sign(g)*sin(q1)^2*cos(q1)"),
         (r"\overrightarrow{g} \bm{g} \textit{l}_6", "overrightarrowg*g*l6"),
     ] {
         assert_eq!(

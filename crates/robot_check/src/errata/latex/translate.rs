@@ -201,14 +201,30 @@ impl<'t> Translator<'t, '_> {
             }
             r"\operatorname" | r"\mathop" => {
                 self.place += 1;
-                match self.capture()?.as_str() {
-                    "sgn" | "sign" => self.function("sign", here),
-                    name @ ("sin" | "cos" | "tan" | "tanh") => self.function(name, here),
-                    _ => Err(unknown(text, here)),
+                match lexer::operator(&self.capture()?) {
+                    Some(name) => self.function(name, here),
+                    None => Err(unknown(text, here)),
                 }
             }
-            _ => self.symbol(),
+            _ => match self.upright_function() {
+                Some(name) => self.function(name, here),
+                None => self.symbol(),
+            },
         }
+    }
+
+    /// Consumes the name of a function that is set in a font, such as `\mathrm{sgn}`, if one follows.
+    fn upright_function(&mut self) -> Option<&'static str> {
+        if !is_font(self.peek()) {
+            return None;
+        }
+        let start = self.place;
+        let word = self.capture().ok().filter(|word| (self.names)(word).is_none());
+        let function = word.as_deref().and_then(lexer::operator);
+        if function.is_none() {
+            self.place = start;
+        }
+        function
     }
 
     /// Translates a sum in brackets, of which the opening one is the current token, and its power.

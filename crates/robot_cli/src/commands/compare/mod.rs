@@ -36,7 +36,8 @@ pub(crate) struct Arguments {
     robot: RobotArgument,
     /// The published equations
     printed: PathBuf,
-    /// Notation of the equations [default: latex if they contain a backslash, $, _{ or ^{, else text]
+    /// Notation of the equations [default: latex if the file ends in .tex or contains a backslash, $, _{ or ^{, else
+    /// text]
     #[arg(long, value_enum)]
     notation: Option<NotationName>,
     /// Output format
@@ -76,10 +77,12 @@ impl Arguments {
         let robot = self.robot.printed(terminal)?;
         self.robot.check_base_frames(&[], terminal)?;
         let printed = RobotFile::read(&self.printed)?.source;
-        let notation = self.notation.map(|notation| match notation {
-            NotationName::Text => Notation::Text,
-            NotationName::Latex => Notation::Latex,
-        });
+        let is_latex = self.printed.extension().is_some_and(|extension| extension == "tex");
+        let notation = match self.notation {
+            Some(NotationName::Text) => Some(Notation::Text),
+            Some(NotationName::Latex) => Some(Notation::Latex),
+            None => is_latex.then_some(Notation::Latex),
+        };
         let options = Options { notation, snap: self.robot.snap() };
         let found = watched("comparing", terminal, || compare(&robot, &printed, &options));
         let found = found.map_err(|errors| Failure::Robot(errors.into()))?;

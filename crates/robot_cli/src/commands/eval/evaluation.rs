@@ -30,7 +30,7 @@ pub(super) struct Task<'e> {
     /// The compiled function; `None` if the states are only checked.
     pub(super) handle: Option<Handle<'e>>,
     /// The reason why states must not have a wrench, if there is one.
-    pub(super) unloadable: Option<String>,
+    pub(super) no_wrench: Option<String>,
     /// Whether the chosen function takes a wrench, so that a note is printed if no state has one.
     pub(super) takes_wrench: bool,
     pub(super) printer: Printer,
@@ -70,7 +70,7 @@ struct Input<'e> {
 struct Wrong {
     before: Complaints,
     read: Complaints,
-    loaded: Complaints,
+    with_wrench: Complaints,
     missing: Complaints,
     infinite: Complaints,
 }
@@ -78,18 +78,18 @@ struct Wrong {
 impl Wrong {
     /// Whether there are no errors, so that the states can be computed.
     fn is_none(&self) -> bool {
-        let Wrong { before, read, loaded, missing, .. } = self;
-        [before, read, loaded, missing].iter().all(|complaints| complaints.is_empty())
+        let Wrong { before, read, with_wrench, missing, .. } = self;
+        [before, read, with_wrench, missing].iter().all(|complaints| complaints.is_empty())
     }
 
     /// The errors, which are those of the command line if `of_arguments`.
     fn result(self, of_arguments: bool) -> Result<(), Failure> {
         let computed = self.is_none();
-        let Wrong { before, read, loaded, missing, infinite } = self;
+        let Wrong { before, read, with_wrench, missing, infinite } = self;
         if computed {
             return if infinite.is_empty() { Ok(()) } else { Err(Failure::Inputs(infinite)) };
         }
-        let all = before.and(read).and(loaded).and(missing);
+        let all = before.and(read).and(with_wrench).and(missing);
         let failure = Failure::Inputs(all);
         Err(if of_arguments { failure.refused() } else { failure })
     }
@@ -153,8 +153,8 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         let Evaluation { task, wrong, .. } = self;
         let place = state.place;
         let file = task.source.as_ref().map_or(String::new(), |source| format!("{source}: "));
-        if let Some(why) = task.unloadable.as_ref().filter(|_| state.is_loaded()) {
-            wrong.loaded.push(format!("{file}{place}: has a wrench, but {why}"));
+        if let Some(why) = task.no_wrench.as_ref().filter(|_| state.has_wrench()) {
+            wrong.with_wrench.push(format!("{file}{place}: has a wrench, but {why}"));
         }
         for Input { name, array, size } in &self.inputs {
             let is_given = array.is_some_and(|array| state.at(array).is_some());

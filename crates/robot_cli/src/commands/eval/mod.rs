@@ -105,8 +105,8 @@ impl Arguments {
         let (standard, mut terminal) = terminal.without_input(&mut nothing);
         let terminal = &mut terminal;
         let mut states = self.states(robot, &layout, standard, terminal)?;
-        let loaded = kind.map(|kind| with_wrench(kind, robot, &layout, &mut states)).transpose()?;
-        let (kind, unloadable) = loaded.unzip();
+        let found = kind.map(|kind| with_wrench(kind, robot, &layout, &mut states)).transpose()?;
+        let (kind, no_wrench) = found.unzip();
         let functions = kind.map_or(Functions::Usual, |kind| Functions::Chosen(vec![kind]));
         let options = Options { functions, bundles, ..file.options(terminal)? };
         let (name, robot) = (&file.source().name, robot.clone());
@@ -118,7 +118,7 @@ impl Arguments {
             let message = format!("the robot does not have the function `{}`", self.function);
             return Err(Failure::input(message));
         };
-        states.check(&self.state, function, unloadable.as_ref().is_some_and(Option::is_some))?;
+        states.check(&self.state, function, no_wrench.as_ref().is_some_and(Option::is_some))?;
         let handle = executable.as_ref().map(|one| one.function(&function.name));
         let handle = handle.transpose().map_err(|errors| failed(name, &errors))?;
         let task = Task {
@@ -128,7 +128,7 @@ impl Arguments {
             digits: &digits,
             function,
             handle,
-            unloadable: unloadable.flatten(),
+            no_wrench: no_wrench.flatten(),
             takes_wrench,
             printer: match self.format {
                 Format::Json => Printer::json(&function.outputs),
@@ -233,13 +233,13 @@ impl<'l> States<'l, '_> {
         &self,
         given: &StateArguments,
         function: &Function,
-        is_unloadable: bool,
+        is_refused: bool,
     ) -> Result<(), Failure> {
         let States::Given(state) = self else { return Ok(()) };
         let inputs: Vec<&str> = function.inputs.iter().map(|input| input.name.as_str()).collect();
         let mut unused = given.unused(&inputs);
         let takes_wrench = inputs.iter().any(|input| input.starts_with(WRENCH));
-        if state.is_loaded() && !takes_wrench && !is_unloadable {
+        if state.has_wrench() && !takes_wrench && !is_refused {
             unused.push(WRENCH);
         }
         let (name, inputs) = (&function.name, inputs.join(", "));
@@ -254,10 +254,10 @@ impl<'l> States<'l, '_> {
     }
 
     /// Whether any state has a wrench.
-    fn are_loaded(&mut self, layout: &Layout) -> Result<bool, Failure> {
+    fn have_wrench(&mut self, layout: &Layout) -> Result<bool, Failure> {
         match self {
-            States::Given(state) => Ok(state.is_loaded()),
-            States::Read(input) => input.is_loaded(layout),
+            States::Given(state) => Ok(state.has_wrench()),
+            States::Read(input) => input.has_wrench(layout),
         }
     }
 
@@ -280,12 +280,12 @@ fn with_wrench(
     layout: &Layout,
     states: &mut States<'_, '_>,
 ) -> Result<(FunctionKind, Option<String>), Failure> {
-    if !states.are_loaded(layout)? {
+    if !states.have_wrench(layout)? {
         return Ok((kind, None));
     }
     if let Some(why) = FunctionKind::InverseDynamics(Effects::WRENCH).missing_in(robot) {
         return Ok((kind, Some(why.to_owned())));
     }
-    let loaded = kind.with_effects(Effects { wrench: true, ..kind.effects() });
-    Ok((loaded.unwrap_or(kind), None))
+    let extended = kind.with_effects(Effects { wrench: true, ..kind.effects() });
+    Ok((extended.unwrap_or(kind), None))
 }

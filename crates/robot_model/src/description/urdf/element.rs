@@ -261,7 +261,8 @@ impl<'a, 'i> Element<'a, 'i> {
                 format!("`<{}>` is not an element of `<{}>`", quote(name), self.kind.name);
             let help = match names.as_slice() {
                 [] => format!("`<{}>` has no child elements", self.kind.name),
-                names => format!("the known elements are {}", list(names)),
+                [only] => format!("the only element that is read is `{only}`"),
+                names => format!("the elements that are read are {}", list(names)),
             };
             reader.report(unknown(&place, message, near, self.kind.strict).help(help));
         }
