@@ -18,7 +18,8 @@
 //! The module has the robot's name in lower case; the file can be included under that name or under the name of the
 //! robot file. Generated code calls the crate `robot_runtime`, which must be a dependency (with its feature `std` if
 //! [`Builder::trigonometry`] chooses the standard library's sine and cosine). The file is written only if it
-//! changes, and Cargo runs the build script again only if a robot file has changed. [`Builder`] has the options.
+//! changes, and Cargo runs the build script again only if a robot file or its pinned plan has changed. [`Builder`] has
+//! the options.
 //!
 //! The driver itself is pure: [`generate`] takes a text and returns a text. It does not access files, the environment
 //! or the terminal, so the builder, the macro `include_robot!` and the command `robot-symbolic` generate the same

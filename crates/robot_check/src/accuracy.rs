@@ -20,7 +20,8 @@ pub fn states() -> String {
     )
 }
 
-/// For each function, the largest error of any component of its result, as a fraction of the largest component.
+/// For inverse dynamics, the mass matrix and, if the programs contain it, forward dynamics: the largest error of any
+/// component of the result, as a fraction of the largest component.
 ///
 /// # Errors
 ///

@@ -365,7 +365,7 @@ pub(crate) fn note_rounding(is_rounded: bool, terminal: &mut Terminal<'_>) -> Re
 /// The message about an option of typeset formulas if nothing is typeset.
 pub(crate) fn no_effect(option: &str) -> String {
     format!(
-        "{option} has no effect on text and JSON; add --format latex, typst or mathml, or leave it out"
+        "{option} has no effect on text and JSON; add --format latex, typst, markdown or mathml, or leave it out"
     )
 }
 

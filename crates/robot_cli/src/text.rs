@@ -30,6 +30,11 @@ pub(crate) fn meant(name: &str, known: &[&str]) -> String {
     format!("{near} {known}")
 }
 
+/// A count with its noun, which has an s unless the count is 1.
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Prints the warnings of a robot file.
 pub(crate) fn warnings(warnings: &Diagnostics, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     if !warnings.is_empty() {

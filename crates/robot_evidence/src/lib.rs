@@ -15,7 +15,8 @@
 //! | the choice between copies of a kernel, each for a different processor | one or two jumps on x86-64; each copy is flat | the same |
 //! | functions of several states: batches, columns, blocks | shown, nothing claimed | a loop over the states, no panic |
 //!
-//! This is the only part of the project that starts another program. Everything except [`prove`] works on bytes:
+//! Apart from `robot_languages`, which tests code in other languages, this is the only crate that starts another
+//! program. Everything except [`prove`] and [`Compiler`] works on bytes:
 //! [`Module::read`] reads an object file from any source.
 
 mod claim;

@@ -70,8 +70,7 @@
 //!
 //! | function | error |
 //! |---|---|
-//! | [`Scalar::sqrt`] | correctly rounded with feature `std`; without it, no bit differed for any `f32` or for 3·10⁸
-//! random `f64` |
+//! | [`Scalar::sqrt`] | correctly rounded with `std`; else, no bit differed for any `f32` or 3·10⁸ random `f64` |
 //! | [`Scalar::tanh`] | below 3 last places everywhere (2.61 in `f32`, every number tried) |
 //! | [`Scalar::mul_add`] | rounds once if [`FUSED`], otherwise twice |
 //! | [`Scalar::abs`], [`Scalar::signum0`] | exact |

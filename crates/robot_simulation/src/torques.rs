@@ -194,7 +194,15 @@ fn linear(times: &[f64], values: &[f64], t: f64) -> f64 {
     let before = after.saturating_sub(1);
     match (times.get(before), times.get(after), values.get(before), values.get(after)) {
         (Some(t0), Some(t1), Some(v0), Some(v1)) if before < after => {
-            v0 + (v1 - v0) * ((t - t0) / (t1 - t0))
+            // Differences of finite numbers can overflow; sums of their parts cannot.
+            let share = match t1 - t0 {
+                span if span.is_finite() => (t - t0) / span,
+                _ => (t / 2.0 - t0 / 2.0) / (t1 / 2.0 - t0 / 2.0),
+            };
+            match v1 - v0 {
+                step if step.is_finite() => v0 + step * share,
+                _ => v0 * (1.0 - share) + v1 * share,
+            }
         }
         (_, _, Some(value), _) => *value,
         _ => f64::NAN,
@@ -253,5 +261,18 @@ fn coordinate(robot: &Robot, name: &str) -> Result<usize, String> {
             let (count, known) = (joints.len(), joints.join(", "));
             format!("torque `{shown}`{why}; the joints are 1 to {count}, by name {known}")
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interpolation_does_not_overflow() {
+        assert_eq!(linear(&[0.0, 2.0], &[1.0, 5.0], 0.5), 2.0);
+        assert_eq!(linear(&[-9e307, 9e307], &[1.0, 3.0], 0.0), 2.0);
+        assert_eq!(linear(&[-1.0, 1.0], &[-1e308, 1e308], 0.5), 5e307);
+        assert_eq!(linear(&[0.0, 1.0], &[1.0, 2.0], 7.0), 2.0);
     }
 }

@@ -121,9 +121,9 @@ impl Trajectory {
     /// # Errors
     ///
     /// All errors in the texts, values that are not finite, positions or velocities that jump, because the acceleration
-    /// would be an impulse there, and positions that are unbounded between two samples. Between two samples, arguments
-    /// of `abs` and `sign` and factors of divisors are evaluated at four times. One that passes 0 twice within a
-    /// quarter of a step, or touches 0 and is not written as a square, is not noticed.
+    /// would be an impulse there, and positions that are unbounded between two samples. Arguments of `abs` and `sign`
+    /// and factors of divisors are evaluated at the samples and at three times between two of them. One that passes 0
+    /// twice within a quarter of a step, or touches 0 and is not written as a square, is not noticed.
     pub fn from_expressions(
         robot: &Robot,
         parameters: &[(&str, f64)],

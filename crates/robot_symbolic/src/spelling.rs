@@ -3,8 +3,9 @@
 /// The length above which a word is not compared: a longer word is not a typing mistake.
 const MAX_LENGTH: usize = 64;
 
-/// Returns the candidate that a misspelled word most likely means, regardless of case. At most a third of its letters
-/// may differ, and no more than three. A prefix of a longer word counts as one mistake. Among equally near candidates,
+/// Returns the candidate that a misspelled word most likely means, regardless of case. At most a third of the letters
+/// of the longer of the two may differ, but always one of several, and no more than three. A prefix of at least three
+/// letters counts as one mistake. Among equally near candidates,
 /// it is the first one with the same first letter, or else the first one.
 ///
 /// ```

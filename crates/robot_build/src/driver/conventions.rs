@@ -14,7 +14,7 @@ pub const CONVENTIONS: [&str; 7] = [
     "Armature, rotor inertia and gear ratio are separate values; the reflected inertia is \
      armature + ratio² · rotor inertia.",
     "Friction is the sum of the terms that the joint has: b q̇, an offset, dry friction times \
-     sgn q̇ (with `smoothing` v, tanh(q̇/v)). Dry friction is constant, with one value or one for each \
+     sgn q̇ (with a smoothing v, tanh(q̇/v)). Dry friction is constant, with one value or one for each \
      direction, or it is c (d/2) F for a revolute joint and c F for a prismatic joint, where \
      F is the magnitude of the contact force perpendicular to the axis; sgn 0 = 0.",
 ];

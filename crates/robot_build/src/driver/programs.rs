@@ -39,7 +39,7 @@ pub struct Programs {
     pub module: Module,
 }
 
-/// Reads a robot file in the format given by the ending of its name: TOML or URDF.
+/// Reads a robot file in TOML or URDF; the extension of its name determines the format or, if it is unknown, the text.
 ///
 /// # Errors
 ///

@@ -1,5 +1,6 @@
 //! Robot files on disk.
 
+use std::ffi::OsStr;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
@@ -156,11 +157,15 @@ fn nearest(path: &Path) -> Option<String> {
     let stems: Vec<String> = names.iter().filter_map(|name| stem(name)).collect();
     let near = nearest_word(&stem(path.file_name()?.to_str()?)?, stems.iter().map(String::as_str))?;
     let is_near = |name: &&String| stem(name).is_some_and(|stem| stem == near);
-    // With the same extension, if there is such a file.
+    // With the same extension, if there is such a file, or else a robot file before others.
     let extension = path.extension();
     let of_near = || names.iter().filter(is_near);
-    let same = of_near().find(|name| Path::new(name).extension() == extension);
-    same.or_else(|| of_near().next()).cloned()
+    let with = |end: &dyn Fn(Option<&OsStr>) -> bool| {
+        of_near().find(|name| end(Path::new(name).extension()))
+    };
+    let same = with(&|end| end == extension);
+    let robot = || with(&|end| end.is_some_and(|end| end == "toml" || end == "urdf"));
+    same.or_else(robot).or_else(|| of_near().next()).cloned()
 }
 
 /// The largest number of files of a folder that are examined for a similar name.
@@ -179,7 +184,7 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("robot_build_paths_{}", std::process::id()));
         let _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(folder.join("lefty.toml")).unwrap();
-        for name in ["left.toml", "left.plan", "puma.urdf", "other.toml"] {
+        for name in ["left.toml", "left.plan", "left.tex", "puma.urdf", "other.toml"] {
             std::fs::write(folder.join(name), "").unwrap();
         }
         let at = |name: &str| folder.join(name);
@@ -189,6 +194,7 @@ mod tests {
             // Neither a folder nor a plan is a robot file.
             ("lefti.toml", "; did you mean F/left.toml?"),
             ("left.plen", "; did you mean F/left.toml?"),
+            ("left.tml", "; did you mean F/left.toml?"),
             // Another ending of the same name.
             ("puma.toml", "; did you mean F/puma.urdf?"),
             // The same ending does not make short names alike.

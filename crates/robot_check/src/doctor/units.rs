@@ -88,7 +88,7 @@ fn long(what: &str, name: &str, distance: f64, place: &Span) -> Diagnostic {
     let message = format!("{what} `{name}` is {} m away", significant(distance));
     Diagnostic::warning(code::UNITS, message)
         .at(place, "in mm?")
-        .because(format!("no arm has a link longer than {LONGEST} m"))
+        .because(format!("few arms have a link longer than {LONGEST} m"))
         .help("give lengths in m")
 }
 

@@ -92,6 +92,10 @@ impl<'e> Part<'e> {
             let bracket = |c: char| " \t\r\n()[].,;&\\".contains(c);
             let rest = around.text.replace(r"\left", "").replace(r"\right", "").replace(r"\,", "");
             if !rest.chars().all(bracket) {
+                let is_matrix = self.text.get(inside..end + inside).is_some_and(has_column_mark);
+                if is_matrix || around.text.contains(r"\begin{") {
+                    return Err(of_matrices(&around.trimmed().span).into());
+                }
                 let error = Diagnostic::error(
                     code::EXPRESSION,
                     "these terms stand outside the column vector",
@@ -111,11 +115,25 @@ impl<'e> Part<'e> {
     }
 }
 
-/// The error for text without `=`, which may be a heading between equations.
+/// Whether a row or matrix has several columns.
+pub(super) fn has_column_mark(text: &str) -> bool {
+    text.contains('&')
+}
+
+/// The error for an equation of matrices or vectors.
+pub(super) fn of_matrices(span: &Span) -> Diagnostic {
+    let message = "this is an equation of matrices or vectors that is not compared";
+    let help = "write an equation for each entry, such as `\\tau_1 = …`";
+    Diagnostic::error(code::EXPRESSION, message).at(span, "").help(help)
+}
+
+/// The error for text without `=`, which may be a heading between equations or the continuation of one.
 fn not_an_equation(part: &Part<'_>) -> Diagnostic {
     let in_words = |c: char| c.is_alphanumeric() || matches!(c, ' ' | ',' | ':' | '.');
     let is_heading = part.text.contains(' ') && part.text.chars().all(in_words);
-    let help = if is_heading {
+    let help = if part.text.starts_with(['+', '-', '*']) {
+        "begin a line that continues an equation with a space"
+    } else if is_heading {
         "begin a heading with `#`; of the forms that `equations` prints, `expanded` and `collected` without friction can be read"
     } else {
         "write `quantity = terms`, with a number such as `(31)` in front if it has one"

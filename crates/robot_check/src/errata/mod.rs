@@ -196,13 +196,21 @@ fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
 }
 
 fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
-    if equation.quantity.contains(['+', '-', '*']) {
-        let message = "the left side is a sum or a product";
+    let is_number = equation.quantity.parse::<f64>().is_ok();
+    if is_number || equation.quantity.contains(['+', '-', '*']) {
+        let what = if is_number { "number" } else { "sum or a product" };
+        let message = format!("the left side is a {what}");
         return Diagnostic::error(code::EXPRESSION, message)
             .at(&equation.span, "")
             .help("solve the equation for one quantity: `Q1 = …`, in LaTeX `\\tau_1 = …`");
     }
     let message = format!("the robot does not have the quantity `{}`", quote(&equation.quantity));
+    let mut words = equation.quantity.split_whitespace();
+    if words.clone().count() > 1 && words.any(is_word) {
+        return Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(
+            "put the equation on a line of its own or in a display, or begin the line with `%`",
+        );
+    }
     let vector = [".x", ".y", ".z"].iter().find_map(|axis| equation.quantity.strip_suffix(axis));
     if let Some(vector) = vector.filter(|vector| vector.contains('\\')) {
         let message = format!("`{}` is not a vector that is compared", quote(vector));
@@ -214,9 +222,14 @@ fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
     let (links, last) = (robot.links.len(), robot.degrees_of_freedom());
     Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(format!(
         "the quantities are a_c1.x to a_c{links}.z, F, M_c, F_l and M_l likewise, and Q1 to \
-         Q{last}; in LaTeX a_{{c_x}}^{{1}}, F_{{x}}^{{1}}, M_{{c_x}}^{{1}}, F_{{l_x}}^{{1}}, \
-         M_{{l_x}}^{{1}} and Q_{{1}}"
+         Q{last}, also written tau1 and so on; in LaTeX a_{{c_x}}^{{1}}, F_{{x}}^{{1}}, M_{{c_x}}^{{1}}, F_{{l_x}}^{{1}}, \
+         M_{{l_x}}^{{1}} and Q_{{1}} or \\tau_{{1}}"
     ))
+}
+
+/// Whether text is a word of prose instead of a symbol.
+fn is_word(text: &str) -> bool {
+    text.chars().count() > 2 && text.chars().all(char::is_alphabetic)
 }
 
 /// A printed equation with the derived one.

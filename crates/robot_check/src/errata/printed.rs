@@ -7,7 +7,9 @@ use robot_model::description::is_finite;
 use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 use robot_symbolic::{Formula, ParseError};
 
-use super::entries::{Entry, Part, entries, unnamed, without_comments};
+use super::entries::{
+    Entry, Part, entries, has_column_mark, of_matrices, unnamed, without_comments,
+};
 use super::symbols::Symbols;
 
 /// The notation of equations.
@@ -96,16 +98,12 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
     let (number, latex) = numbered(left.text);
     let number = number.or(entry.number.clone()).unwrap_or_default();
     let column = right.rows()?;
-    let is_matrix = |rows: &Vec<Part<'_>>| rows.iter().any(|row| row.text.contains('&'));
+    let is_matrix = |rows: &Vec<Part<'_>>| rows.iter().any(|row| has_column_mark(row.text));
     if column
         .as_ref()
         .is_some_and(|rows| is_matrix(rows) || rows.len() != 3 && !symbols.is_vector(latex))
     {
-        let message = "this is an equation of matrices or vectors that is not compared";
-        return Err(Diagnostic::error(code::EXPRESSION, message)
-            .at(&left.span, "")
-            .help("write an equation for each entry, such as `\\tau_1 = …`")
-            .into());
+        return Err(of_matrices(&left.span).into());
     }
     let quantity = symbols.quantity(latex, column.is_some());
     let (rows, axes) = match column {

@@ -89,12 +89,13 @@ impl Symbols {
         known.or_else(|| self.quantities.get(key).filter(|_| !power)).cloned()
     }
 
-    /// The name of the quantity that infix text on a left side denotes; what is not a quantity of the robot is returned
-    /// unchanged.
+    /// The name of the quantity that infix text on a left side denotes, such as `Q1`, `tau1` or `tau_1`; what is not a
+    /// quantity of the robot is returned unchanged.
     pub(super) fn quantity_in_text(&self, text: &str) -> String {
-        let name = in_text(text);
-        let is_known = self.quantities.values().any(|known| *known == name);
-        if is_known { name.into_owned() } else { text.to_owned() }
+        let joined = text.replacen('_', "", 1);
+        let names = [in_text(text), in_text(&joined)];
+        let is_known = |name: &&Cow<'_, str>| self.quantities.values().any(|known| known == *name);
+        names.iter().find(is_known).map_or_else(|| text.to_owned(), ToString::to_string)
     }
 
     /// The name of the quantity, or of the vector of quantities, that LaTeX on a left side denotes. Other text is

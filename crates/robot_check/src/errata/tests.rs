@@ -307,6 +307,11 @@ fn errors_show_the_place() {
         let shown = message(&format!("\\[ F_{{1}}^{{1}} = {beside} \\]"));
         assert!(shown.contains("stand outside the column vector"), "{shown}");
     }
+    let matrix = "\\begin{bmatrix} m_1 & 0 \\\\ 0 & m_2 \\end{bmatrix}";
+    for right in [format!("{matrix} \\ddot q"), format!("{column} + {column}")] {
+        let shown = message(&format!("\\[ \\tau = {right} \\]"));
+        assert!(shown.contains("an equation of matrices or vectors"), "{shown}");
+    }
     assert!(message("").contains("no equations"));
 }
 
@@ -477,12 +482,20 @@ fn a_heading_is_an_error_that_says_what_can_be_read() {
     assert!(shown.contains("begin a heading with `#`") && shown.contains("`expanded`"), "{shown}");
     let shown = compared(&planar, "Q1 - m1\n").unwrap_err().to_string();
     assert!(shown.contains("write `quantity = terms`") && !shown.contains("heading"), "{shown}");
+    let shown = compared(&planar, "Q1 = m1\n+ m2\n").unwrap_err().to_string();
+    assert!(shown.contains("begin a line that continues an equation with a space"), "{shown}");
+    let shown = compared(&planar, "We find $Q_1 = m_1$\n").unwrap_err().to_string();
+    assert!(shown.contains("on a line of its own"), "{shown}");
+    let shown = compared(&planar, "0 = m1\n").unwrap_err().to_string();
+    assert!(shown.contains("the left side is a number"), "{shown}");
 }
 
 #[test]
 fn a_joint_torque_in_text_may_be_tau() {
-    let found = compared(&robot("planar_2r"), "(2) tau2 = I2*qdd1\n").unwrap();
-    assert!(found.differences.iter().all(|one| one.quantity == "Q2"));
+    for left in ["tau2", "tau_2", "Q_2"] {
+        let found = compared(&robot("planar_2r"), &format!("(2) {left} = I2*qdd1\n")).unwrap();
+        assert!(found.differences.iter().all(|one| one.quantity == "Q2"));
+    }
     let shown = compared(&robot("planar_2r"), "tau3 = 0\n").unwrap_err().to_string();
     assert!(shown.contains("does not have the quantity `tau3`"), "{shown}");
 }

@@ -4,7 +4,8 @@ use clap::{Args, ValueEnum};
 use robot_build::BaseFrames;
 use robot_document::DIGITS;
 use robot_document::base_parameters::{BaseEntry, BaseSet, base};
-use robot_model::robot::Robot;
+use robot_model::robot::{Friction, Robot};
+use robot_symbolic::Formula;
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -97,8 +98,27 @@ impl Arguments {
                 size(shown.len())
             )?;
         }
+        note_offsets(&robot, terminal)?;
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
+}
+
+/// Prints a note about joints whose offset cannot be told from their constant dry friction while they move.
+fn note_offsets(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let acts = |formula: &Formula| formula.as_number().is_none_or(|one| one.to_f64() != 0.0);
+    let is_dry = |friction: &Friction| {
+        [&friction.coulomb_positive, &friction.coulomb_negative].into_iter().any(acts)
+    };
+    let is_both = |friction: &Friction| acts(&friction.offset) && is_dry(friction);
+    let joints = robot.links.iter().filter(|link| is_both(&link.friction));
+    let names: Vec<&str> = joints.map(|link| link.joint.name.as_str()).collect();
+    if names.is_empty() {
+        return Ok(());
+    }
+    let message = "the column of FO differs from that of FP minus that of FN only at rest or, with a smoothing, at low \
+                   velocities; to fit logs of motion, leave `offset` out: FP and FN then include it";
+    writeln!(terminal.errors, "note: {}: {message}", names.join(", "))?;
+    Ok(())
 }
 
 /// The number of bytes of formulas that people can read, those of some thirty pages.
@@ -107,7 +127,7 @@ const LONG: usize = 100_000;
 /// Prints each base parameter as `ZZR_2 = …`, with its value below; long sums take several lines.
 fn plain(robot: &Robot, set: &BaseSet) -> String {
     let (count, all) = (set.list.len(), set.standard.len());
-    let mut shown = format!("{}: {count} base parameters of {all}", robot.name);
+    let mut shown = format!("{}: {} of {all}", robot.name, text::counted(count, "base parameter"));
     if robot.base_frames == BaseFrames::DenavitHartenberg {
         shown
             .push_str(", moments in Denavit-Hartenberg frames, formulas in the frames of the file");

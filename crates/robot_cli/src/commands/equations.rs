@@ -1,7 +1,7 @@
 //! `equations`: the equations of motion of a robot.
 
 use clap::{Args, ValueEnum};
-use robot_document::{Equation, Equations, Room, equations};
+use robot_document::{Equation, Equations, Form, Room, equations};
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
@@ -104,8 +104,23 @@ impl Arguments {
             Format::Mathml => displayed(Notation::page(terminal)?)?,
             Format::Json => json(&robot.name, &equations, None),
         };
+        if matches!(form, Form::Collected | Form::Expanded) && matches!(self.format, Format::Text) {
+            note_length(shown.lines().count(), terminal)?;
+        }
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
+}
+
+/// The number of lines that people read at once, two or three pages.
+const LONG: usize = 120;
+
+/// Prints a note on a terminal if there are shorter forms of long equations.
+fn note_length(lines: usize, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    if terminal.progress && lines > LONG {
+        let shorter = "--form grouped, with matrices, and --form compact, with names for what is repeated, are usually shorter";
+        writeln!(terminal.errors, "note: {lines} lines; {shorter}")?;
+    }
+    Ok(())
 }
 
 /// Prints equations as `Q1 = …`; long sums take several lines.

@@ -77,7 +77,7 @@ impl Arguments {
     }
 }
 
-/// The endings of the names of files in languages of one family, and those of URDF and plans.
+/// The endings of the names of files in languages of one family, and those of robot files and plans.
 const FAMILIES: [&[&str]; 8] = [
     &["rs"],
     &["c", "h", "cc", "cpp", "hpp", "cu", "cuh"],
@@ -86,7 +86,7 @@ const FAMILIES: [&[&str]; 8] = [
     &["js", "mjs", "ts", "mts"],
     &["wgsl"],
     &["wasm"],
-    &["urdf", "plan"],
+    &["toml", "urdf", "plan"],
 ];
 
 /// The text of the module, if it is a single file in the language.

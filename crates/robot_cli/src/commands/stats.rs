@@ -34,7 +34,7 @@ The size of the code is an estimate for x86-64, usually within a tenth. Code lar
 instruction cache of most processors: a call then takes at least the time to fetch it.
 
 --passes shows the operations of each function after each pass; `as built` is the result of the recursion,
-`constructor` what remains for calls. --options shows the operations of each function without one option of the
+`constructor` what remains for calls. The last row adds sines, cosines and sums of angles. --options shows the operations of each function without one option of the
 recursion or one pass; the savings do not add up, because the options interact.")]
 pub(crate) struct Arguments {
     #[command(flatten)]
@@ -169,11 +169,14 @@ impl Step {
 /// The operations of each function after each pass.
 fn passes(module: &Module) -> Vec<Step> {
     let steps = module.functions.iter().flat_map(|function| {
-        function.passes.iter().map(|pass| Step {
+        let step = |step: &str, counts: Counts| Step {
             function: function.name.clone(),
-            step: pass.pass.to_owned(),
-            counts: pass.counts,
-        })
+            step: step.to_owned(),
+            counts,
+        };
+        let all = module.counts(function).laid_out(function, &LANGUAGE.limits).call;
+        let passes = function.passes.iter().map(move |pass| step(pass.pass, pass.counts));
+        passes.chain(std::iter::once(step("with angles", all)))
     });
     steps.collect()
 }

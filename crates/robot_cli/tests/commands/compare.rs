@@ -99,6 +99,8 @@ fn a_tex_file_is_latex_even_without_a_command() {
     assert!(outcome.output.contains("printed  g*r2*m2*cos(q2)\n"), "{}", outcome.output);
     let complaint = complaint(2, &[&arguments[..], &["--notation", "text"]].concat(), "");
     assert!(complaint.contains("write a product as `m_2*g`"), "{complaint}");
+    let complaint = crate::complaint(2, &["compare", &file, "paper.typ"], "");
+    assert!(complaint.contains("Typst is not read"), "{complaint}");
 }
 
 /// The summary of the comparison of a robot's own equations, printed with the given options.

@@ -467,13 +467,14 @@ fn messages_have_no_control_characters() {
         assert_eq!((controls, shown.contains("\nb")), (0, false), "{shown:?}");
     };
     let (arm, out) = (robot("planar_2r"), format!("{name}/out"));
+    let module = name.replace(".toml", ".rs");
     for (code, arguments) in [
         (1, &["show", &name][..]),
         (1, &["check", &name]),
         (2, &["diff", &arm, &name]),
         (2, &["compare", &arm, &name]),
         (1, &["eval", &arm, "--function", "bias", "--states", &name]),
-        (1, &["generate", &arm, "-o", &name, "--check"]),
+        (1, &["generate", &arm, "-o", &module, "--check"]),
         (1, &["crate", &arm, "-o", &name, "--check"]),
         (1, &["prove", &arm, "--rustc", &name]),
         (2, &["stats", &arm, "--function", "a\u{1b}b"]),

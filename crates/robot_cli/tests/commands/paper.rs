@@ -234,7 +234,7 @@ fn introduction(counts: &Counts) -> String {
          The order of the terms is the text's; only their values are derived. With `--style paper`, the text is not read:\n\
          terms are in the order in which the paper's relations (8) to (60) yield them. The terms of a product of sums\n\
          follow one another, and like terms are joined at the place of the first. The text has the same order except in\n\
-         (35) and from (42) on; there it follows no rule that we know.\n"
+         (35) and in (42) to (55); there it follows no rule that we know.\n"
     )
 }
 

@@ -55,7 +55,7 @@ impl Letters {
     /// The names of the sets of letters: the letters that are usual in robotics, and those of the paper.
     pub const SETS: [&'static str; 2] = ["field", "paper"];
 
-    /// Reads four letters between commas, each a Latin one or the name of a Greek one, or the name of a set.
+    /// Reads four letters separated by commas, each a Latin one or the name of a Greek one, or the name of a set.
     ///
     /// # Errors
     ///
@@ -144,7 +144,7 @@ impl Writer<'_, '_> {
     ///
     /// # Errors
     ///
-    /// If a given letter is a symbol of the robot, or that of the joint positions or of sines and cosines.
+    /// If a given letter is a symbol of the robot, π, or that of the joint positions or of sines and cosines.
     pub(super) fn reserve_letters(&mut self) -> Result<(), Error> {
         let Letters { torque, mass, velocity, gravity } = &self.options.letters;
         let [usual, ..] = candidates::GRAVITY;

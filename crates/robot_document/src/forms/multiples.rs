@@ -85,8 +85,8 @@ impl<'g> Multiples<'g> {
 }
 
 /// Writes sums that are multiples of earlier sums, such as 0.5 cos q₂ q̈₁ − sin q₂ q̇₁ q̇₂ beside
-/// cos q₂ q̈₁ − 2 sin q₂ q̇₁ q̇₂, as these multiples, so that one name serves both. Otherwise a parameter could seem to act
-/// that cancels between the two.
+/// cos q₂ q̈₁ − 2 sin q₂ q̇₁ q̇₂, as these multiples, so that one name serves both. Otherwise a parameter
+/// that cancels between the two could seem to have an effect.
 pub(super) fn united<'g>(values: &[Expr<'g>], graph: &'g Graph) -> Vec<Expr<'g>> {
     let known: RefCell<Multiples<'g>> = RefCell::default();
     walk::rebuild_upward(values, graph, |part| {

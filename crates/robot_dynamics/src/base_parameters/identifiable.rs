@@ -12,9 +12,10 @@
 //! - w D π = 0, and w D π + o = 0 for the potential energy: the energies do not depend on the joint position.
 //!
 //! Here b(t, t) π is twice the kinetic energy, J the drive's reflected inertia, ρ the coupling of its rotor with the
-//! carrier, o the drive's offset, a the joint axis, and ω(t) the angular velocity of the twist t. Only the spans of t and w matter. They are found from the base outward: Φ, b(Φ,
-//! Φ) and b(Φ, t) are added to the spans of the carrier, and the result is closed under the motion of the joint. The
-//! conditions are thus small systems of linear equations, and they are exact.
+//! carrier, o the drive's offset, a the joint axis, and ω(t) the angular velocity of the twist t. Only the spans of t
+//! and w matter. They are found from the base outward: Φ, b(Φ, Φ) and b(Φ, t) are added to the spans of the carrier,
+//! and the result is closed under the motion of the joint. The conditions are thus small systems of linear equations,
+//! and they are exact.
 //!
 //! These are the spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization of
 //! observability in inertial parameter identification" (2018), extended here to drives.

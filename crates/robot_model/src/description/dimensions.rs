@@ -122,7 +122,8 @@ impl Clash {
         let message = if self.summed {
             format!("`{text}` adds {here} to {there}{pure}")
         } else {
-            format!("`{text}` applies a function to {here}{pure}, not to a pure number")
+            let comma = if pure.is_empty() { "" } else { "," };
+            format!("`{text}` applies a function to {here}, not to a pure number{comma}{pure}")
         };
         reported(self.factors, message)
     }

@@ -36,7 +36,7 @@ pub(super) fn check(reader: &mut Reader<'_>, robot: &Robot, locations: &Location
             .help(
                 "ignore this if the base is bolted down; give a free base its own joints to the \
                  ground: three prismatic and three revolute ones, with massless links between \
-                 them",
+                 them (and allow massless links)",
             ),
     );
     true

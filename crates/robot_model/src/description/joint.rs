@@ -43,7 +43,10 @@ fn elsewhere(word: &str) -> Option<&'static str> {
         "translation" | "translational" | "linear" | "slide" | "slider" | "P" => {
             Some("write \"prismatic\"")
         }
-        "floating" | "free" => Some("only robots with a fixed base can be described"),
+        "floating" | "free" => Some(
+            "use three prismatic and three revolute joints, with massless links between \
+            them",
+        ),
         "planar" => Some(
             "use two prismatic joints and a revolute one, with massless links \
             between them",

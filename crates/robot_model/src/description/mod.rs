@@ -95,8 +95,8 @@ pub struct Import {
     pub described: Described,
 }
 
-/// Reads a robot file. The extension of the name, `.toml` or `.urdf`, determines the format; for other names, the text
-/// does.
+/// Reads a robot file. The extension of the name determines the format: `.toml`, or `.urdf`, `.xacro` and `.xml` for
+/// URDF. For other names, the text does.
 ///
 /// # Errors
 ///

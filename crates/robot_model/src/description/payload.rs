@@ -6,7 +6,7 @@ use super::draft::{DraftFrame, DraftLink, DraftPayload, Parent};
 use super::link::named_parent;
 use super::locations::{BodyLocation, ParameterLocation};
 use super::names::Kind;
-use super::range::too_large;
+use super::range::{too_large, too_small};
 use super::reader::{Named, Reader};
 use super::shape::PAYLOAD;
 use super::table::Table;
@@ -63,7 +63,7 @@ pub(super) fn read(
     Some(DraftPayload { parent: parent?, placement, place: span })
 }
 
-/// Reports values that are too large, a negative mass, and a tensor that no body can have. A mass of 0 is accepted with
+/// Reports values that are too large or too small, a negative mass, and a tensor that no body can have. A mass of 0 is accepted with
 /// any possible tensor.
 fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
     let Payload { mass, center_of_mass, inertia } = names();
@@ -72,7 +72,9 @@ fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
         parameter.and_then(|parameter| parameter.value.as_ref()).map_or(0.0, Rational::to_f64)
     };
     for name in [&mass].into_iter().chain(&center_of_mass).chain(&inertia) {
-        if let Some(diagnostic) = too_large(&format!("`{name}`"), value(name), span) {
+        let (what, value) = (format!("`{name}`"), value(name));
+        let wrong = too_large(&what, value, span).or_else(|| too_small(&what, value, span));
+        if let Some(diagnostic) = wrong {
             reader.report(diagnostic);
         }
     }

@@ -13,8 +13,8 @@ use crate::robot::{Body, Drive, Friction, Joint, JointKind, Link, Move, Placemen
 
 /// The largest magnitude of a value in SI units; for comparison, the mass of the Sun is 2e30 kg.
 pub const LARGEST: f64 = 1e30;
-/// The smallest magnitude of a mass, kg, of the largest entry of a tensor, kg m², and of every other divisor, in SI
-/// units.
+/// The smallest magnitude of a mass, kg, of a component of a translation, m, of the largest entry of a tensor, kg m², and
+/// of every other divisor, in SI units.
 pub const LEAST: f64 = 1e-100;
 /// The largest magnitude of an angle, rad: larger angles have fewer than ten significant digits within a turn.
 const ANGLE: f64 = 1e6;
@@ -143,7 +143,12 @@ impl Range<'_, '_> {
     ) {
         for step in moves {
             match step {
-                Move::Translate(by) => self.all(by, translation.0, translation.1),
+                Move::Translate(by) => {
+                    self.all(by, translation.0, translation.1);
+                    for component in by {
+                        self.divisor([component], translation.0, translation.1);
+                    }
+                }
                 Move::Rotate(_, angle) => self.angle(angle, rotation.0, rotation.1),
             }
         }
@@ -172,7 +177,7 @@ impl Range<'_, '_> {
         }
     }
 
-    /// Reports values if the largest of them, which is a divisor in some computation, is too small.
+    /// Reports values if the largest of them is too small for a divisor or for the square of a length.
     fn divisor<'f>(
         &mut self,
         formulas: impl IntoIterator<Item = &'f Formula>,
@@ -182,17 +187,8 @@ impl Range<'_, '_> {
         let known: Option<Vec<f64>> =
             formulas.into_iter().map(|formula| self.reader.known(formula)).collect();
         let largest = known.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
-        if largest != 0.0 && largest < LEAST {
-            let message = format!("{what} contains a value of {}", beyond(largest, LEAST));
-            self.reader.report(
-                Diagnostic::error(code::NUMBER, message)
-                    .at(at, format!("magnitudes must be 0 or at least {LEAST:e}"))
-                    .because(
-                        "products and quotients of values with smaller magnitudes can be outside the range of \
-                         floating-point numbers",
-                    )
-                    .help("give the value in SI units, or 0 if it may be 0"),
-            );
+        if let Some(diagnostic) = too_small(what, largest, at) {
+            self.reader.report(diagnostic);
         }
     }
 }
@@ -211,5 +207,19 @@ pub(super) fn too_large(what: &str, value: f64, at: &Span) -> Option<Diagnostic>
             .at(at, format!("magnitudes may be at most {LARGEST:e}"))
             .because("products of larger values can be outside the range of floating-point numbers")
             .help("give the value in SI units")
+    })
+}
+
+/// The message about a number that is too small; `None` if it is 0 or in range.
+pub(super) fn too_small(what: &str, value: f64, at: &Span) -> Option<Diagnostic> {
+    let message = || format!("{what} contains a value of {}", beyond(value, LEAST));
+    (value != 0.0 && value.abs() < LEAST).then(|| {
+        Diagnostic::error(code::NUMBER, message())
+            .at(at, format!("magnitudes must be 0 or at least {LEAST:e}"))
+            .because(
+                "products and quotients of values with smaller magnitudes can be outside the range of \
+                 floating-point numbers",
+            )
+            .help("give the value in SI units, or 0 if it may be 0")
     })
 }

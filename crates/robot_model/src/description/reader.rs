@@ -198,7 +198,8 @@ impl<'a> Reader<'a> {
         let help = match undefined {
             Some(LARGE_ANGLE) => "write the angle without its multiples of 2π",
             _ => {
-                "look for a division by zero, the square root of a negative number, or an overflow"
+                "look for a division by zero, the tangent of a right angle, the square root of a negative number, or \
+                 an overflow"
             }
         };
         self.report(

@@ -112,9 +112,9 @@ fn repeated_table(header: &str) -> &'static str {
     match name.trim() {
         "tip" => "write each tip as `[[tip]]`, with double brackets",
         "frame" => "write each frame as `[[frame]]`, with double brackets",
-        _ => {
-            "write each link as `[[link]]`, with double brackets; other tables may appear only once"
-        }
+        "link" => "write each link as `[[link]]`, with double brackets",
+        "budget" => "write each budget as `[[budget]]`, with double brackets",
+        _ => "this table may appear only once: write its keys under one header",
     }
 }
 

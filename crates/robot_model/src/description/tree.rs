@@ -157,7 +157,7 @@ fn report_cycles(
         let mut diagnostic = Diagnostic::error(code::CYCLE, message)
             .at(&place(first), "this parent")
             .because("every link must lead back to the base; closed loops are not supported")
-            .help("make \"base\" or a link outside the cycle the parent of one of them");
+            .help("make a link outside the cycle, such as the base, the parent of one of them");
         for link in others.iter().take(8) {
             diagnostic = diagnostic.and_at(&place(link), "and this one");
         }

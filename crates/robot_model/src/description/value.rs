@@ -232,7 +232,7 @@ impl Reader<'_> {
                 }
                 _ => (
                     "outside the range of floating-point numbers",
-                    "magnitudes must be between 5e-324 and 1.79e308, with an exponent between -400 and 400",
+                    "magnitudes may be at most 1e30; write 0 for a value that is negligible",
                 ),
             };
             self.report(

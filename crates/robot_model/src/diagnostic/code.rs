@@ -12,8 +12,9 @@
 //! - R07: choices of a reader: content that it interpreted, merged, renamed or left out;
 //! - R08: requests for generated code: functions, budgets, pinned plans.
 //!
-//! R00 to R05 are errors, except R0307 and errors that an option turns into warnings; R06 are warnings; R07 are notes;
-//! R08 are errors, except that a stale plan and values that are not finite are warnings.
+//! R00 to R05 are errors, except R0307, errors that an option turns into warnings, and some masses and inertias in URDF
+//! (`description/urdf/masses.rs`); R06 are warnings, except that a payload fixed to the base (R0602) is an error; R07
+//! are notes; R08 are errors, except that a stale plan and values that are not finite are warnings.
 
 macro_rules! codes {
     ($($(#[$doc:meta])* $name:ident = $code:literal, $title:literal;)*) => {

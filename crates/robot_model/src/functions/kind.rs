@@ -126,7 +126,7 @@ functions! {
     };
     /// The poses of the links' frames from q.
     ForwardKinematics = Declaration::new("forward_kinematics", POSITION)
-        .with_result("poses of the links' frames: rotation (links × 9) and origin (links × 3)");
+        .with_result("poses of the links' frames: rotation (links × 9) and position (links × 3)");
     /// The poses of the named frames from q.
     FramePoses = Declaration::of_motions("frame_poses", POSITION)
         .with_result("the same for the named frames");
@@ -143,7 +143,7 @@ functions! {
     JacobianDotQdOf(_frame: FrameRef) = FunctionKind::JacobianDotQd.declaration();
     /// The kinetic and potential energy from q, q̇.
     Energies = Declaration::of_both("energies", STATE)
-        .with_result("kinetic and potential energy of the links that move");
+        .with_result("kinetic energy of the links and drives, potential energy of the links that move");
     /// The Coriolis matrix C from q, q̇, by Christoffel symbols.
     CoriolisMatrix = Declaration::of_both("coriolis_matrix", STATE)
         .with_result("C (n × n)");

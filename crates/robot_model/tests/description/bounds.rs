@@ -93,13 +93,18 @@ fn magnitudes_up_to_the_largest_are_read() {
     hold(&gravity("1.01e30"), false, "gravity contains a value of");
 }
 
-/// What something is divided by is 0 or not too small; other values are as small as one likes.
+/// What something is divided by and lengths are 0 or not too small; other values are as small as one likes.
 #[test]
 fn divisors_are_not_too_small() {
     for (key, _, what) in VALUES {
         let is_divisor = matches!(key, "RATIO" | "MASS" | "INERTIA" | "SMOOTHING");
+        let is_length = matches!(key, "ORIGIN" | "CENTER" | "FRAME");
         hold(&with(key, "1e-100"), true, what);
-        hold(&with(key, "0.99e-100"), !is_divisor, &format!("{what} contains a value of"));
+        hold(
+            &with(key, "0.99e-100"),
+            !(is_divisor || is_length),
+            &format!("{what} contains a value of"),
+        );
     }
     // Of a tensor the largest entry counts.
     let one = with("INERTIA", "1e-99").replacen("xx = 1e-99", "xx = 1e-101", 1);

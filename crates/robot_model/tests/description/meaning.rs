@@ -370,7 +370,7 @@ fn types_of_joints_of_other_formats_are_known() {
             "write \"prismatic\"",
             vec!["translation", "translational", "linear", "slide", "slider", "P"],
         ),
-        ("only robots with a fixed base", vec!["floating", "free"]),
+        ("use three prismatic and three revolute joints", vec!["floating", "free"]),
         ("use two prismatic joints and a revolute one", vec!["planar"]),
         ("use three revolute joints", vec!["spherical", "ball"]),
         ("use revolute and prismatic joints", vec!["cylindrical", "screw", "universal"]),

@@ -152,7 +152,7 @@ fn limits_that_are_no_range_name_the_remedy() {
 #[test]
 fn floating_and_planar_joints_are_refused() {
     for (kind, words) in [
-        ("floating", "fixed base"),
+        ("floating", "the base frame is fixed"),
         ("planar", "prismatic"),
         ("ball", "three revolute"),
         ("revolve", "revolute"),

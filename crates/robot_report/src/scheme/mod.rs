@@ -1,5 +1,5 @@
-//! The kinematic scheme, as in figure 3 of the paper: joints with the symbols of rotation and translation, frames with
-//! their axes, offsets as dimension lines, and links with their names.
+//! The kinematic scheme, as in figure 3 of the paper: joints with the symbols of revolute and prismatic joints, frames
+//! with their axes, offsets as dimension lines, and links with their names.
 //!
 //! `layout` places the robot at q = 0 on the page, `view` chooses the direction from which it is seen, `symbols` draws
 //! the symbols, `writing` writes dimensions and labels, `labels` finds space for them, and

@@ -23,8 +23,8 @@ pub(crate) fn starting(friction: &dyn DryFriction, qd: &[f64]) -> Vec<Mode> {
 }
 
 /// Chooses modes that are consistent with the accelerations that they cause: the friction of held coordinates can
-/// supply the required force, and the others start to move in the direction of their mode. `guess` contains the modes
-/// of the coordinates that move.
+/// supply the required force, and the others start to move in the direction of their mode. `guess` has a first guess of
+/// all modes ([`starting`]); the modes of coordinates that move are kept.
 ///
 /// This is a linear complementarity problem with bounds and the positive definite matrix M⁻¹. All wrong modes are
 /// exchanged at once and, if their number does not decrease, one by one (Júdice and Pires, Computers & Operations

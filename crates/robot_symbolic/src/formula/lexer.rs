@@ -179,8 +179,16 @@ impl<'t> Lexer<'t> {
     }
 }
 
+/// A character in a message: `\\` and quotes as they are, control characters escaped.
+fn shown(character: char) -> String {
+    match character {
+        '\\' | '"' | '\'' => character.to_string(),
+        _ => character.escape_debug().collect(),
+    }
+}
+
 fn unknown(character: char) -> String {
-    format!("`{}` has no meaning in an expression", character.escape_debug().collect::<String>())
+    format!("`{}` has no meaning in an expression", shown(character))
 }
 
 /// Whether the nearest `f64` is finite, and is 0 only for the number 0.

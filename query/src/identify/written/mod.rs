@@ -29,8 +29,8 @@ impl Estimate {
     ///
     /// # Errors
     ///
-    /// A file with parts that cannot be written back: standard Denavit-Hartenberg rows, gyroscopic rotors, drives
-    /// given by rotor inertia; URDF from a file that is not URDF; a result that is not a robot file.
+    /// A file with parts that cannot be written back: standard Denavit-Hartenberg rows, gyroscopic rotors;
+    /// URDF from a file that is not URDF; a result that is not a robot file.
     pub fn robot_file(
         &self,
         model: &Model,

@@ -7,15 +7,15 @@ const LONG: usize = 16;
 /// A limit for the rounding errors, in units of u times the largest entry of M, that each joint adds to an entry.
 const ROTATION: f64 = 64.0;
 
-/// Half the distance from 1 to the next `f64`.
+/// The unit roundoff u of `f64`: half the distance from 1 to the next number.
 const UNIT: f64 = f64::EPSILON / 2.0;
 
 /// Bounds, to first order, on the errors of the pivots D of M = Lᵀ D L, from the entries of M row by row with their own
 /// bounds; `None` if a pivot is not positive.
 ///
 /// The pivot k is the smallest xᵀ M x for x_k = 1 and x_i = 0 in the rows before k, so that an error E of M changes it
-/// by xᵀ E x with the same x. The result of a decomposition is exact for an M with the errors (n + 1) u √(M_ii M_jj)
-/// (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, theorem 10.5). The articulated-body algorithm does
+/// by xᵀ E x with the same x. The result of a decomposition is exact for an n × n matrix with the errors
+/// (n + 1) u √(M_ii M_jj) (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, theorem 10.5). The articulated-body algorithm does
 /// not subtract what it has not added, and is taken to be as accurate.
 ///
 /// The bounds grow with n and with the largest x, whereas those that follow each operation grow by about one digit with

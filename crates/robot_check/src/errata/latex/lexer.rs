@@ -46,6 +46,11 @@ pub(super) fn is_font(token: &str) -> bool {
     token.strip_prefix('\\').is_some_and(known)
 }
 
+/// Whether a token begins text, which may be several words.
+pub(super) fn is_text(token: &str) -> bool {
+    matches!(token, r"\text" | r"\textrm" | r"\textit")
+}
+
 /// Whether a token puts an accent on a letter; the accent is part of the symbol.
 pub(super) fn is_accent(token: &str) -> bool {
     let known = |command| Accent::of_latex(command).is_some() || OTHER_ACCENTS.contains(&command);

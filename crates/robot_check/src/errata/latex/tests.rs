@@ -105,6 +105,14 @@ fn errors_name_their_place() {
         (r"2 3 q_1", "3", "a number follows a number"),
         (r"m_1/2 q_1", "q_1", "a factor without a sign follows a divisor"),
         (r"\frac{1}", "", "incomplete"),
+        (r"\frac{d}{dt}(m_1 \dot q_1)", r"\frac{d}{dt}", "derivatives are not read"),
+        (
+            r"\frac{\mathrm{d}^2 q_1}{\mathrm dt^2}",
+            r"\frac{\mathrm{d}^2 q_1}{\mathrm dt^2}",
+            "derivatives",
+        ),
+        (r"q_1 \quad \text{gravity last}", r"\text{gravity last}", "words are not a factor"),
+        (r"q_1 \text{(1)}", r"\text{(1)}", "words are not a factor"),
         (r"a_{b", "{", "not closed"),
         (r"q_1 = 2", "=", "is not supported here"),
     ] {

@@ -206,11 +206,35 @@ impl<'t> Translator<'t, '_> {
                     None => Err(unknown(text, here)),
                 }
             }
-            _ => match self.upright_function() {
-                Some(name) => self.function(name, here),
-                None => self.symbol(),
-            },
+            _ => {
+                self.refuse_prose()?;
+                match self.upright_function() {
+                    Some(name) => self.function(name, here),
+                    None => self.symbol(),
+                }
+            }
         }
+    }
+
+    /// Refuses `\text` with several words or signs, which is not a symbol.
+    fn refuse_prose(&mut self) -> Result<(), ParseError> {
+        let (start, here) = (self.place, self.here());
+        if !lexer::is_text(self.peek()) {
+            return Ok(());
+        }
+        self.place += 1;
+        let end = self.group_end(self.place);
+        let tokens = self.tokens.get(self.place + 1..end.saturating_sub(1)).unwrap_or_default();
+        let has_space =
+            tokens.windows(2).any(|pair| matches!(pair, [a, b] if a.span.end < b.span.start));
+        let has_sign = tokens.iter().any(|token| matches!(token.text, "(" | ")" | "," | "." | ":"));
+        let end = tokens.last().map_or(here.end, |last| last.span.end + 1);
+        self.place = start;
+        if !(has_space || has_sign) {
+            return Ok(());
+        }
+        let error = ParseError::new(here.start..end, "words are not a factor of a term");
+        Err(error.help("leave them out, or put `%` and a line break before them"))
     }
 
     /// Consumes the name of a function that is set in a font, such as `\mathrm{sgn}`, if one follows.
@@ -290,12 +314,31 @@ impl<'t> Translator<'t, '_> {
     fn fraction(&mut self) -> Result<(), ParseError> {
         let here = self.here();
         self.place += 1;
+        self.refuse_derivative(&here)?;
         self.emit("(", here.clone());
         self.argument()?;
         self.emit("/", here);
         self.argument()?;
         self.closed();
         self.power()
+    }
+
+    /// Refuses a fraction such as `\frac{d}{dt}`, which is not a quotient of symbols.
+    fn refuse_derivative(&mut self, fraction: &Range<usize>) -> Result<(), ParseError> {
+        let start = self.place;
+        let parts = self.capture().and_then(|over| Ok((over, self.capture()?)));
+        let end = self.before();
+        self.place = start;
+        let is_derivative = parts.is_ok_and(|(over, under)| {
+            over.starts_with('d') && (under == "dt" || under.starts_with("dt^"))
+        });
+        if !is_derivative {
+            return Ok(());
+        }
+        let message = "derivatives are not read";
+        let error = ParseError::new(fraction.start..end, message);
+        Err(error
+            .help(r"write `\dot q_1` and `\ddot q_1`, and carry out the derivative of a product"))
     }
 
     /// Translates a power such as `^2`, if one follows.

@@ -76,12 +76,18 @@ impl Arguments {
         // Published equations are compared with those that `equations` prints.
         let robot = self.robot.printed(terminal)?;
         self.robot.check_base_frames(&[], terminal)?;
+        let has = |extension: &str| self.printed.extension().is_some_and(|own| own == extension);
+        if has("typ") {
+            let name = self.printed.display();
+            let message =
+                format!("{name}: Typst is not read; print equations with --format latex or text");
+            return Err(Failure::Usage(vec![message]));
+        }
         let printed = RobotFile::read(&self.printed)?.source;
-        let is_latex = self.printed.extension().is_some_and(|extension| extension == "tex");
         let notation = match self.notation {
             Some(NotationName::Text) => Some(Notation::Text),
             Some(NotationName::Latex) => Some(Notation::Latex),
-            None => is_latex.then_some(Notation::Latex),
+            None => has("tex").then_some(Notation::Latex),
         };
         let options = Options { notation, snap: self.robot.snap() };
         let found = watched("comparing", terminal, || compare(&robot, &printed, &options));

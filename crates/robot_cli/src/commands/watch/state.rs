@@ -12,6 +12,7 @@ use crate::commands::diff::show;
 use crate::failure::in_command_words;
 use crate::options::in_flags;
 use crate::reading::ReadingArguments;
+use crate::text::counted;
 
 /// The contents of the files at one time.
 #[derive(Clone, Debug, PartialEq)]
@@ -114,8 +115,10 @@ impl State {
             let (coordinates, parameters) =
                 (now.robot.degrees_of_freedom(), now.robot.parameters.len());
             let changes = format!(
-                "{resolved}{}: {coordinates} coordinates, {parameters} parameters; watching\n",
-                now.robot.name
+                "{resolved}{}: {}, {}; watching\n",
+                now.robot.name,
+                counted(coordinates, "coordinate"),
+                counted(parameters, "parameter")
             );
             return Shown { title: title(self.number, None, settings), problems, changes };
         };

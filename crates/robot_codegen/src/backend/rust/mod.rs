@@ -2,7 +2,7 @@
 //!
 //! [`generate`] returns a syntax tree, which prints as text ([`RustModule::to_text`]) or as tokens.
 //! The code uses only `core` and the runtime, allocates nothing, cannot panic and has no
-//! conditionals: arrays are split by patterns, every value is a `let`, and only the
+//! conditionals: arrays are split by patterns, every named value is a `let`, and only the
 //! runtime's scalar functions are called.
 
 mod batch;

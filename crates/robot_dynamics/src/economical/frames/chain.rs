@@ -197,8 +197,8 @@ fn displacements<'g>(
         .collect()
 }
 
-/// Moves to each parent the inertia that the joint cannot distinguish from the parent's: for a rotation about z, the
-/// mass and the moments along z; for a translation, all second moments.
+/// Moves to each parent the inertia that the joint cannot distinguish from the parent's: for a revolute joint about z,
+/// the mass and the moments along z; for a prismatic joint, all second moments.
 fn regroup<'g>(
     mechanism: &Mechanism<'g>,
     displacements: &[Displacement<'g>],

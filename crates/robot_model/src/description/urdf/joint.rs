@@ -114,8 +114,11 @@ fn kind_of(
         "fixed" => return Some(None),
         "floating" => diagnostic
             .at(&attribute.span, "six degrees of freedom")
-            .because("only robots with a fixed base can be described")
-            .help("write \"fixed\" if the base does not move"),
+            .because("the base frame is fixed")
+            .help(
+                "write \"fixed\" if the link does not move; otherwise use three prismatic and three continuous joints, \
+                 with massless links between them (and allow massless links)",
+            ),
         "planar" => diagnostic.at(&attribute.span, "three degrees of freedom").help(
             "use two prismatic joints and a continuous one, with massless links between them \
              (and allow massless links)",
@@ -198,8 +201,7 @@ fn moving<'a>(reader: &mut Reader<'_>, element: &Element<'a, '_>, has_limits: bo
             );
             reader.report(
                 Diagnostic::note(code::TAKEN_DEFAULT, message)
-                    .at(&element.tag(), "`<axis>` is missing")
-                    .because("the URDF default"),
+                    .at(&element.tag(), "`<axis>` is missing"),
             );
         }
     }

@@ -1,8 +1,9 @@
 //! Masses and inertias: which values no body can have, and whether they are errors or warnings.
 //!
 //! A file that was not written for this program cannot state that an impossible value is intended. Impossible values
-//! are errors nevertheless, with two exceptions that published values require:
+//! are errors nevertheless, with three exceptions that published values require:
 //!
+//! - moments of inertia of a massless body that is fixed to a moving link cause a warning;
 //! - principal moments that violate the triangle inequality by at most [`PUBLISHED`] of the largest moment cause a
 //!   warning, because measured moments often do;
 //! - a massless link with a moment of inertia only about its joint axis causes a warning if its joint is on the base
@@ -125,12 +126,15 @@ fn judge_body(
         let mut diagnostic =
             Diagnostic::error(code::MASS, "a body of mass 0 has moments of inertia")
                 .at(&of_mass, "the mass is 0")
-                .because("a moment of inertia is a sum of mass times distance squared")
-                .help("correct the mass, or read the file with the option `allow_massless`");
-        if options.allow_massless || !own {
+                .because("a moment of inertia is a sum of mass times distance squared");
+        let is_warning = options.allow_massless || !own;
+        if is_warning {
             diagnostic.severity = Severity::Warning;
         }
-        reader.report(diagnostic);
+        reader.report(diagnostic.help(match is_warning {
+            true => "correct the mass, or remove the moments of inertia",
+            false => "correct the mass, or read the file with the option `allow_massless`",
+        }));
     }
     let verdict = judge(inertial.tensor);
     let mut diagnostic = Diagnostic::error(verdict.code(), verdict.message());
@@ -153,10 +157,13 @@ fn judge_body(
                 significant((excess * 1000.0).round() / 10.0),
                 PUBLISHED * 100.0
             ));
-            diagnostic = diagnostic.help(
-                "correct the values; if they are published this way, read the file with the \
-                 option `allow_unphysical`",
-            );
+            diagnostic = diagnostic.help(match options.allow_unphysical || excess <= PUBLISHED {
+                true => "correct the values, unless they are published this way",
+                false => {
+                    "correct the values; if they are published this way, read the file with the \
+                     option `allow_unphysical`"
+                }
+            });
             excess
         }
     };

@@ -118,8 +118,13 @@ fn moving(reader: &mut Reader<'_>, joint: &UrdfJoint<'_>, options: &Options) {
     }
     if let Some(mimic) = &joint.mimic {
         let message = format!("`{name}` does not have a coordinate of its own");
+        let offset = mimic.offset.to_string();
+        let (sign, offset) = match offset.strip_prefix('-') {
+            Some(offset) => ("minus", offset),
+            None => ("plus", offset.as_str()),
+        };
         let motion =
-            format!("{} times the position of that joint, plus {}", mimic.multiplier, mimic.offset);
+            format!("{} times the position of that joint, {sign} {offset}", mimic.multiplier);
         reader.report(
             Diagnostic::note(code::TAKEN_COORDINATE, message)
                 .at(&mimic.joint.span, motion)

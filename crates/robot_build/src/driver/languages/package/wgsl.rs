@@ -23,7 +23,7 @@ pub(super) fn files(parts: &Parts<'_>, sources: Vec<SourceFile>) -> Result<Vec<F
         file("robot.json", description::text(&described(parts, &tree)?)),
     ];
     files.extend(of_sources(sources));
-    files.push(file("test.py", format!("# {}\n{TEST}", unnamed_header())));
+    files.push(file("test.py", format!("# {}\n{}", unnamed_header(), test())));
     Ok(files)
 }
 
@@ -78,6 +78,11 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
 }
 
 /// The test, which reads all names from `robot.json`.
+/// The test, with the size of the workgroups.
+fn test() -> String {
+    TEST.replace("WORKGROUP", &wgsl::WORKGROUP.to_string())
+}
+
 const TEST: &str = r#""""The check values of the README, on the first device that wgpu finds."""
 
 import json
@@ -133,7 +138,7 @@ class Robot:
         kernel = encoder.begin_compute_pass()
         kernel.set_pipeline(pipeline)
         kernel.set_bind_group(0, bound)
-        kernel.dispatch_workgroups(min((states + 63) // 64, 65535))
+        kernel.dispatch_workgroups(min(-(-states // WORKGROUP), 65535))
         kernel.end()
         self.device.queue.submit([encoder.finish()])
         found = numpy.frombuffer(self.device.queue.read_buffer(held[1]), "float32")
