@@ -16,7 +16,7 @@ arm
 # %% [markdown]
 # ## What is identifiable
 #
-# On a fixed base most parameters have no effect: no motion of this arm turns its first link about a horizontal axis.
+# Most parameters of this arm have no effect: no motion turns its first link about a horizontal axis, for example.
 # The joint torques determine only the *base parameters*; each of them is a sum of parameters that act together.
 
 # %%
@@ -63,7 +63,7 @@ for name, *row in zip(found.names, true, unweighted.values, found.values, found.
 
 # %% [markdown]
 # The noise explains the errors: the differences from the true values, divided by the standard errors, should be like
-# numbers from a normal distribution.
+# numbers from the standard normal distribution.
 
 # %%
 print("differences in standard errors:", ((found.values - true) / found.errors).round(1))
@@ -79,7 +79,7 @@ slow = excitation(np.array([0.2, 0.2, 0.01, 0.2]))
 measured = arm.inverse_dynamics(*slow) + noise * random.standard_normal((len(t), n))
 poor = arm.identify(*slow, measured, noise=noise)
 print(f"residual {found.residual:.3f} and {poor.residual:.3f} N m, N")
-print("standard errors grow by", (poor.errors / found.errors).round(0))
+print("standard errors grow by the factors", (poor.errors / found.errors).round(0))
 
 # %% [markdown]
 # ## The test that counts

@@ -111,7 +111,8 @@ pub fn colors(is_terminal: bool, no_color: Option<&OsStr>) -> bool {
 }
 
 /// Runs the command; the first argument is its own name. Returns the exit code: 0 if the work is done, 1 if an input
-/// is wrong or the result is negative, 2 if the command line is wrong or the output cannot be written.
+/// is wrong (2 for `compare` and `diff`) or the result is negative, 2 if the command line is wrong or the output cannot
+/// be written.
 pub fn run(
     arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>,
     terminal: &mut Terminal<'_>,

@@ -324,7 +324,7 @@ pub struct Drive {
 }
 
 impl Friction {
-    /// Creates a friction in which all values are 0.
+    /// Creates friction in which all values are 0.
     #[must_use]
     pub fn none() -> Friction {
         let zero = || Formula::number(&Rational::ZERO);

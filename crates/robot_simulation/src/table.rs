@@ -88,7 +88,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// An error in the header, or the errors in the lines below it, with their numbers, up to a limit.
+    /// The errors in the header and in the lines below it, with the numbers of the lines, up to a limit.
     pub fn read(source: &str, text: &str) -> Result<Table, Error> {
         Table::read_from(source, text.as_bytes())
     }
@@ -195,7 +195,7 @@ impl Times {
             if self.wrong.is_none() && self.last.is_some_and(|last| last >= *time) {
                 let row = self.rows;
                 self.wrong = Some(format!(
-                    "{source}: the time does not increase at row {row} below the header"
+                    "{source}: the time does not increase at row {row} below the header; in place of a jump, write a steep change"
                 ));
             }
             self.last = Some(*time);
@@ -247,7 +247,9 @@ mod tests {
         assert_eq!(wrong("t\n0\n1\n"), [""; 0]);
         assert_eq!(
             wrong("t\n0\n1\n1\n"),
-            ["a: the time does not increase at row 3 below the header"]
+            [
+                "a: the time does not increase at row 3 below the header; in place of a jump, write a steep change"
+            ]
         );
         assert_eq!(wrong("q1\n0\n"), ["a: there is no column `t`, the time in s"]);
         // Times must also increase from one part of a table to the next.
@@ -255,7 +257,7 @@ mod tests {
         for part in ["t\n0\n1\n", "t\n1\n2\n"] {
             times.check("a", &Table::read("a", part).unwrap());
         }
-        let expected = "a: the time does not increase at row 3 below the header";
+        let expected = "a: the time does not increase at row 3 below the header; in place of a jump, write a steep change";
         assert_eq!(times.wrong.as_deref(), Some(expected));
     }
 }

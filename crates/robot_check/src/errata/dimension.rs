@@ -65,11 +65,15 @@ impl Dimensions {
     ///
     /// # Errors
     ///
-    /// The name of a symbol that the robot does not have.
-    pub(super) fn of_term(&self, term: &Term<'_>) -> Result<Option<Dimension>, String> {
+    /// The names of the symbols that the robot does not have.
+    pub(super) fn of_term(&self, term: &Term<'_>) -> Result<Option<Dimension>, BTreeSet<String>> {
+        let unknown: BTreeSet<String> =
+            term.factors.iter().flat_map(|factor| self.unknown(factor.atom)).collect();
+        if !unknown.is_empty() {
+            return Err(unknown);
+        }
         let mut product = Some(Dimension::NONE);
         for factor in &term.factors {
-            self.know(factor.atom)?;
             let exponent = i8::try_from(factor.exponent).unwrap_or(i8::MAX);
             product = product
                 .zip(self.of_atom(factor.atom))
@@ -92,15 +96,11 @@ impl Dimensions {
         }
     }
 
-    /// Returns the name of a symbol in a factor that the robot does not have as an error.
-    fn know(&self, atom: Expr<'_>) -> Result<(), String> {
-        for part in walk::reachable(&[atom]) {
-            let name = part.as_symbol().map(|symbol| part.graph().symbol_name(symbol));
-            if let Some(name) = name.filter(|name| !self.symbols.contains_key(&**name)) {
-                return Err(name.to_string());
-            }
-        }
-        Ok(())
+    /// The names of the symbols in a factor that the robot does not have.
+    fn unknown(&self, atom: Expr<'_>) -> Vec<String> {
+        let symbols = walk::symbols(&[atom]).into_iter();
+        let names = symbols.map(|symbol| atom.graph().symbol_name(symbol).to_string());
+        names.filter(|name| !self.symbols.contains_key(name.as_str())).collect()
     }
 
     /// Whether the derived terms of equations, each given with the dimension of its quantity, have these dimensions as

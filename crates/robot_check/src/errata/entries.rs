@@ -10,7 +10,7 @@ use super::printed::Notation;
 const DISPLAYS: [&str; 8] =
     ["equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath"];
 /// The environments within these that only arrange equations.
-const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
+const ARRANGED: [&str; 5] = ["split", "aligned", "gathered", "alignedat", "cases"];
 /// The environments that contain columns.
 const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
@@ -43,14 +43,20 @@ pub(super) struct Part<'e> {
 
 impl Entry {
     /// The two sides of the equation.
-    pub(super) fn sides(&self) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
+    pub(super) fn sides(
+        &self,
+        notation: Notation,
+    ) -> Result<(Part<'_>, Part<'_>), Box<Diagnostic>> {
         let whole = self.part(0..self.text.len());
         let Some(place) = self.text.find('=') else {
-            return Err(not_an_equation(&whole.trimmed()).into());
+            return Err(not_an_equation(&whole.trimmed(), notation).into());
         };
         let left = self.part(0..place).trimmed();
         if left.text.is_empty() {
-            return Err(unnamed(&self.part(place..place + 1).span).into());
+            let error = unnamed(&self.part(place..place + 1).span);
+            return Err(error
+                .because("a chain `Q1 = a = b` is not read: leave one right side")
+                .into());
         }
         Ok((left, self.part(place + 1..self.text.len())))
     }
@@ -128,11 +134,13 @@ pub(super) fn of_matrices(span: &Span) -> Diagnostic {
 }
 
 /// The error for text without `=`, which may be a heading between equations or the continuation of one.
-fn not_an_equation(part: &Part<'_>) -> Diagnostic {
+fn not_an_equation(part: &Part<'_>, notation: Notation) -> Diagnostic {
     let in_words = |c: char| c.is_alphanumeric() || matches!(c, ' ' | ',' | ':' | '.');
     let is_heading = part.text.contains(' ') && part.text.chars().all(in_words);
     let help = if part.text.starts_with(['+', '-', '*']) {
         "begin a line that continues an equation with a space"
+    } else if notation == Notation::Latex {
+        "write `quantity = terms`; begin a line of words with `%`, or put the equations in displays"
     } else if is_heading {
         "begin a heading with `#`; of the forms that `equations` prints, `expanded` and `collected` without friction can be read"
     } else {
@@ -152,12 +160,15 @@ pub(super) fn unnamed(span: &Span) -> Diagnostic {
 /// The entries of a text, with errors in its arrangement.
 pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<Diagnostic>>> {
     match notation {
-        Notation::Text => lines(&without_comments(text, notation)),
+        Notation::Text => {
+            let text = without_comments(text, notation);
+            lines(&text, &text)
+        }
         Notation::Latex => {
             let text = rejoined(&without_comments(text, notation));
             let displays = displays(&text);
             match displays.is_empty() {
-                true => lines(&without_dollars(&text)),
+                true => lines(&without_dollars(&text), &text),
                 false => rows(&text, displays),
             }
         }
@@ -204,16 +215,17 @@ fn percent(line: &str) -> Option<usize> {
     })
 }
 
-/// One entry for each line and the indented lines that follow it.
-fn lines(text: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
+/// One entry for each line and the lines that follow it and are indented in the file.
+fn lines(text: &str, file: &str) -> Vec<Result<Entry, Box<Diagnostic>>> {
     let mut ranges: Vec<Range<usize>> = vec![];
     let mut start = 0;
     for line in text.split_inclusive('\n') {
         let range = start..start + line.trim_end().len();
+        let is_indented = file.get(start..).is_some_and(|rest| rest.starts_with([' ', '\t']));
         start += line.len();
         match ranges.last_mut() {
             _ if range.is_empty() => {}
-            Some(last) if line.starts_with([' ', '\t']) => last.end = range.end,
+            Some(last) if is_indented => last.end = range.end,
             _ => ranges.push(range),
         }
     }
@@ -228,7 +240,9 @@ fn entry(text: &str, range: Range<usize>) -> Entry {
         let start = place + found;
         place = start + 1;
         let rest = own.get(place..).unwrap_or_default();
-        let mark = ["tag*{", "tag{", "label{"].into_iter().find(|mark| rest.starts_with(mark));
+        let mark = ["tag*{", "tag{", "label{", "intertext{", "shortintertext{"]
+            .into_iter()
+            .find(|mark| rest.starts_with(mark));
         if let Some(mark) = mark {
             let length = rest.find('}').unwrap_or(rest.len());
             if mark.starts_with("tag") {
@@ -393,7 +407,7 @@ fn rows(
 
 /// The display without environments and heights of line breaks that only arrange it.
 fn flattened(display: &str) -> String {
-    let (mut ranges, mut place) = (vec![], 0);
+    let (mut ranges, mut place, mut is_braced) = (vec![], 0, false);
     while let Some(found) = display.get(place..).and_then(|rest| rest.find('\\')) {
         let start = place + found;
         let rest = display.get(start..).unwrap_or_default();
@@ -405,6 +419,15 @@ fn flattened(display: &str) -> String {
             continue;
         }
         place = start + 1;
+        // A brace around several equations.
+        let brace = rest.strip_prefix(r"\left\{").map(str::trim_start);
+        let opens = brace.is_some_and(|after| begins(after, &ARRANGED).is_some());
+        if opens || is_braced && rest.starts_with(r"\right.") {
+            is_braced = opens;
+            place = start + r"\right.".len();
+            ranges.push(start..place);
+            continue;
+        }
         let inside = rest.strip_prefix(r"\begin{").or(rest.strip_prefix(r"\end{"));
         let known = inside.is_some_and(|inside| {
             let names = ARRANGED.iter().filter_map(|name| inside.strip_prefix(*name));

@@ -8,10 +8,14 @@
 mod dimension;
 mod entries;
 mod evidence;
+mod half_angles;
 mod latex;
+mod left_side;
 mod mistake;
 mod order;
 mod printed;
+#[cfg(test)]
+mod refused;
 mod rounding;
 #[cfg(test)]
 mod spoiled;
@@ -35,7 +39,7 @@ use printed::{PrintedEquation, read_printed};
 use robot_dynamics::mechanism::{Mechanism, MechanismOptions};
 use robot_dynamics::newton_euler;
 use robot_dynamics::quantity::{Kind, Quantity};
-use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code, quote};
+use robot_model::diagnostic::{Diagnostic, Diagnostics, Source, code};
 use robot_model::robot::Robot;
 use robot_model::unit::Dimension;
 use symbols::Symbols;
@@ -51,6 +55,9 @@ const LIMITS: PolynomialOptions = PolynomialOptions {
 /// The number of terms that printed equations may have together, multiplied out. They may also have four times as many
 /// as the derived ones.
 const MAX_PRINTED: usize = 100_000;
+
+/// The maximum number of printed equations for each quantity of the robot, on average.
+const MAX_REPEATED: usize = 8;
 
 /// The maximum number of printed terms that are not among the derived ones; more are those of another robot.
 const MAX_WRONG: usize = 50_000;
@@ -166,26 +173,16 @@ fn read(
     let names: Vec<_> = quantities.iter().map(|quantity| quantity.symbol).collect();
     let notation = options.notation.unwrap_or_else(|| Notation::detect(&source.text));
     let printed = read_printed(source, notation, &Symbols::of(robot, &names, used))?;
+    if let Some(further) = printed.get(MAX_REPEATED * names.len()) {
+        return Err(vec![left_side::too_many(further, MAX_REPEATED)]);
+    }
     let known: BTreeSet<String> = names.iter().map(ToString::to_string).collect();
     let unknown = printed.iter().filter(|equation| !known.contains(&equation.quantity));
-    let unknown = unknown.map(|equation| no_quantity(equation, robot));
-    let empty = printed.iter().filter(|equation| has_itself(equation)).map(of_itself);
+    let unknown = unknown.map(|equation| left_side::unknown(equation, robot));
+    let empty = printed.iter().filter(|equation| left_side::is_repeated(equation));
+    let empty = empty.map(left_side::repeated);
     let wrong: Vec<Diagnostic> = unknown.chain(empty).collect();
     if wrong.is_empty() { Ok(printed) } else { Err(wrong) }
-}
-
-/// Whether the right side of an equation contains its left side.
-fn has_itself(equation: &PrintedEquation) -> bool {
-    let mut names = equation.terms.iter().flat_map(Formula::symbols);
-    names.any(|(name, _)| symbols::in_text(name) == equation.quantity)
-}
-
-fn of_itself(equation: &PrintedEquation) -> Diagnostic {
-    let message = format!("the right side contains `{}`, the left side", quote(&equation.quantity));
-    Diagnostic::error(code::EXPRESSION, message)
-        .at(&equation.span, "")
-        .because("such an equation says nothing, or is not solved for its left side")
-        .help("write the terms of the equation, or the name of another quantity")
 }
 
 /// Whether any equation contains a symbol of a tip's wrench.
@@ -193,43 +190,6 @@ fn has_wrench(robot: &Robot, printed: &[PrintedEquation]) -> bool {
     let names: BTreeSet<&str> = robot.tips().flat_map(|(_, wrench)| wrench.components()).collect();
     let terms = printed.iter().flat_map(|equation| &equation.terms);
     terms.flat_map(Formula::symbols).any(|(name, _)| names.contains(name))
-}
-
-fn no_quantity(equation: &PrintedEquation, robot: &Robot) -> Diagnostic {
-    let is_number = equation.quantity.parse::<f64>().is_ok();
-    if is_number || equation.quantity.contains(['+', '-', '*']) {
-        let what = if is_number { "number" } else { "sum or a product" };
-        let message = format!("the left side is a {what}");
-        return Diagnostic::error(code::EXPRESSION, message)
-            .at(&equation.span, "")
-            .help("solve the equation for one quantity: `Q1 = …`, in LaTeX `\\tau_1 = …`");
-    }
-    let message = format!("the robot does not have the quantity `{}`", quote(&equation.quantity));
-    let mut words = equation.quantity.split_whitespace();
-    if words.clone().count() > 1 && words.any(is_word) {
-        return Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(
-            "put the equation on a line of its own or in a display, or begin the line with `%`",
-        );
-    }
-    let vector = [".x", ".y", ".z"].iter().find_map(|axis| equation.quantity.strip_suffix(axis));
-    if let Some(vector) = vector.filter(|vector| vector.contains('\\')) {
-        let message = format!("`{}` is not a vector that is compared", quote(vector));
-        return Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(
-            "the vectors that are compared are a_{c}^{1}, F^{1}, M_{c}^{1}, F_{l}^{1} and M_{l}^{1} of each link; \
-             write an equation for each entry of any other, such as `\\tau_1 = …`",
-        );
-    }
-    let (links, last) = (robot.links.len(), robot.degrees_of_freedom());
-    Diagnostic::error(code::UNKNOWN_WORD, message).at(&equation.span, "").help(format!(
-        "the quantities are a_c1.x to a_c{links}.z, F, M_c, F_l and M_l likewise, and Q1 to \
-         Q{last}, also written tau1 and so on; in LaTeX a_{{c_x}}^{{1}}, F_{{x}}^{{1}}, M_{{c_x}}^{{1}}, F_{{l_x}}^{{1}}, \
-         M_{{l_x}}^{{1}} and Q_{{1}} or \\tau_{{1}}"
-    ))
-}
-
-/// Whether text is a word of prose instead of a symbol.
-fn is_word(text: &str) -> bool {
-    text.chars().count() > 2 && text.chars().all(char::is_alphabetic)
 }
 
 /// A printed equation with the derived one.
@@ -259,6 +219,7 @@ fn expand<'p, 'g>(
     let wanted: Vec<&Quantity<'g>> =
         wanted.into_iter().filter_map(|name| quantities.get(name)).collect();
     let values: Vec<Expr<'g>> = wanted.iter().map(|quantity| quantity.value).collect();
+    let has_half_angles = half_angles::are_in(&values);
     let derived = term::terms_of(&values, &LIMITS).map_err(|_| {
         Diagnostic::error(
             code::LIMIT,
@@ -279,6 +240,9 @@ fn expand<'p, 'g>(
             _ => None,
         };
         let first = values.len();
+        if !has_half_angles {
+            half_angles::refuse(equation, graph)?;
+        }
         values.extend(equation.terms.iter().map(|term| match named {
             Some(quantity) => quantity.value,
             None => lowered(term, graph),
@@ -425,15 +389,18 @@ impl Known<'_> {
         })
     }
 
-    /// The evidence from the units of a printed term.
-    fn of_units(&self, term: &Term<'_>, expected: Dimension) -> Option<Evidence> {
+    /// The evidence from the units of a printed term, or the symbols that have none.
+    fn of_units(&self, term: &Term<'_>, expected: Dimension) -> Vec<Evidence> {
+        let of_symbol = |symbol: String| match evidence::is_quantity(&symbol) {
+            true => Evidence::OtherQuantity(symbol),
+            false => Evidence::UnknownSymbol(symbol),
+        };
         match self.dimensions.of_term(term) {
             Ok(Some(printed)) if printed != expected && self.has_units => {
-                Some(Evidence::Dimension { printed, expected })
+                vec![Evidence::Dimension { printed, expected }]
             }
-            Ok(_) => None,
-            Err(symbol) if evidence::is_quantity(&symbol) => Some(Evidence::OtherQuantity(symbol)),
-            Err(symbol) => Some(Evidence::UnknownSymbol(symbol)),
+            Ok(_) => vec![],
+            Err(symbols) => symbols.into_iter().map(of_symbol).collect(),
         }
     }
 }
@@ -466,12 +433,12 @@ impl<'g> Compared<'_, 'g> {
         lines: &Lines,
     ) -> Difference {
         let units = match printed.filter(|term| known.is_of_friction(term)) {
-            Some(_) => Some(Evidence::Friction),
-            None => printed.and_then(|term| known.of_units(term, self.dimension)),
+            Some(_) => vec![Evidence::Friction],
+            None => printed.map_or_else(Vec::new, |term| known.of_units(term, self.dimension)),
         };
         let same = derived.and_then(|term| known.printed.support(term, &self.name()));
         let nearest = match (printed, derived) {
-            (Some(term), None) if units != Some(Evidence::Friction) => term.nearest(&self.derived),
+            (Some(term), None) if units != [Evidence::Friction] => term.nearest(&self.derived),
             _ => None,
         };
         Difference {

@@ -41,6 +41,7 @@ pub(super) struct PrintedEquation {
     pub(super) quantity: String,
     /// The bytes of the left side.
     pub(super) span: Span,
+    pub(super) is_latex: bool,
     /// The terms of the right side in printed order, before parentheses are expanded.
     pub(super) terms: Vec<Formula>,
 }
@@ -78,7 +79,7 @@ pub(super) fn read_printed(
 }
 
 fn read_text(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
-    let (left, right) = entry.sides()?;
+    let (left, right) = entry.sides(Notation::Text)?;
     let (number, quantity) = numbered(left.text);
     if quantity.is_empty() || quantity.contains(char::is_whitespace) {
         return Err(unnamed(&left.span).into());
@@ -89,12 +90,13 @@ fn read_text(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, B
         number,
         quantity: symbols.quantity_in_text(quantity),
         span: left.span,
+        is_latex: false,
         terms,
     }])
 }
 
 fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, Box<Diagnostic>> {
-    let (left, right) = entry.sides()?;
+    let (left, right) = entry.sides(Notation::Latex)?;
     let (number, latex) = numbered(left.text);
     let number = number.or(entry.number.clone()).unwrap_or_default();
     let column = right.rows()?;
@@ -120,19 +122,34 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
     }
     let mut equations = vec![];
     for (row, axis) in rows.iter().zip(axes) {
-        let end = |c: char| matches!(c, '.' | ',' | ';') || c.is_whitespace();
         let start = row.span.start;
-        let infix = to_infix(row.text.trim_end_matches(end), &|key| symbols.name(key))
+        let infix = to_infix(without_end(row.text), &|key| symbols.name(key))
             .map_err(|error| fault(&error, shifted(&error.span, start)))?;
         let terms = terms(infix.text(), |span| shifted(&infix.source(&span), start))?;
         equations.push(PrintedEquation {
             number: number.clone(),
             quantity: format!("{quantity}{axis}"),
             span: left.span.clone(),
+            is_latex: true,
             terms,
         });
     }
     complete(equations)
+}
+
+/// A right side without the punctuation and spaces after it, such as `\,.`
+fn without_end(latex: &str) -> &str {
+    let end = |c: char| matches!(c, '.' | ',' | ';' | ':' | '!') || c.is_whitespace();
+    let mut rest = latex;
+    loop {
+        let cut = rest.trim_end_matches(end);
+        let is_cut = cut.len() < rest.len();
+        // A backslash before the last of these belongs to a space such as `\,`.
+        match cut.strip_suffix('\\').filter(|before| is_cut && !before.ends_with('\\')) {
+            Some(before) => rest = before,
+            None => return cut,
+        }
+    }
 }
 
 fn shifted(span: &Span, by: usize) -> Span {

@@ -102,7 +102,7 @@ const MOMENTS: &str = "In the names of base parameters, SXX is the second moment
     parent's joint axis meets it if both joints are revolute, and otherwise the file's origin; a D \
     marks a parameter that differs from the file's parameter of the same name.";
 
-/// The explanation of the name of a friction that is the same in both directions.
+/// The explanation of the name of dry friction that is the same in both directions.
 const UNITED: &str = "FC is constant dry friction that is the same in both directions.";
 
 /// The places of the forward and backward friction of each joint at which these are equal, so that one term with the
@@ -123,7 +123,7 @@ fn equal_frictions(found: &BaseParameters<'_>, values: &[Polynomial<'_>]) -> Vec
     equal
 }
 
-/// The symbol of a friction that is the same in both directions. Its definition is added to `equations`, unless the
+/// The symbol of dry friction that is the same in both directions. Its definition is added to `equations`, unless the
 /// robot file has this symbol.
 fn united_friction<'g>(
     writer: &mut Writer<'_, 'g>,

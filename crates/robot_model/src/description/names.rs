@@ -97,8 +97,8 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
     };
     let rule = match kind {
         Kind::Identifier => {
-            "use letters, digits and `_`, and do not start with a digit, as in `l_5`; `latex` \
-             sets how a symbol is printed"
+            "use letters, digits and `_`, and do not start with a digit, as in `l_5`; the key \
+             `latex` of a parameter sets how it is printed"
         }
         Kind::Label => "use letters, digits, `_`, `-` and `.`, and do not start with `-` or `.`",
     };

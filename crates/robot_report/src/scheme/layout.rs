@@ -1,5 +1,5 @@
 //! The positions of the joints in the scheme. They follow from the offsets of the robot file at q = 0, in the base
-//! frame. Offsets too short to be seen are lengthened, and joints at the same point are drawn apart.
+//! frame. Short offsets are lengthened, negligible ones are omitted, and joints at the same point are drawn apart.
 
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 use robot_document::robot::words;

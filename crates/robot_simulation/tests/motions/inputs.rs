@@ -56,7 +56,7 @@ fn tables_are_linear_between_samples() {
     let table = Table::read("a.csv", "t,tau3,q1\n0,1,0\n2,1,0\n1,2,0\n").unwrap();
     let shown = Torques::from_table(robot, "a.csv", &table, 3.0).unwrap_err().to_string();
     let expected = [
-        "a.csv: the time does not increase at row 3 below the header",
+        "a.csv: the time does not increase at row 3 below the header; in place of a jump, write a steep change",
         "a.csv: the torques cover 0 s to 2 s, but the motion covers 0 s to 3 s",
         "a.csv: there is no column tau1, tau2; add a column of zeros for a joint that is not driven",
         "a.csv: the column `tau3` does not match a coordinate",

@@ -9,6 +9,7 @@ mod symbol;
 #[cfg(test)]
 mod tests;
 mod translate;
+mod words;
 
 use std::ops::Range;
 

@@ -35,7 +35,7 @@ pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseEr
 
 /// The LaTeX that is being read, and the text that has been written so far.
 pub(super) struct Translator<'t, 'n> {
-    tokens: &'t [Token<'t>],
+    pub(super) tokens: &'t [Token<'t>],
     pub(super) place: usize,
     depth: usize,
     pub(super) names: &'n Names<'n>,
@@ -208,47 +208,13 @@ impl<'t> Translator<'t, '_> {
             }
             _ => {
                 self.refuse_prose()?;
+                self.refuse_bare_function()?;
                 match self.upright_function() {
                     Some(name) => self.function(name, here),
                     None => self.symbol(),
                 }
             }
         }
-    }
-
-    /// Refuses `\text` with several words or signs, which is not a symbol.
-    fn refuse_prose(&mut self) -> Result<(), ParseError> {
-        let (start, here) = (self.place, self.here());
-        if !lexer::is_text(self.peek()) {
-            return Ok(());
-        }
-        self.place += 1;
-        let end = self.group_end(self.place);
-        let tokens = self.tokens.get(self.place + 1..end.saturating_sub(1)).unwrap_or_default();
-        let has_space =
-            tokens.windows(2).any(|pair| matches!(pair, [a, b] if a.span.end < b.span.start));
-        let has_sign = tokens.iter().any(|token| matches!(token.text, "(" | ")" | "," | "." | ":"));
-        let end = tokens.last().map_or(here.end, |last| last.span.end + 1);
-        self.place = start;
-        if !(has_space || has_sign) {
-            return Ok(());
-        }
-        let error = ParseError::new(here.start..end, "words are not a factor of a term");
-        Err(error.help("leave them out, or put `%` and a line break before them"))
-    }
-
-    /// Consumes the name of a function that is set in a font, such as `\mathrm{sgn}`, if one follows.
-    fn upright_function(&mut self) -> Option<&'static str> {
-        if !is_font(self.peek()) {
-            return None;
-        }
-        let start = self.place;
-        let word = self.capture().ok().filter(|word| (self.names)(word).is_none());
-        let function = word.as_deref().and_then(lexer::operator);
-        if function.is_none() {
-            self.place = start;
-        }
-        function
     }
 
     /// Translates a sum in brackets, of which the opening one is the current token, and its power.
@@ -278,7 +244,7 @@ impl<'t> Translator<'t, '_> {
     }
 
     /// The index of the token after a group.
-    fn group_end(&self, start: usize) -> usize {
+    pub(super) fn group_end(&self, start: usize) -> usize {
         let mut open = 0_usize;
         for (place, token) in self.tokens.iter().enumerate().skip(start) {
             match token.text {
@@ -321,24 +287,6 @@ impl<'t> Translator<'t, '_> {
         self.argument()?;
         self.closed();
         self.power()
-    }
-
-    /// Refuses a fraction such as `\frac{d}{dt}`, which is not a quotient of symbols.
-    fn refuse_derivative(&mut self, fraction: &Range<usize>) -> Result<(), ParseError> {
-        let start = self.place;
-        let parts = self.capture().and_then(|over| Ok((over, self.capture()?)));
-        let end = self.before();
-        self.place = start;
-        let is_derivative = parts.is_ok_and(|(over, under)| {
-            over.starts_with('d') && (under == "dt" || under.starts_with("dt^"))
-        });
-        if !is_derivative {
-            return Ok(());
-        }
-        let message = "derivatives are not read";
-        let error = ParseError::new(fraction.start..end, message);
-        Err(error
-            .help(r"write `\dot q_1` and `\ddot q_1`, and carry out the derivative of a product"))
     }
 
     /// Translates a power such as `^2`, if one follows.
