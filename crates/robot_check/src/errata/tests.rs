@@ -388,3 +388,34 @@ fn a_joint_torque_in_text_may_be_tau() {
     let shown = compared(&robot("planar_2r"), "tau3 = 0\n").unwrap_err().to_string();
     assert!(shown.contains("does not have the quantity `tau3`"), "{shown}");
 }
+
+/// A root in a denominator to a high power is a power of its argument, with one root if the power is odd.
+#[test]
+fn powers_of_roots_in_denominators_are_those_of_their_arguments() {
+    for (power, same) in [
+        (1, "sqrt(m1)"),
+        (2, "m1"),
+        (3, "m1*sqrt(m1)"),
+        (4, "m1^2"),
+        (5, "m1^2*sqrt(m1)"),
+        (7, "m1^3*sqrt(m1)"),
+    ] {
+        let robot = link("1", "0", &format!("r1/sqrt(m1)^{power}"));
+        let found = compared(&robot, &format!("Q1 = r1*qdd1/({same})\n")).unwrap().differences;
+        assert_eq!(found, [], "{power}");
+    }
+}
+
+/// Names that differ in one of several letters after the first are likely those of each other's index.
+#[test]
+fn names_that_differ_in_one_letter_have_another_index() {
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nIabc = 1.0\nIabd = 1.0\nIbbd = 1.0\n\
+        [[link]]\nname = \"1\"\njoint = { type = \"revolute\", axis = \"z\" }\nmass = \"Iabd + Ibbd\"\n\
+        center_of_mass = [0, 0, 0]\ninertia = { zz = \"Iabc\", unchecked = true }\n";
+    let robot = read_toml("arm.toml", text).unwrap_or_else(|error| panic!("{error}")).robot;
+    for (name, mistake) in [("Iabd", "index: Iabd for Iabc"), ("Ibbd", "factor: Ibbd for Iabc")] {
+        let found = compared(&robot, &format!("Q1 = {name}*qdd1\n")).unwrap().differences;
+        let mistakes: Vec<_> = found[0].mistakes.iter().map(Mistake::to_string).collect();
+        assert_eq!(mistakes, [mistake]);
+    }
+}

@@ -100,3 +100,39 @@ fn the_length_of_an_axis_in_urdf_does_not_matter() {
         assert_eq!(torque(&format!("0 {length} {length}")), torque("0 1 1"), "{length}");
     }
 }
+
+/// An axis that is opposite to the one before only to rounding errors is not taken for a parallel one.
+#[test]
+fn nearly_opposite_axes_are_not_parallel() {
+    let body = "mass = 1.0\ncenter_of_mass = [0.1, 0.2, 0.3]\n\
+                inertia = { xx = 0.01, yy = 0.012, zz = 0.013 }\n";
+    for angle in [0.3_f64, 0.7, 1.1, 1.9, 2.3, 2.7] {
+        // About x by the angle; in the axes of link 2, minus z of link 1 is this axis.
+        let (sine, cosine) = angle.sin_cos();
+        let text = format!(
+            "format = 1\n[robot]\nname = \"arm\"\n\
+             [[link]]\nname = \"1\"\njoint = {{ type = \"revolute\", axis = \"z\" }}\n{body}\
+             [[link]]\nname = \"2\"\njoint = {{ type = \"revolute\", axis = [0, {}, {}] }}\n\
+             origin = {{ xyz = [0.25, 0, 0.1], rpy = [{angle:?}, 0, 0] }}\n{body}",
+            -sine, -cosine
+        );
+        let robot = read_toml("arm.toml", &text).unwrap_or_else(|found| panic!("{found}")).robot;
+        let (q, qd, qdd) = ([0.3, 0.4], [1.0, 2.0], [0.5, -0.3]);
+        let solver = Mechanism::nominal(&robot).unwrap();
+        let solved = solver.inverse_dynamics(&q, &qd, &qdd).unwrap();
+        let graph = Graph::new();
+        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
+        let function = derivation.functions(FunctionKind::InverseDynamics(Effects::NONE)).remove(0);
+        let coded = walk::evaluate(&function.outputs[0].values, |symbol| {
+            let name = graph.symbol_name(symbol);
+            let place = usize::from(name.ends_with('2'));
+            [("qdd", qdd), ("qd", qd), ("q", q)]
+                .iter()
+                .find(|(prefix, _)| name.starts_with(prefix))
+                .map_or(f64::NAN, |(_, values)| values[place])
+        });
+        for (a, b) in solved.iter().zip(&coded) {
+            assert!((a - b).abs() < 1e-12, "{angle}: {solved:?} {coded:?}");
+        }
+    }
+}

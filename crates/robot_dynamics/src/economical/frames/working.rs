@@ -343,4 +343,20 @@ mod tests {
         assert_eq!(direction([number(6e-10), number(-3e-10), graph.one()]), None);
         assert_eq!(direction([graph.symbol("x"), number(1.0), graph.one()]), None);
     }
+
+    #[test]
+    fn rounding_errors_in_rotations_become_zero() {
+        let graph = Graph::new();
+        let number = |value: f64| graph.number(Number::real(value));
+        let cleaned =
+            |entry: Expr<'_>| {
+                let matrix = Matrix::identity(&graph);
+                clean(matrix.map(|one| {
+                    if one.is_zero() { number(entry.evaluate(|_| f64::NAN)) } else { one }
+                }))
+                .0[0][1]
+            };
+        assert!(cleaned(number(-9e-16)).is_zero());
+        assert_eq!(cleaned(number(2e-15)), number(2e-15));
+    }
 }
