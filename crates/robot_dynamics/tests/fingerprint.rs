@@ -71,6 +71,10 @@ fn what_no_plan_depends_on_is_left_out() {
         assert_ne!(file, ARM, "{from}");
         assert_eq!(mechanics(&robot(&file)), text, "{to}");
     }
+    let rubbing = ARM
+        .replace("\nr = ", "\nb = { value = 0.1 }\nr = ")
+        .replace("mass = \"m\"", "friction = { viscous = \"b\" }\nmass = \"m\"");
+    assert_eq!(mechanics(&robot(&rubbing)), text);
 }
 
 #[test]

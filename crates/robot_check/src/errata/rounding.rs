@@ -231,6 +231,12 @@ mod tests {
     }
 
     #[test]
+    fn three_decimals_in_a_product_are_exact() {
+        let (rounded, mistakes) = rounded("0.0126", "0.5*0.25*0.1*qdd1");
+        assert_eq!((rounded, mistakes.len()), (0, 1), "{mistakes:?}");
+    }
+
+    #[test]
     fn a_decimal_agrees_with_what_rounds_to_it() {
         let inertia = "1.126125000000000182";
         let right = vec![];

@@ -174,6 +174,7 @@ fn diagnostics_follow_the_text_in_the_editor() {
         "{message}"
     );
     assert!(message.contains("\nhelp: "), "{message}");
+    assert_eq!(message.lines().nth(1), Some("did you mean `massless`?"), "{message}");
     editor.change(uri, 2, ARM);
     assert_eq!(editor.diagnostics(uri), Vec::<Value>::new());
     // Characters outside the basic plane are two code units.

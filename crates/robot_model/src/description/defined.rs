@@ -151,6 +151,14 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_has_no_value_has_a_reason() {
+        let of = |text: &str| undefined(&Formula::parse(text).unwrap());
+        assert_eq!([of("2/3"), of("sqrt(x)"), of("1/(x - x)")], [None; 3]);
+        assert_eq!(of("tan(pi/2)"), Some("the tangent of an odd multiple of pi/2"));
+        assert!(of("x*(1/0)").is_some_and(|reason| !reason.is_empty()));
+    }
+
+    #[test]
     fn errors_of_functions_are_those_of_their_slopes() {
         let rounded = |value: f64, error: f64| Rounded { value, error };
         let root = rounded(16.0, 1e-3).of_function(Function::Sqrt).unwrap();

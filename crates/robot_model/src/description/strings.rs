@@ -93,6 +93,8 @@ mod tests {
         assert_eq!(shown("a = '''\nl1 +\n x'''", "x"), "x");
         assert_eq!(shown("a = '''l1 +\r\n x'''", "x"), "x");
         assert_eq!(shown("a = \"\\e\\\\ x\"", "x"), "x");
+        // An empty string in six quotes is between the third and the fourth.
+        assert_eq!(place("a = \"\"\"\"\"\"", &(4..10), "", 0..0), 7..7);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use robot_check::doctor::{Examination, check};
-use robot_model::description::Options;
+use robot_model::description::{Options, read_toml};
 use robot_model::diagnostic::code;
 
 fn folder() -> PathBuf {
@@ -83,4 +83,43 @@ fn every_code_has_a_broken_file() {
         missing.retain(|code| !text.contains(&format!("[{code}]")));
     }
     assert!(missing.is_empty(), "{missing:?}");
+}
+
+#[test]
+fn duplicate_keys_below_a_wrong_header_are_reported() {
+    let text = "format = 1\n[robot] x\nname = \"a\"\nname = \"b\"\n";
+    let found = read_toml("arm.toml", text).unwrap_err();
+    let duplicates = found.iter().filter(|one| one.message.contains("duplicate key"));
+    let places: Vec<_> = duplicates.map(|one| one.primary.as_ref().unwrap().span.start).collect();
+    assert_eq!(places, [text.rfind("name").unwrap()], "{found}");
+}
+
+#[test]
+fn sums_of_lengths_and_pure_numbers_are_named() {
+    let text = "format = 1\n[robot]\nname = \"arm\"\n[parameters]\nphi = { value = 1, unit = \"rad\" }\n\
+                l = { value = 1, unit = \"m\" }\n[[link]]\nname = \"1\"\nmass = 1.0\n\
+                joint = { type = \"revolute\", axis = \"z\" }\ncenter_of_mass = [\"l + phi\", 0, 0]\n\
+                inertia = { xx = 1.0, yy = 1.0, zz = 1.0 }\n";
+    let found = read_toml("arm.toml", text).unwrap_err();
+    let messages: Vec<&str> = found.iter().map(|one| one.message.as_str()).collect();
+    assert_eq!(messages, ["`l + phi` adds a value in m to a pure number"]);
+}
+
+/// A key that resembles a missing one is misspelled, and the missing one is not reported too.
+#[test]
+fn a_misspelled_key_is_not_missing() {
+    let codes = |key: &str| {
+        let text = format!(
+            "format = 1\n[robot]\nname = \"arm\"\n[[link]]\n{key} = \"1\"\nmass = 1.0\ncenter_of_mass = [0, 0, 0]\n\
+             inertia = {{ xx = 1.0, yy = 1.0, zz = 1.0 }}\njoint = {{ type = \"revolute\", axis = \"z\" }}\n"
+        );
+        let found = read_toml("arm.toml", &text).unwrap_err();
+        let mut codes: Vec<_> = found.iter().map(|one| one.code).collect();
+        codes.sort_unstable();
+        codes
+    };
+    assert_eq!(codes("nmae"), [code::UNKNOWN_KEY]);
+    let mut both = [code::UNKNOWN_KEY, code::MISSING_KEY];
+    both.sort_unstable();
+    assert_eq!(codes("colour"), both);
 }

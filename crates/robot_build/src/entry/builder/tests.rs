@@ -146,7 +146,9 @@ fn cargo_gets_a_line_for_each_error() {
         "{lines:?}"
     );
     assert!(
-        lines[1].starts_with("cargo::error=cannot read robots/none.toml: there is no"),
+        lines[1].starts_with(
+            "cargo::error=cannot read robots/none.toml: there is no such file (looked for "
+        ),
         "{lines:?}"
     );
 }

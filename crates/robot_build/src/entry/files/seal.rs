@@ -11,7 +11,8 @@ const END: &str = ")";
 /// The number of hexadecimal digits in a seal, out of the 64 of the hash.
 const DIGITS: usize = 16;
 
-/// The lines with the mark that have a seal are comments of LaTeX, Typst, and HTML, SVG or Markdown.
+/// The beginnings and ends of comments: in LaTeX, in Typst, and in HTML, SVG and Markdown. The mark gets a seal only if
+/// it is such a comment.
 const COMMENTS: [(&str, &str); 3] = [("% ", ""), ("// ", ""), ("<!-- ", " -->")];
 
 /// Adds a seal to the mark of a document, a page or a picture: a hash of the text without the seal. [`Writer`] does not

@@ -466,3 +466,14 @@ fn no_program_costs_more_and_many_less() {
     let (before, after) = operations_left(with(Resubstitution::Off));
     assert_eq!(before, after);
 }
+
+#[test]
+fn variables_are_told_apart() {
+    let mut b = Builder::new();
+    let [x, y] = [0, 1].map(|index| b.load(Source::Input(index)));
+    let sum = b.add(x, y);
+    let program = b.finish(vec![sum]);
+    let parts = Parts::of(&program, |_, _| [1.5; parts::POINTS]);
+    assert!(parts.agree(x, Form::Equal(x, false)));
+    assert!(!parts.agree(x, Form::Equal(y, false)));
+}
