@@ -1,6 +1,6 @@
 //! Compares every function that the numeric solver has, with the default plan and with random plans.
 
-use robot_dynamics::economical::plan::{FreeAcceleration, LinkPlan, Origin, Turn};
+use robot_dynamics::economical::plan::{LinkPlan, Origin, Turn};
 use robot_dynamics::economical::{Plan, Solver};
 use robot_dynamics::functions::{Derivation, Output, undetermined};
 use robot_dynamics::matrix::Pivots;
@@ -25,7 +25,7 @@ fn kinds(robot: &Robot) -> impl Iterator<Item = FunctionKind> {
 }
 
 /// The outputs that the solver can compute; of the regressor, only the columns of the links.
-fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
+pub(crate) fn outputs<'g>(derivation: &Derivation<'_, 'g>, kind: FunctionKind) -> Vec<Output<'g>> {
     let functions = derivation.functions(kind).into_iter();
     let mut outputs: Vec<_> = functions.flat_map(|function| function.outputs).collect();
     if kind == FunctionKind::Regressor {
@@ -432,88 +432,4 @@ fn every_way_of_solving_has_the_solvers_accelerations() {
         }
     }
     assert!(alone > 10 && shared > 3, "{alone} {shared}");
-}
-
-/// Units of arrays over the coordinates name the prismatic joints only if there are both kinds.
-#[test]
-fn units_name_the_prismatic_joints_among_others() {
-    let unit = |kinds: &[&str]| {
-        let links = kinds.iter().enumerate().map(|(index, kind)| {
-            format!(
-                "[[link]]\nname = \"{index}\"\njoint = {{ type = \"{kind}\", axis = \"z\" }}\n\
-                 mass = 1.0\ncenter_of_mass = [0.1, 0.2, 0]\ninertia = {{ xx = 1, yy = 1, zz = 1 }}\n"
-            )
-        });
-        let text = format!("format = 1\n[robot]\nname = \"arm\"\n{}", links.collect::<String>());
-        let robot = robot_model::description::read_toml("arm.toml", &text).unwrap().robot;
-        let graph = Graph::new();
-        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let kind = FunctionKind::InverseDynamics(Effects::NONE);
-        derivation.functions(kind).remove(0).outputs.remove(0).unit
-    };
-    let (r, p) = ("revolute", "prismatic");
-    assert_eq!(unit(&[r, r]), "N m");
-    assert_eq!(unit(&[p, p]), "N");
-    assert_eq!(unit(&[r, p]), "N m; N for the prismatic joint (entry 1, counted from 0)");
-    assert_eq!(unit(&[p, r, p]), "N m; N for the prismatic joints (entries 0, 2, counted from 0)");
-}
-
-/// The documentation of the regressor describes the columns of drives, if there are any.
-#[test]
-fn drives_of_the_regressor_are_described() {
-    for (name, columns) in [("planar_2r", None), ("trttr1", Some("of `"))] {
-        let robot = robot_testing::robot(name);
-        let graph = Graph::new();
-        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let doc = derivation.functions(FunctionKind::Regressor).remove(0).doc;
-        let drives: Vec<&String> =
-            doc.iter().filter(|paragraph| paragraph.starts_with("Columns of the drives")).collect();
-        assert_eq!(drives.len(), usize::from(columns.is_some()), "{name}: {doc:?}");
-        assert!(
-            drives.iter().all(|text| columns.is_some_and(|word| text.contains(word))),
-            "{name}"
-        );
-    }
-}
-
-/// The number of operations of all values that the solver has of a function of a random chain.
-fn cost(derivation: &Derivation<'_, '_>, kind: FunctionKind) -> usize {
-    let outputs = outputs(derivation, kind);
-    let roots: Vec<_> = outputs.into_iter().flat_map(|output| output.values).collect();
-    operations(&roots, |_| false).flops()
-}
-
-/// An acceleration of the free choice that stops the origin of the next link saves operations.
-#[test]
-fn an_acceleration_that_stops_the_next_origin_saves_operations() {
-    for joints in [6, 7, 12] {
-        let robot = robots::robot(&mut Random::new(7), &Recipe::serial(joints));
-        let graph = Graph::new();
-        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let torques = robot.symbols(JointVariable::Torque);
-        let torques: Vec<Expr<'_>> = torques.iter().map(|name| graph.symbol(name)).collect();
-        let cost = |free| {
-            let plan = Plan::uniform(joints, &LinkPlan { free, ..LinkPlan::DEFAULT });
-            let recursion = derivation.with_plan(&plan).recursion.unwrap();
-            let found =
-                recursion.forward_dynamics(&torques, false, Solver::MassMatrix, Pivots::Checked);
-            operations(&found.unwrap(), |_| false).flops()
-        };
-        let zero = cost(FreeAcceleration::Zero);
-        for free in [FreeAcceleration::NextX, FreeAcceleration::NextY] {
-            assert!(cost(free) < zero, "{joints}: {} {zero}", cost(free));
-        }
-    }
-}
-
-/// Columns of a long chain that are projected at different places need 2,248 and 11,892 operations.
-#[test]
-fn columns_of_long_chains_are_projected_at_a_common_place() {
-    for (joints, most) in [(6, 2150), (12, 11_650)] {
-        let robot = robots::robot(&mut Random::new(7), &Recipe::serial(joints));
-        let graph = Graph::new();
-        let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let count = cost(&derivation, FunctionKind::Regressor);
-        assert!(count < most, "{joints}: {count}");
-    }
 }

@@ -5,7 +5,9 @@
 
 mod axes;
 mod base_parameters;
+mod costs;
 mod derivatives;
+mod documented;
 mod energies;
 mod functions;
 mod parallel;
