@@ -5,18 +5,19 @@ use std::ops::Range;
 use robot_model::diagnostic::{Diagnostic, Span, code, quote};
 
 use super::printed::Notation;
+use super::unprinted::{blanked, printed, without_comments, without_dollars};
 
 /// The environments that display equations, without the star.
 const DISPLAYS: [&str; 8] =
     ["equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath"];
 /// The environments within these that only arrange equations.
-const ARRANGED: [&str; 5] = ["split", "aligned", "gathered", "alignedat", "cases"];
+const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
+/// The environment of a system of equations in a brace, or of the alternatives of a value.
+const CASES: &str = "cases";
 /// The environments that contain columns.
 const COLUMNS: [&str; 7] =
     ["bmatrix", "pmatrix", "matrix", "Bmatrix", "vmatrix", "smallmatrix", "array"];
 
-/// The byte order mark that some editors put before a text.
-const BYTE_ORDER_MARK: char = '\u{feff}';
 /// The command that takes the place of a left side which the preceding display printed.
 const PHANTOM: &str = r"\phantom{";
 /// The maximum number of bytes of a left side in `\phantom`.
@@ -165,7 +166,7 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<D
             lines(&text, &text)
         }
         Notation::Latex => {
-            let text = rejoined(&without_comments(text, notation));
+            let text = rejoined(&printed(&without_comments(text, notation)));
             let displays = displays(&text);
             match displays.is_empty() {
                 true => lines(&without_dollars(&text), &text),
@@ -173,46 +174,6 @@ pub(super) fn entries(text: &str, notation: Notation) -> Vec<Result<Entry, Box<D
             }
         }
     }
-}
-
-/// The text with comments and a byte order mark replaced by the same number of spaces.
-pub(super) fn without_comments(text: &str, notation: Notation) -> String {
-    let mut clean = String::with_capacity(text.len());
-    let unmarked = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-    clean.extend(std::iter::repeat_n(' ', text.len() - unmarked.len()));
-    for line in unmarked.split_inclusive('\n') {
-        let comment = match notation {
-            Notation::Text => line.find('#'),
-            Notation::Latex => percent(line),
-        };
-        let end = line.trim_end_matches(['\n', '\r']).len();
-        let comment = comment.unwrap_or(end).min(end);
-        clean.push_str(line.get(..comment).unwrap_or_default());
-        clean.extend(std::iter::repeat_n(' ', end - comment));
-        clean.push_str(line.get(end..).unwrap_or_default());
-    }
-    clean
-}
-
-/// The text with a space for each dollar sign alone, which begins or ends a formula in a line.
-fn without_dollars(text: &str) -> String {
-    let alone = text.match_indices('$').map(|(place, _)| place..place + 1).filter(|dollar| {
-        let before = text.get(..dollar.start).unwrap_or_default();
-        let after = text.get(dollar.end..).unwrap_or_default();
-        !before.ends_with(['$', '\\']) && !after.starts_with('$')
-    });
-    blanked(text, &alone.collect::<Vec<_>>())
-}
-
-/// The position of the first percent sign that begins a comment.
-fn percent(line: &str) -> Option<usize> {
-    let bytes = line.as_bytes();
-    let mut escaped = false;
-    bytes.iter().position(|byte| {
-        let found = *byte == b'%' && !escaped;
-        escaped = *byte == b'\\' && !escaped;
-        found
-    })
 }
 
 /// One entry for each line and the lines that follow it and are indented in the file.
@@ -254,17 +215,6 @@ fn entry(text: &str, range: Range<usize>) -> Entry {
         }
     }
     Entry { text: blanked(own, &marks), start: range.start, number }
-}
-
-/// The text with the given ranges, in order, replaced by spaces.
-fn blanked(text: &str, ranges: &[Range<usize>]) -> String {
-    let mut clean = String::with_capacity(text.len());
-    for range in ranges {
-        clean.push_str(text.get(clean.len()..range.start).unwrap_or_default());
-        clean.extend(std::iter::repeat_n(' ', range.end.saturating_sub(clean.len())));
-    }
-    clean.push_str(text.get(clean.len()..).unwrap_or_default());
-    clean
 }
 
 /// Joins equations that continue in the next display, which begins with `\phantom` of their left side. Between the two
@@ -429,12 +379,21 @@ fn flattened(display: &str) -> String {
             continue;
         }
         let inside = rest.strip_prefix(r"\begin{").or(rest.strip_prefix(r"\end{"));
+        let is_named = |inside: &str, name: &str| {
+            inside.strip_prefix(name).is_some_and(|rest| rest.starts_with(['}', '*']))
+        };
+        // After an `=`, the rows of `cases` are alternatives, which are not read.
+        let is_value = display.get(..start).is_some_and(|before| before.contains('='));
         let known = inside.is_some_and(|inside| {
-            let names = ARRANGED.iter().filter_map(|name| inside.strip_prefix(*name));
-            names.into_iter().any(|rest| rest.starts_with(['}', '*']))
+            let is_system = is_named(inside, CASES) && (!is_value || rest.starts_with(r"\end"));
+            is_system || ARRANGED.iter().any(|name| is_named(inside, name))
         });
         if let Some(length) = rest.find('}').filter(|_| known) {
             place = start + length + 1;
+            // The place of the environment relative to the line.
+            let option = display.get(place..).unwrap_or_default();
+            let is_option = ["[t]", "[b]", "[c]"].iter().any(|place| option.starts_with(place));
+            place += if is_option { 3 } else { 0 };
             ranges.push(start..place);
         }
     }

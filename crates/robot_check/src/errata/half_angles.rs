@@ -6,12 +6,13 @@ use robot_symbolic::{Expr, Function, Graph, Number, View, walk};
 use super::lowered;
 use super::printed::PrintedEquation;
 
-/// Whether a sine or cosine of a fraction of a symbol is in any of these expressions.
-pub(super) fn are_in(values: &[Expr<'_>]) -> bool {
-    walk::reachable(values).into_iter().any(|part| match part.view() {
+/// The sines and cosines of fractions of symbols in these expressions.
+pub(super) fn of<'g>(values: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    let is_of_fraction = |part: &Expr<'g>| match part.view() {
         View::Call(Function::Sin | Function::Cos, angle) => is_fraction(angle),
         _ => false,
-    })
+    };
+    walk::reachable(values).into_iter().filter(is_of_fraction).collect()
 }
 
 /// Whether an angle contains a symbol that is divided by a number, or multiplied by one that is not an integer.
@@ -30,10 +31,14 @@ fn is_fraction(angle: Expr<'_>) -> bool {
     })
 }
 
-/// Returns an error if a right side has a sine or cosine of a fraction of an angle.
-pub(super) fn refuse(equation: &PrintedEquation, graph: &Graph) -> Result<(), Box<Diagnostic>> {
-    let terms: Vec<Expr<'_>> = equation.terms.iter().map(|term| lowered(term, graph)).collect();
-    if !are_in(&terms) {
+/// Returns an error if a right side has a sine or cosine of a fraction of an angle that is not among the `derived` ones.
+pub(super) fn refuse<'g>(
+    equation: &PrintedEquation,
+    derived: &[Expr<'g>],
+    graph: &'g Graph,
+) -> Result<(), Box<Diagnostic>> {
+    let terms: Vec<Expr<'g>> = equation.terms.iter().map(|term| lowered(term, graph)).collect();
+    if of(&terms).iter().all(|one| derived.contains(one)) {
         return Ok(());
     }
     let message = "sines and cosines of parts of an angle are not compared";

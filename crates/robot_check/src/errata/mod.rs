@@ -23,6 +23,7 @@ mod symbols;
 mod term;
 #[cfg(test)]
 mod tests;
+mod unprinted;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -219,7 +220,7 @@ fn expand<'p, 'g>(
     let wanted: Vec<&Quantity<'g>> =
         wanted.into_iter().filter_map(|name| quantities.get(name)).collect();
     let values: Vec<Expr<'g>> = wanted.iter().map(|quantity| quantity.value).collect();
-    let has_half_angles = half_angles::are_in(&values);
+    let half_angles = half_angles::of(&values);
     let derived = term::terms_of(&values, &LIMITS).map_err(|_| {
         Diagnostic::error(
             code::LIMIT,
@@ -240,9 +241,7 @@ fn expand<'p, 'g>(
             _ => None,
         };
         let first = values.len();
-        if !has_half_angles {
-            half_angles::refuse(equation, graph)?;
-        }
+        half_angles::refuse(equation, &half_angles, graph)?;
         values.extend(equation.terms.iter().map(|term| match named {
             Some(quantity) => quantity.value,
             None => lowered(term, graph),

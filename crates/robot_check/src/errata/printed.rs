@@ -7,10 +7,9 @@ use robot_model::description::is_finite;
 use robot_model::diagnostic::{Diagnostic, Source, Span, code, quote};
 use robot_symbolic::{Formula, ParseError};
 
-use super::entries::{
-    Entry, Part, entries, has_column_mark, of_matrices, unnamed, without_comments,
-};
+use super::entries::{Entry, Part, entries, has_column_mark, of_matrices, unnamed};
 use super::symbols::Symbols;
+use super::unprinted::without_comments;
 
 /// The notation of equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -123,7 +122,11 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
     let mut equations = vec![];
     for (row, axis) in rows.iter().zip(axes) {
         let start = row.span.start;
-        let infix = to_infix(without_end(row.text), &|key| symbols.name(key))
+        let text = without_end(row.text);
+        if let Some(place) = trailing_number(text) {
+            return Err(numbered_behind(&shifted(&place, start)).into());
+        }
+        let infix = to_infix(text, &|key| symbols.name(key))
             .map_err(|error| fault(&error, shifted(&error.span, start)))?;
         let terms = terms(infix.text(), |span| shifted(&infix.source(&span), start))?;
         equations.push(PrintedEquation {
@@ -143,6 +146,11 @@ fn without_end(latex: &str) -> &str {
     let mut rest = latex;
     loop {
         let cut = rest.trim_end_matches(end);
+        let marks = [r"\nonumber", r"\notag", "&"];
+        if let Some(before) = marks.iter().find_map(|mark| cut.strip_suffix(mark)) {
+            rest = before;
+            continue;
+        }
         let is_cut = cut.len() < rest.len();
         // A backslash before the last of these belongs to a space such as `\,`.
         match cut.strip_suffix('\\').filter(|before| is_cut && !before.ends_with('\\')) {
@@ -150,6 +158,28 @@ fn without_end(latex: &str) -> &str {
             None => return cut,
         }
     }
+}
+
+/// The place of a number in parentheses at the end, apart from the term before it, which is that of the equation.
+fn trailing_number(latex: &str) -> Option<Span> {
+    let (before, number) = latex.strip_suffix(')')?.rsplit_once('(')?;
+    let digits = number.trim_end_matches(|c: char| c.is_ascii_lowercase());
+    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let term = before.trim_end_matches(|c: char| c.is_whitespace() || "~&".contains(c));
+    let spaces = [r"\quad", r"\qquad", r"\hfill", r"\hfil", r"\,", r"\;", r"\ "];
+    let is_apart = spaces.iter().any(|space| before.trim_end().ends_with(space));
+    // The argument of a function may be a number.
+    let is_argument = term.rsplit('\\').next().is_some_and(|word| {
+        term.contains('\\') && word.bytes().all(|byte| byte.is_ascii_alphabetic())
+    });
+    let is_factor = term.len() == before.len() || term.ends_with(['+', '-', '*', '/', '(']);
+    (is_number && (is_apart || !(is_argument || is_factor))).then_some(before.len()..latex.len())
+}
+
+fn numbered_behind(span: &Span) -> Diagnostic {
+    let message = "this is the number of the equation or a factor of its last term";
+    let help = "write a number as `\\tag{2}` or before the equation, and a factor before its term";
+    Diagnostic::error(code::EXPRESSION, message).at(span, "").help(help)
 }
 
 fn shifted(span: &Span, by: usize) -> Span {

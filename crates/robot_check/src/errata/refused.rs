@@ -178,3 +178,35 @@ fn equations_may_be_repeated_but_not_without_end() {
     let shown = compared(&planar, &text(most + 1)).unwrap_err().to_string();
     assert!(shown.contains("more than 8 equations for each quantity"), "{shown}");
 }
+
+/// What LaTeX prints beside an equation, or not at all, is neither a factor nor an equation.
+#[test]
+fn what_stands_beside_an_equation_is_not_a_factor() {
+    let planar = robot("planar_2r");
+    let message = |text: &str| compared(&planar, text).map_err(|errors| errors.to_string());
+    for number in [r"\qquad (2)", r"\quad(2a)", r"\hfill (2)", "& (2)", " (2)"] {
+        let shown = message(&format!(r"\[ Q_2 = \frac12 m_2 {number} \]")).unwrap_err();
+        assert!(shown.contains("the number of the equation"), "{number}: {shown}");
+    }
+    for right in [r"m_2 \cos (2)", r"m_2 (2)(3)", r"m_2 + (2)", r"m_2 \cdot (2)"] {
+        assert!(message(&format!(r"\[ Q_2 = {right} \]")).is_ok(), "{right}");
+    }
+    for (text, part) in [
+        (r"\[ Q_2 = \begin{cases} m_1 \\ + m_2 \end{cases} \]", "alternatives are not compared"),
+        (r"\[ Q_2 = m_2 g \sin\frac12 q_2 \]", "follows the fraction"),
+        (r"\[ Q_2 = m_2 \quad\text{and} \]", "words are not a factor"),
+        (r"\[ Q_2 = \tau_1 = m_2 \]", "leave one right side"),
+    ] {
+        let shown = message(text).unwrap_err();
+        assert!(shown.contains(part), "{text}: {shown}");
+    }
+    for text in [
+        r"\begin{comment}\[ Q_2 = 0 \]\end{comment} \[ Q_2 = m_2 \]",
+        r"\iffalse \[ Q_2 = 0 \] \fi \[ Q_2 = m_2 \]",
+        r"\[ Q_2 = \begin{aligned}[t] m_2 \end{aligned} \]",
+        r"\begin{align} Q_2 &= m_2, \nonumber \end{align}",
+    ] {
+        let found = message(text).unwrap();
+        assert_eq!((found.equations, found.terms), (1, 1), "{text}");
+    }
+}

@@ -406,7 +406,14 @@ impl<'t> Translator<'t, '_> {
         self.emit("(", here.clone());
         self.deeper()?;
         let number = first_digit(self.peek()).is_some();
+        let is_fraction = FRACTIONS.contains(&self.peek());
         self.operand()?;
+        if is_fraction && self.starts_symbol() {
+            return self.fault(
+                "a symbol follows the fraction in the argument of a function",
+                r"put the argument in parentheses: `\sin(\frac{1}{2} x)`",
+            );
+        }
         if number && self.starts_symbol() {
             self.emit("*", here.clone());
             self.operand()?;
@@ -437,6 +444,14 @@ pub(super) fn unknown(text: &str, span: Range<usize>) -> ParseError {
         "" => "the formula is incomplete".to_owned(),
         _ => format!("`{shown}` is not supported here"),
     };
+    if text == "=" {
+        return ParseError::new(span, message)
+            .help("leave one right side: a chain `Q1 = a = b` is not read");
+    }
+    if text == r"\begin" {
+        let help = "write the terms without this environment; alternatives are not compared";
+        return ParseError::new(span, message).help(help);
+    }
     ParseError::new(span, message).help(match text.starts_with(',') {
         true => {
             "write decimals with a point, and write out what a function such as h(q, \\dot q) stands for: equations of \

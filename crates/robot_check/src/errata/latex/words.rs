@@ -20,9 +20,13 @@ impl Translator<'_, '_> {
         let has_space =
             tokens.windows(2).any(|pair| matches!(pair, [a, b] if a.span.end < b.span.start));
         let has_sign = tokens.iter().any(|token| matches!(token.text, "(" | ")" | "," | "." | ":"));
+        let word: String = tokens.iter().map(|token| token.text).collect();
+        let has_index =
+            matches!(self.tokens.get(end), Some(next) if matches!(next.text, "_" | "^"));
+        let is_unknown = word.len() > 1 && !has_index && (self.names)(&word).is_none();
         let end = tokens.last().map_or(here.end, |last| last.span.end + 1);
         self.place = start;
-        if !(has_space || has_sign) {
+        if !(has_space || has_sign || is_unknown && operator(&word).is_none()) {
             return Ok(());
         }
         let error = ParseError::new(here.start..end, "words are not a factor of a term");
