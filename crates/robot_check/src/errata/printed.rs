@@ -162,11 +162,13 @@ fn without_end(latex: &str) -> &str {
 
 /// The place of a number in parentheses at the end, apart from the term before it, which is that of the equation.
 fn trailing_number(latex: &str) -> Option<Span> {
-    let (before, number) = latex.strip_suffix(')')?.rsplit_once('(')?;
+    let (before, number) = latex.strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
     let digits = number.trim_end_matches(|c: char| c.is_ascii_lowercase());
-    let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+    let in_number = |byte: u8| byte.is_ascii_digit() || matches!(byte, b'.' | b'-');
+    let is_number =
+        digits.starts_with(|c: char| c.is_ascii_digit()) && digits.bytes().all(in_number);
     let term = before.trim_end_matches(|c: char| c.is_whitespace() || "~&".contains(c));
-    let spaces = [r"\quad", r"\qquad", r"\hfill", r"\hfil", r"\,", r"\;", r"\ "];
+    let spaces = [r"\quad", r"\qquad", r"\hfill", r"\hfil", r"\,", r"\;", r"\ ", "&"];
     let is_apart = spaces.iter().any(|space| before.trim_end().ends_with(space));
     // The argument of a function may be a number.
     let is_argument = term.rsplit('\\').next().is_some_and(|word| {

@@ -184,7 +184,17 @@ fn equations_may_be_repeated_but_not_without_end() {
 fn what_stands_beside_an_equation_is_not_a_factor() {
     let planar = robot("planar_2r");
     let message = |text: &str| compared(&planar, text).map_err(|errors| errors.to_string());
-    for number in [r"\qquad (2)", r"\quad(2a)", r"\hfill (2)", "& (2)", " (2)"] {
+    for number in [
+        r"\qquad (2)",
+        r"\quad(2a)",
+        r"\hfill (2)",
+        "& (2)",
+        " (2)",
+        r"\\ & (2)",
+        r"\quad [2]",
+        r"\quad (2-2)",
+        r"\quad (3.2a)",
+    ] {
         let shown = message(&format!(r"\[ Q_2 = \frac12 m_2 {number} \]")).unwrap_err();
         assert!(shown.contains("the number of the equation"), "{number}: {shown}");
     }
@@ -196,6 +206,7 @@ fn what_stands_beside_an_equation_is_not_a_factor() {
         (r"\[ Q_2 = m_2 g \sin\frac12 q_2 \]", "follows the fraction"),
         (r"\[ Q_2 = m_2 \quad\text{and} \]", "words are not a factor"),
         (r"\[ Q_2 = \tau_1 = m_2 \]", "leave one right side"),
+        (r"\[ Q_2 = m_2 \iffalse m_1 \else + m_1 \fi \]", r"`\fi` is not supported here"),
     ] {
         let shown = message(text).unwrap_err();
         assert!(shown.contains(part), "{text}: {shown}");

@@ -40,7 +40,11 @@ pub(super) fn printed(text: &str) -> String {
         let Some((open, close)) = opens.min_by_key(|(open, _)| *open) else { break };
         let start = place + open;
         let inside = text.get(start..).unwrap_or_default();
-        place = inside.find(close).map_or(text.len(), |end| start + end + close.len());
+        // What follows `\else` is printed; the `\fi` after it is then refused within a formula.
+        let end = inside.find(close).map(|end| end + close.len());
+        let other =
+            inside.find(r"\else").filter(|_| close == r"\fi").map(|end| end + r"\else".len());
+        place = end.into_iter().chain(other).min().map_or(text.len(), |end| start + end);
         ranges.push(start..place);
     }
     blanked(text, &ranges)

@@ -103,7 +103,7 @@ impl Arguments {
     }
 }
 
-/// Prints a note about joints whose offset cannot be told from their constant dry friction while they move.
+/// Prints a note about joints whose offset cannot be distinguished from their constant dry friction while they move.
 fn note_offsets(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     let acts = |formula: &Formula| formula.as_number().is_none_or(|one| one.to_f64() != 0.0);
     let is_dry = |friction: &Friction| {
