@@ -40,6 +40,7 @@ pub(super) struct PrintedEquation {
     pub(super) quantity: String,
     /// The bytes of the left side.
     pub(super) span: Span,
+    /// Whether it was read as LaTeX.
     pub(super) is_latex: bool,
     /// The terms of the right side in printed order, before parentheses are expanded.
     pub(super) terms: Vec<Formula>,
@@ -178,6 +179,7 @@ fn trailing_number(latex: &str) -> Option<Span> {
     (is_number && (is_apart || !(is_argument || is_factor))).then_some(before.len()..latex.len())
 }
 
+/// The error for a number at the end, which may be that of the equation or a factor.
 fn numbered_behind(span: &Span) -> Diagnostic {
     let message = "this is the number of the equation or a factor of its last term";
     let help = "write a number as `\\tag{2}` or before the equation, and a factor before its term";

@@ -13,6 +13,7 @@ const UNPRINTED: [(&str, &str); 3] = [
     (r"\begin{verbatim}", r"\end{verbatim}"),
     (r"\iffalse", r"\fi"),
 ];
+
 /// The text with comments and a byte order mark replaced by the same number of spaces.
 pub(super) fn without_comments(text: &str, notation: Notation) -> String {
     let mut clean = String::with_capacity(text.len());

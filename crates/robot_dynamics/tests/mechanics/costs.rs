@@ -13,13 +13,6 @@ use robot_symbolic::{Expr, Graph, operations};
 
 use crate::functions::outputs;
 
-/// The number of operations of all values that the solver has of a function of a random chain.
-fn cost(derivation: &Derivation<'_, '_>, kind: FunctionKind) -> usize {
-    let outputs = outputs(derivation, kind);
-    let roots: Vec<_> = outputs.into_iter().flat_map(|output| output.values).collect();
-    operations(&roots, |_| false).flops()
-}
-
 /// An acceleration of the free choice that stops the origin of the next link saves operations.
 #[test]
 fn an_acceleration_that_stops_the_next_origin_saves_operations() {
@@ -50,7 +43,9 @@ fn columns_of_long_chains_are_projected_at_a_common_place() {
         let robot = robots::robot(&mut Random::new(7), &Recipe::serial(joints));
         let graph = Graph::new();
         let derivation = Derivation::new(&robot, &graph, &MechanismOptions::ROUNDED, None);
-        let count = cost(&derivation, FunctionKind::Regressor);
+        let outputs = outputs(&derivation, FunctionKind::Regressor);
+        let roots: Vec<_> = outputs.into_iter().flat_map(|output| output.values).collect();
+        let count = operations(&roots, |_| false).flops();
         assert!(count < most, "{joints}: {count}");
     }
 }

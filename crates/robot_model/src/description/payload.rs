@@ -63,8 +63,8 @@ pub(super) fn read(
     Some(DraftPayload { parent: parent?, placement, place: span })
 }
 
-/// Reports values that are too large or too small, a negative mass, and a tensor that no body can have. A mass of 0 is accepted with
-/// any possible tensor.
+/// Reports values that are too large or too small, a negative mass, and a tensor that no body can have. A mass of 0 is
+/// accepted with any possible tensor.
 fn check(reader: &mut Reader<'_>, parameters: &[Parameter], span: &Span) {
     let Payload { mass, center_of_mass, inertia } = names();
     let value = |name: &String| {

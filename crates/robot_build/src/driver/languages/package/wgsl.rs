@@ -77,12 +77,12 @@ fn readme(parts: &Parts<'_>, tree: &Tree<'_>) -> String {
     parts.readme(tree, "WGSL: compute kernels in single precision", &usage, "create_model")
 }
 
-/// The test, which reads all names from `robot.json`.
 /// The test, with the size of the workgroups.
 fn test() -> String {
     TEST.replace("WORKGROUP", &wgsl::WORKGROUP.to_string())
 }
 
+/// The test, which reads all names from `robot.json`. `WORKGROUP` stands for the number.
 const TEST: &str = r#""""The check values of the README, on the first device that wgpu finds."""
 
 import json
