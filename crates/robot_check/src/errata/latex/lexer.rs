@@ -63,27 +63,20 @@ pub(super) fn is_letter(token: &str) -> bool {
     letter.is_some_and(Letter::is_in_symbols)
 }
 
-/// The name in infix text of the function that a command denotes.
+/// The name in infix text of the function that a command denotes, such as `\sin`.
 pub(super) fn function(token: &str) -> Option<&'static str> {
-    match token {
-        r"\tan" => Some("tan"),
-        r"\sgn" => Some(FunctionName::Sign.function().name()),
-        _ => {
-            let name = FunctionName::ALL.into_iter().find(|name| name.latex() == token)?;
-            Some(name.function().name())
-        }
-    }
+    token.strip_prefix('\\').filter(|word| *word != "sign").and_then(operator)
 }
 
 /// The name in infix text of the function that is written as a word, as in `\operatorname{sgn}`.
 pub(super) fn operator(word: &str) -> Option<&'static str> {
     match word {
-        "sgn" | "sign" => Some("sign"),
-        "sin" => Some("sin"),
-        "cos" => Some("cos"),
         "tan" => Some("tan"),
-        "tanh" => Some("tanh"),
-        _ => None,
+        "sign" => Some(FunctionName::Sign.function().name()),
+        _ => {
+            let name = FunctionName::ALL.into_iter().find(|name| name.text() == word)?;
+            Some(name.function().name())
+        }
     }
 }
 
