@@ -208,8 +208,8 @@ impl OpenRobot<'_> {
     }
 
     /// The default options of commands that compute, with the snapping tolerance and the pinned plan. If no plan is
-    /// pinned, the plan with the fewest operations is searched for; so it is, after a warning, if the pinned plan cannot
-    /// be used.
+    /// pinned, the plan with the fewest operations is searched for; so it is, after a warning, if the pinned plan
+    /// cannot be used.
     pub(crate) fn options(&self, terminal: &mut Terminal<'_>) -> Result<Options, Failure> {
         pinned_or_searched(&self.file, self.argument.unpinned(), terminal)
     }

@@ -55,8 +55,9 @@ pub fn robot(random: &mut Random, recipe: &Recipe) -> Robot {
 }
 
 /// The robot with every mass, center of mass and inertia, and with each inertia of drives and each value of friction
-/// (except smoothing) that is not 0, replaced by a parameter whose nominal value is the former value: `m1`, `cx1`, `Ixx1` for the first body of the first
-/// link, `m1_2` for its second body, `FV1` for the viscous friction of its joint.
+/// (except smoothing) that is not 0, replaced by a parameter whose nominal value is the former value: `m1`, `cx1`,
+/// `Ixx1` for the first body of the first link, `m1_2` for its second body, `FV1` for the viscous friction of its
+/// joint.
 #[must_use]
 pub fn parameterized(robot: &Robot) -> Robot {
     let mut robot = robot.clone();

@@ -31,7 +31,8 @@ fn is_fraction(angle: Expr<'_>) -> bool {
     })
 }
 
-/// Returns an error if a right side has a sine or cosine of a fraction of an angle that is not among the `derived` ones.
+/// Returns an error if a right side has a sine or cosine of a fraction of an angle that is not among the `derived`
+/// ones.
 pub(super) fn refuse<'g>(
     equation: &PrintedEquation,
     derived: &[Expr<'g>],

@@ -67,8 +67,8 @@ const MAX_LINES: usize = 16;
 const MAX_ENTRY: usize = 6;
 
 impl Equations {
-    /// Returns an error if a symbol of the robot has the name of a matrix or column or, in typeset equations, looks like
-    /// one. There an acceleration `a2` is no conflict with a length `a2`, because its letter is bold or overlined.
+    /// Returns an error if a symbol of the robot has the name of a matrix or column or, in typeset equations, looks
+    /// like one. There an acceleration `a2` does not conflict with a length `a2`, because its letter is bold or overlined.
     ///
     /// # Errors
     ///

@@ -4,9 +4,9 @@
 //! constant. The velocity and position of a joint occur only in the energies of its link and of the links farther
 //! outward. The links are therefore treated from the tips inward. Let π be the parameters of a link, including those
 //! that its children have passed on to it; Φ the twist of the joint's unit motion; t the twists that the motions of the
-//! carrier produce at the link, and w the linear functions of parameters that are kinetic or potential energies of these
-//! motions; and D the derivative of the parameters with respect to the joint position. Then π has no effect beyond that
-//! of a body on the link's carrier if and only if
+//! carrier produce at the link, and w the linear functions of parameters that are kinetic or potential energies of
+//! these motions; and D the derivative of the parameters with respect to the joint position. Then π has no effect
+//! beyond that of a body on the link's carrier if and only if
 //!
 //! - b(Φ, Φ) π + J = 0 and b(Φ, t) π + ρ a · ω(t) = 0: the momentum along the joint vanishes;
 //! - w D π = 0, and w D π + o = 0 for the potential energy: the energies do not depend on the joint position.

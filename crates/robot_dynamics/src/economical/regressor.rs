@@ -3,8 +3,8 @@
 //! A unit of each of a link's ten parameters ([`crate::body`]) requires a wrench, which is propagated inward and
 //! projected on the joints. Not all ten wrenches are needed: a parameter that a joint cannot distinguish from the
 //! parent's own parameters (for a revolute joint about z the mass and the moments along z, for a prismatic joint the
-//! whole tensor) has the same contribution as the equivalent parameters of the parent. This is the regrouping of Khalil and
-//! Dombre (Modeling, Identification and Control of Robots, section 9.4), used in reverse: there it eliminates
+//! whole tensor) has the same contribution as the equivalent parameters of the parent. This is the regrouping of Khalil
+//! and Dombre (Modeling, Identification and Control of Robots, section 9.4), used in reverse: there it eliminates
 //! parameters, here it saves the computation of columns.
 //!
 //! The last six parameters of a link are the entries of its inertia tensor or its second moments ([`Moments`]). The

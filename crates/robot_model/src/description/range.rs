@@ -13,8 +13,8 @@ use crate::robot::{Body, Drive, Friction, Joint, JointKind, Link, Move, Placemen
 
 /// The largest magnitude of a value in SI units; for comparison, the mass of the Sun is 2e30 kg.
 pub const LARGEST: f64 = 1e30;
-/// The smallest magnitude of a mass, kg, of a component of a translation, m, of the largest entry of a tensor, kg m², and
-/// of every other divisor, in SI units.
+/// The smallest magnitude of a mass, kg, of a component of a translation, m, of the largest entry of a tensor, kg m²,
+/// and of every other divisor, in SI units.
 pub const LEAST: f64 = 1e-100;
 /// The largest magnitude of an angle, rad: larger angles have fewer than ten significant digits within a turn.
 const ANGLE: f64 = 1e6;

@@ -85,8 +85,8 @@ impl Pivots {
     }
 
     /// Returns the last pivot in the order of the coordinates that is not positive and finite at these positions, or is
-    /// only rounding error. If there is none, returns the pivot that is the smallest part of its joint's entry on the diagonal of M, if this part is below
-    /// 10⁻⁸ or a pivot has fewer than eight correct digits.
+    /// only rounding error. If there is none, returns the pivot that is the smallest part of its joint's entry on the
+    /// diagonal of M, if this part is below 10⁻⁸ or a pivot has fewer than eight correct digits.
     ///
     /// # Errors
     ///

@@ -15,8 +15,8 @@ const UNIT: f64 = f64::EPSILON / 2.0;
 ///
 /// The pivot k is the smallest xᵀ M x for x_k = 1 and x_i = 0 in the rows before k, so that an error E of M changes it
 /// by xᵀ E x with the same x. The result of a decomposition is exact for an n × n matrix with the errors
-/// (n + 1) u √(M_ii M_jj) (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, theorem 10.5). The articulated-body algorithm does
-/// not subtract what it has not added, and is taken to be as accurate.
+/// (n + 1) u √(M_ii M_jj) (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2002, theorem 10.5). The
+/// articulated-body algorithm does not subtract what it has not added, and is taken to be as accurate.
 ///
 /// The bounds grow with n and with the largest x, whereas those that follow each operation grow by about one digit with
 /// each joint of a chain. For the same reason, the bounds on the entries of M of long chains are limited to an estimate of

@@ -3,9 +3,9 @@
 //!
 //! Let Ẑ be a joint's unit motion as a 4 × 4 matrix, V a link's motion, A = V̇ + V² the matrix with which the link's
 //! point r has the acceleration A r, P its pseudo-inertia, and ⟨Ẑ, N⟩ the power of the forces N = ∫ (A r) rᵀ dm = A P.
-//! Let Ẏ = \[V, Ẑ\], the time derivative of Ẑ, and X = \[A, Ẑ\] − 2 Ẏ V, with V and A of the joint's link. A joint j then changes the accelerations of every link k that it carries by (X + 2 Ẏ V_k) dq_j and by
-//! (2 Ẏ + 2 Ẑ V_k) dq̇_j. Both X and Ẏ are twists. Of the links that a joint carries, only the sums P and B = Σ V P are
-//! needed:
+//! Let Ẏ = \[V, Ẑ\], the time derivative of Ẑ, and X = \[A, Ẑ\] − 2 Ẏ V, with V and A of the joint's link. A joint j
+//! then changes the accelerations of every link k that it carries by (X + 2 Ẏ V_k) dq_j and by (2 Ẏ + 2 Ẑ V_k) dq̇_j.
+//! Both X and Ẏ are twists. Of the links that a joint carries, only the sums P and B = Σ V P are needed:
 //!
 //! - ∂τᵢ/∂qⱼ = ⟨Ẑᵢ, X P + 2 Ẏ B⟩ and ∂τᵢ/∂q̇ⱼ = ⟨Ẑᵢ, 2 Ẏ P + 2 Ẑⱼ B⟩ with the composites of the outer of the two
 //!   joints;
