@@ -4,8 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 
 use robot_symbolic::{
-    Expr, Function, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, View,
-    print, walk,
+    Expr, Id, Monomial, Number, Polynomial, PolynomialError, PolynomialOptions, View, print, walk,
 };
 
 use super::rounding;
@@ -41,37 +40,16 @@ pub(super) fn terms_of<'g>(
         let term = |(monomial, coefficient): (&Monomial, &Number)| Term {
             coefficient: coefficient.clone(),
             rounding: None,
-            factors: powers(monomial.factors().iter().map(|factor| Power {
-                atom: graph.expr(factor.atom()),
-                exponent: factor.exponent(),
-            })),
+            factors: (monomial.factors().iter())
+                .map(|factor| Power {
+                    atom: graph.expr(factor.atom()),
+                    exponent: factor.exponent(),
+                })
+                .collect(),
         };
         polynomial.terms().map(term).collect()
     });
     Ok(terms.collect())
-}
-
-/// The powers of a term, in which even powers of a root in a denominator are powers of its argument.
-fn powers<'g>(factors: impl Iterator<Item = Power<'g>>) -> Vec<Power<'g>> {
-    let mut powers: Vec<Power<'g>> = vec![];
-    let mut add =
-        |atom: Expr<'g>, exponent: i32| match powers.iter_mut().find(|power| power.atom == atom) {
-            Some(power) => power.exponent += exponent,
-            None => powers.push(Power { atom, exponent }),
-        };
-    for Power { atom, exponent } in factors {
-        match atom.view() {
-            View::Call(Function::Sqrt, argument) if exponent < -1 => {
-                add(argument, exponent / 2);
-                if exponent % 2 != 0 {
-                    add(atom, exponent % 2);
-                }
-            }
-            _ => add(atom, exponent),
-        }
-    }
-    powers.retain(|power| power.exponent != 0);
-    powers
 }
 
 /// The derived terms as they are printed: constants such as sin(0.7) that no printed term contains are multiplied into the

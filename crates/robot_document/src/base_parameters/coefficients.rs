@@ -121,9 +121,9 @@ fn fraction(value: f64) -> Option<Rational> {
     None
 }
 
-/// Expands coefficients or values of a robot; beside rounded numbers, roots of long numbers and sums of functions of
-/// numbers, other constants are rounded, too. Those that lose their digits are refused: at seeded values of the
-/// symbols, as long terms that cancel do, or at the nominal ones, where a divisor may be nearly 0.
+/// Expands coefficients or values of a robot. If one contains a rounded number, the root of a long number or a sum of
+/// functions of numbers, its other constants are rounded, too. Those that lose their digits are refused: at seeded
+/// values of the symbols, as long terms that cancel do, or at the nominal ones, where a divisor may be nearly 0.
 pub(crate) fn polynomials<'g>(
     values: &[Expr<'g>],
     robot: &Robot,

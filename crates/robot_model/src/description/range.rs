@@ -186,8 +186,9 @@ impl Range<'_, '_> {
     ) {
         let known: Option<Vec<f64>> =
             formulas.into_iter().map(|formula| self.reader.known(formula)).collect();
-        let largest = known.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
-        if let Some(diagnostic) = too_small(what, largest, at) {
+        let largest =
+            known.into_iter().flatten().max_by(|one, other| one.abs().total_cmp(&other.abs()));
+        if let Some(diagnostic) = largest.and_then(|largest| too_small(what, largest, at)) {
             self.reader.report(diagnostic);
         }
     }

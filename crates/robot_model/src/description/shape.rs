@@ -91,6 +91,17 @@ pub enum Content {
     Parameters(&'static Shape),
 }
 
+impl Content {
+    /// The shape of the tables that the key takes.
+    fn shape(self) -> Option<&'static Shape> {
+        match self {
+            Components(shape) | Table(shape) | List(shape) | OneOrMany(shape)
+            | Parameters(shape) => Some(shape),
+            _ => None,
+        }
+    }
+}
+
 use Content::{
     Axis, Boolean, Bundles, Components, Format, Formula, Function, Functions, Identifier, Label,
     Latex, Limits, List, Number, OneOrMany, Parameters, Parent, Table, Text, Unit, Vector, Whole,
@@ -446,5 +457,20 @@ impl Shape {
     #[must_use]
     pub fn key(&self, name: &str) -> Option<&'static Key> {
         self.keys.iter().find(|key| key.name == name)
+    }
+
+    /// What the tables of a robot file are called that have a key of this name, in the order of the file.
+    pub(super) fn owners(name: &str) -> Vec<&'static str> {
+        let mut shapes: Vec<&Shape> = vec![&ROBOT_FILE];
+        let mut next = 0;
+        while let Some(shape) = shapes.get(next).copied() {
+            let inner = shape.keys.iter().filter_map(|key| key.content.shape());
+            let new: Vec<&Shape> = inner
+                .filter(|one| !shapes.iter().any(|known| std::ptr::eq(*known, *one)))
+                .collect();
+            shapes.extend(new);
+            next += 1;
+        }
+        shapes.into_iter().filter(|one| one.key(name).is_some()).map(|one| one.what).collect()
     }
 }

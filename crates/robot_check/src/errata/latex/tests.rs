@@ -113,6 +113,8 @@ fn errors_name_their_place() {
         ),
         (r"q_1 \quad \text{gravity last}", r"\text{gravity last}", "words are not a factor"),
         (r"q_1 \text{(1)}", r"\text{(1)}", "words are not a factor"),
+        (r"{\rm cos} q_1", r"\rm cos", "a product of letters"),
+        (r"g {\rm mass}", r"\rm mass", "a product of letters"),
         (r"a_{b", "{", "not closed"),
         (r"q_1 = 2", "=", "is not supported here"),
     ] {

@@ -62,6 +62,26 @@ impl Translator<'_, '_> {
         Err(error.help(format!(r"write `\{word}`")))
     }
 
+    /// Refuses a word behind `\rm`, which would be a product of letters.
+    pub(super) fn refuse_font_switch(&self) -> Result<(), ParseError> {
+        let rest = self.tokens.get(self.place..).unwrap_or_default();
+        let Some((switch, letters)) = rest.split_first().filter(|(first, _)| first.text == r"\rm")
+        else {
+            return Ok(());
+        };
+        let is_letter = |text: &str| text.chars().all(char::is_alphabetic);
+        let word: Vec<_> = letters.iter().take_while(|token| is_letter(token.text)).collect();
+        let [_, .., last] = word.as_slice() else { return Ok(()) };
+        let end = last.span.end;
+        let word: String = word.iter().map(|token| token.text).collect();
+        let message = format!(r"`\rm {word}` is read as a product of letters");
+        let error = ParseError::new(switch.span.start..end, message);
+        Err(error.help(match operator(&word) {
+            Some(_) => format!(r"write `\operatorname{{{word}}}`"),
+            None => format!(r"write `\mathrm{{{word}}}` if it is one symbol"),
+        }))
+    }
+
     /// Refuses a fraction such as `\frac{d}{dt}`, which is not a quotient of symbols.
     pub(super) fn refuse_derivative(&mut self, fraction: &Range<usize>) -> Result<(), ParseError> {
         let start = self.place;
