@@ -1,7 +1,7 @@
 //! Identification of the PUMA 560's base parameters from simulated measurements with noise.
 //!
 //! ```sh
-//! cargo run --release --example identification -- [SEED] [CSV]
+//! cargo run --release -p robots --example identification -- [SEED] [CSV]
 //! ```
 //!
 //! Prints the true value, the estimate and its standard deviation of each base parameter; writes the torques that

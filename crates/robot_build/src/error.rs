@@ -42,7 +42,10 @@ pub enum Error {
     )]
     NoFunctions,
     /// The word for all functions in a list with names of functions.
-    #[error("`{ALL_FUNCTIONS}` selects all functions; leave the others out")]
+    #[error(
+        "`{ALL_FUNCTIONS}` stands alone: it selects every function except the Jacobians of single links; leave the others out, or name each \
+         function instead"
+    )]
     AllFunctionsAndOthers,
     /// An invalid snapping tolerance.
     #[error(transparent)]
@@ -131,7 +134,7 @@ pub enum Error {
         /// The remedy.
         remedy: &'static str,
     },
-    /// A robot file outside the package.
+    /// A robot file, or its pinned plan, outside the package.
     #[error(
         "{} is outside the package {}; a build reads only files of the package: move the file \
          there, or allow it with the option `allow_outside`",
@@ -181,6 +184,15 @@ pub enum Error {
     /// No robot file is given.
     #[error("no robot file is given; name at least one")]
     NoRobots,
+    /// A folder without robot files.
+    #[error(
+        "{}: the folder contains no robot file with the ending `.toml`; name other files one by one",
+        shown(folder)
+    )]
+    NoRobotsInFolder {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// A robot file that is given more than once.
     #[error("{path} is given twice; name it once")]
     SameFile {

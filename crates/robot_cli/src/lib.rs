@@ -64,8 +64,8 @@ Exit codes of every command:
   0  done
   1  the robot file or another input is wrong, what the options ask for cannot be done, or the result is negative: a
      checked file is out of date, a claim is false, two things differ
-  2  the command line cannot be understood: an option is unknown, has an unreadable value, or has no effect; or standard
-     output cannot be written; for `compare` and `diff`, also any wrong input
+  2  the command line cannot be understood: an option is unknown, has an unreadable value, or has no effect and no note
+     says so; or standard output cannot be written; for `compare` and `diff`, also any wrong input
 
 Results go to standard output, messages to standard error. Colors appear only on a terminal, and not if the
 variable NO_COLOR is set."

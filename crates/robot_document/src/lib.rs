@@ -5,7 +5,7 @@
 //! contains headings, text, tables and equations, also without a notation; [`robot`] makes the document of a robot.
 //! Each notation has its own printer: [`latex`], [`mathml`] and [`typst`]; [`html`] makes a page. HTML and MathML are
 //! trees of [`markup`], which escapes all text. The infix text beside each formula is written by `robot_symbolic` and
-//! can be parsed again.
+//! can be parsed again, by `Formula::parse_with_dots` if it contains components such as `M_l1.z`.
 //!
 //! [`latex::read`] and [`meaning`] work in the opposite direction: from LaTeX to a layout, and from a layout to the
 //! expression that it stands for, so that tests can prove printed equations.

@@ -27,7 +27,8 @@ use proc_macro::TokenStream;
 /// ```ignore
 /// include_robot!(
 ///     "robots/trttr1.toml",
-///     functions = ["inverse_dynamics", "jacobian_tool"], // ["all"] for all; default: those of the robot file
+///     functions = ["inverse_dynamics", "jacobian_6"], // ["all"] for all; default: those of the robot
+///                                   // file, or else the forms of inverse dynamics and `link_wrenches`
 ///     bundles = { dynamics = ["mass_matrix", "bias"] }, // several functions in one call
 ///     snap = 1e-8,                  // rad; tolerance within which constant angles become multiples of π/2
 ///     base_frames = "denavit_hartenberg", // of the base parameters; default: "file"
@@ -36,15 +37,18 @@ use proc_macro::TokenStream;
 ///     batch = 8,                    // functions `…_batch` over slices of states, in blocks of this size
 ///     parallel = true,              // functions `…_batch_parallel` over the threads of the crate rayon
 ///     fused = true,                 // multiply-add instructions if the target has them
+///     limbs = "apart",              // separate code for limbs that are alike; default: "side_by_side"
 ///     trigonometry = "standard",    // default: "polynomial"
 ///     max_operations = 300,         // maximum for a call of each function; more is an error
 ///     max_stack = 2048,             // maximum estimated stack, bytes; more is an error
 ///     runtime = "::robot_runtime",
 ///     allow_outside = true,         // the file may be outside the package
-///     allow_unphysical = true,      // impossible masses and inertias are warnings, not errors
-///     allow_massless = true,        // moving links without mass are warnings, not errors
+///     allow_unphysical = true,      // impossible inertias, and in TOML impossible masses, are accepted
+///     allow_massless = true,        // moving links without mass are accepted
 /// );
 /// ```
+///
+/// The macro shows errors but no warnings; a build script and `robot-symbolic check` show both.
 ///
 /// An editor analyzes all of the generated code. For robots with many joints, a build script is therefore more
 /// suitable.

@@ -76,11 +76,11 @@ impl fmt::Display for Cause {
                 write!(formatter, "the steps became too small. {SMALL}, or increase the tolerance")
             }
             Cause::Accelerations => formatter.write_str(
-                "the accelerations do not have finite values: the mass matrix is singular (a \
+                "the accelerations are not a finite number for each coordinate: the mass matrix is singular (a \
                  coordinate moves no mass), the motion has diverged, or a torque is too large",
             ),
             Cause::Torques => formatter.write_str(
-                "the joint torques do not have finite values there; look for a division by zero, \
+                "the joint torques are not a finite number for each joint there; look for a division by zero, \
                  the square root of a negative number or an overflow in their expressions",
             ),
             Cause::Friction => formatter.write_str(

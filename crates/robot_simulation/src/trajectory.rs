@@ -83,8 +83,12 @@ impl Trajectory {
         }
         for name in table.names() {
             if name != "t" && !is_result(name, robot) && needed.iter().all(|known| *known != name) {
-                let (name, unit) = (quote(name), unit(name));
-                wrong.push(format!("{source}: the column `{name}` is unknown{unit}"));
+                let remedy = match unit(name) {
+                    "" => "; remove it, or correct its name",
+                    unit => unit,
+                };
+                let name = quote(name);
+                wrong.push(format!("{source}: the column `{name}` is unknown{remedy}"));
             }
         }
         let gather = |names: &[String]| {

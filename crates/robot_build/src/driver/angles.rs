@@ -8,8 +8,8 @@ use robot_runtime::trig::double::LIMIT;
 use robot_symbolic::Formula;
 
 /// Returns the reason why functions have no values at these positions (rad or m): the first joint whose angle is so
-/// large that the runtime's polynomials give NaN, or the sum of all angles, which a plan can use. `None` if neither is
-/// too large.
+/// large that the runtime's polynomials give NaN, or the magnitudes of all angles together, which bound the sums that a plan
+/// uses. `None` if neither is too large.
 #[must_use]
 pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> Option<String> {
     if trigonometry == Trigonometry::Standard {
@@ -48,7 +48,7 @@ pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> 
     }
     (sum >= LIMIT).then(|| {
         format!(
-            "the joint angles add up to {} rad, {beyond}; give each within one turn",
+            "the magnitudes of the joint angles add up to {} rad, {beyond}; give each within one turn",
             number(sum)
         )
     })
@@ -87,7 +87,11 @@ inertia = { xx = 0.1, yy = 0.1, zz = 0.1 }
         let why = |q: [f64; 2]| too_large_angle(&arm(), &q, Polynomial);
         assert_eq!(why([1e9, 1.0]), None);
         assert!(why([1.0, -2e9]).unwrap().starts_with("q2 = -2000000000 rad (joint "));
-        assert!(why([1e9, -1e9]).unwrap().starts_with("the joint angles add up to 2000000000 rad"));
+        assert!(
+            why([1e9, -1e9])
+                .unwrap()
+                .starts_with("the magnitudes of the joint angles add up to 2000000000 rad")
+        );
         assert_eq!(too_large_angle(&arm(), &[1e9, 2e9], Standard), None);
     }
 

@@ -152,8 +152,8 @@ fn with_payload(payload: &Payload) -> Setter {
         unit: unit.to_owned(),
         parameters: parameters.to_vec(),
     };
-    let center = "center of mass in the frame of the link that carries it, as the robot file \
-        gives it";
+    let center = "center of mass in the frame of the payload's parent, the link, frame or tip that the \
+        robot file names";
     let tensor = "xx, yy, zz, xy, xz, yz of its inertia tensor about the center of mass, in the axes of \
          that frame";
     Setter {

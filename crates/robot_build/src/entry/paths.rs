@@ -8,6 +8,7 @@ use robot_model::description::{self, MAX_BYTES};
 use robot_model::diagnostic::Source;
 use robot_symbolic::nearest_word;
 
+use crate::entry::pin::pin_path;
 use crate::entry::system::system_reason;
 use crate::error::{Error, Errors, shown};
 
@@ -29,8 +30,8 @@ impl RobotFile {
     ///
     /// # Errors
     ///
-    /// A file that cannot be read, is too large or is not text; a file outside the package, by
-    /// `..` or by a symbolic link, unless `allow_outside` is set.
+    /// A file that cannot be read, is too large or is not text; a file or a pinned plan outside the package, by `..` or
+    /// by a symbolic link, unless `allow_outside` is set.
     pub fn in_package(
         path: &Path,
         package: &Path,
@@ -39,8 +40,11 @@ impl RobotFile {
         check_is_file_name(path)?;
         let found = canonical(&package.join(path), path)?;
         let package = canonical(package, package)?;
-        if !allow_outside && !found.starts_with(&package) {
-            return Err(Errors::from(Error::Outside { path: found, package }));
+        let plan = pin_path(&found).canonicalize().ok();
+        let read = [Some(found.clone()), plan];
+        let is_outside = |path: &PathBuf| !allow_outside && !path.starts_with(&package);
+        if let Some(path) = read.into_iter().flatten().find(is_outside) {
+            return Err(Errors::from(Error::Outside { path, package }));
         }
         RobotFile::read_at(found, path)
     }
@@ -178,6 +182,24 @@ fn cannot_read(path: &Path, reason: &str) -> Error {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_plan_outside_of_the_package_is_refused() {
+        let folder = std::env::temp_dir().join(format!("robot_build_plan_{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        let package = folder.join("package");
+        std::fs::create_dir_all(&package).unwrap();
+        std::fs::write(package.join("arm.toml"), "format = 1").unwrap();
+        std::fs::write(folder.join("other.plan"), "").unwrap();
+        let read = |allow| RobotFile::in_package(Path::new("arm.toml"), &package, allow);
+        assert!(read(false).is_ok());
+        std::os::unix::fs::symlink("../other.plan", package.join("arm.plan")).unwrap();
+        let shown = read(false).unwrap_err().to_string();
+        assert!(shown.contains("other.plan is outside the package"), "{shown}");
+        assert!(read(true).is_ok());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 
     #[test]
     fn a_missing_file_has_the_nearest_name() {

@@ -40,7 +40,7 @@ pub(crate) enum Command {
     Equations(equations::Arguments),
     /// Write a document about a robot: tables, equations, symbols and a check value
     Document(document::Arguments),
-    /// Print the base inertial parameters of a robot
+    /// Print the base parameters of a robot
     Base(base::Arguments),
     /// Write the module of a robot, in Rust or another language
     Generate(generate::Arguments),

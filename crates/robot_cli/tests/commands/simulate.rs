@@ -119,7 +119,10 @@ fn everything_that_is_wrong_is_said() {
     let tolerance = "error: the tolerance is 2; it must be between 1e-14 and 0.1\n";
     assert_eq!(shown(&["--tolerance", "2"]), tolerance);
     assert!(shown(&["--torque", "3=1"]).starts_with("error: torque `3` does not match a joint"));
-    assert!(shown(&["--torque", "1=1/(t-t)"]).contains("joint torques do not have finite values"));
+    assert!(
+        shown(&["--torque", "1=1/(t-t)"])
+            .contains("joint torques are not a finite number for each joint")
+    );
     assert!(shown(&["--time", "0"]).contains("the duration is 0 s"));
     assert!(shown(&["--torques", "none.csv"]).contains("cannot read none.csv"));
     assert!(shown(&["--set", "x=1"]).contains("there is no parameter `x`"));

@@ -5,7 +5,7 @@ use robot_dynamics::quantity::{Kind, Quantity};
 use robot_symbolic::{AngleSums, Expr, Polynomial, PolynomialOptions, walk};
 
 use super::coefficients::Coefficient;
-use super::loads::{friction_contributions, whole};
+use super::loads::{CONTACT_FORCES, friction_contributions, whole};
 use super::{Equation, Form, Group, Writer, of_joint_torque, paper, vectors};
 use crate::error::Error;
 
@@ -78,7 +78,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
     let arrays = vectors::of_quantities(&quantities, &equations, writer.options.paper);
     let relations = if writer.options.paper { paper::relations(writer)? } else { vec![] };
     let group = Group::of_quantities(title, introduction.to_owned(), equations);
-    Ok(vec![Group { arrays, relations, ..group }, Group::of_definitions("Joint wrenches", forces)])
+    Ok(vec![Group { arrays, relations, ..group }, Group::of_definitions(CONTACT_FORCES, forces)])
 }
 
 /// Adds friction to the joint torques. The joint forces that dry friction needs get names, because no line is long

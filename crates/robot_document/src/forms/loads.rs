@@ -100,6 +100,9 @@ pub(super) fn frictions<'g>(
     vec![joints, contributions]
 }
 
+/// The title of the contact forces and moments that dry friction needs.
+pub(super) const CONTACT_FORCES: &str = "Contact forces and moments";
+
 /// The joint forces that dry friction needs, and the contributions of friction to the joint torques in symbols for
 /// these forces.
 pub(super) fn friction_contributions<'g>(
@@ -108,7 +111,7 @@ pub(super) fn friction_contributions<'g>(
 ) -> (Section<'g>, Vec<Expr<'g>>) {
     let mechanism = writer.derivation().mechanism;
     let iterations = writer.iterations(Effects { wrench: true, friction: false });
-    let mut joints = Section { title: "Joint wrenches", by_symbols: false, coefficients: vec![] };
+    let mut joints = Section { title: CONTACT_FORCES, by_symbols: false, coefficients: vec![] };
     let mut values = vec![writer.graph.zero(); mechanism.degrees_of_freedom];
     for (index, (link, LinkWrench { force, .. })) in
         mechanism.links.iter().zip(&iterations.wrenches).enumerate()

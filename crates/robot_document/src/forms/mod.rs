@@ -108,7 +108,7 @@ pub struct Group {
 pub struct Equation {
     /// The left side as text, such as `F_l5.x`.
     pub name: String,
-    /// The right side as infix text that can be parsed again.
+    /// The right side as infix text that can be parsed again, by [`Formula::parse_with_dots`](robot_symbolic::Formula::parse_with_dots).
     pub text: String,
     /// The left side.
     pub left: Math,

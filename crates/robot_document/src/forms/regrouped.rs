@@ -42,7 +42,7 @@ pub(super) fn groups(writer: &mut Writer<'_, '_>) -> Result<Vec<Group>, Error> {
         wrenches(writer, &forces, &mut sums),
     ];
     if writer.options.friction {
-        sections.extend(frictions(writer, "Coulomb friction", dry, &mut sums));
+        sections.extend(frictions(writer, "Load-dependent friction", load_dependent, &mut sums));
     }
     writer.check_size()?;
     let introduction = introduction(&found);
@@ -288,7 +288,7 @@ fn is_friction(quantity: Quantity) -> bool {
 }
 
 /// The part of friction that grows with the joint force; it has no parameter as a single factor.
-fn dry<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
+fn load_dependent<'g>(friction: &MechanismFriction<'g>) -> MechanismFriction<'g> {
     let zero = friction.viscous.graph().zero();
     MechanismFriction {
         viscous: zero,

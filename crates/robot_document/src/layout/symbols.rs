@@ -208,8 +208,8 @@ impl SymbolTable {
         self.reserved.extend(letters.map(str::to_owned));
     }
 
-    /// Returns the first candidate that is not reserved and that no symbol uses with a number as its first index,
-    /// neither in text nor in print; the last one that is not reserved if all are used. An index such as x in M_x
+    /// Returns the first candidate that is not reserved, is not the letter of sines or cosines, and that no symbol uses
+    /// with a number as its first index, neither in text nor in print; the last one that is not reserved if all are used. An index such as x in M_x
     /// cannot be mistaken for that of M_12.
     #[must_use]
     pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {

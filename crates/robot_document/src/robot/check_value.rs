@@ -24,6 +24,9 @@ pub struct CheckValue {
     pub forces: Vec<f64>,
 }
 
+/// The part of the largest torque below which another one is a rounding error.
+const NEGLIGIBLE: f64 = 1e-12;
+
 /// The check value as a table.
 pub(super) fn blocks(
     value: &CheckValue,
@@ -32,13 +35,14 @@ pub(super) fn blocks(
     letters: &Letters,
 ) -> Vec<Block> {
     let CheckValue { positions, velocities, accelerations, wrench, forces } = value;
+    let largest = forces.iter().fold(0.0_f64, |largest, force| largest.max(force.abs()));
     let mut rows = vec![];
     for (index, force) in forces.iter().enumerate() {
         let mut row = vec![vec![Inline::Math(Math::integer(index + 1))]];
         for texts in [positions, velocities, accelerations] {
             row.push(texts.get(index).map(|text| number(text)).into_iter().collect());
         }
-        row.push(vec![number(&format!("{force:.8}"))]);
+        row.push(vec![number(&torque(*force, largest))]);
         rows.push(row);
     }
     let name = |prefix: &str| {
@@ -69,6 +73,16 @@ pub(super) fn blocks(
     let caption = "State and joint torques, SI units.".to_owned();
     blocks.push(Block::Table(Table { caption, head, rows, keys: 1 }));
     blocks
+}
+
+/// A torque with eight decimals, or with ten digits if these would be too few or too many. One that is negligible
+/// beside the `largest` is a rounding error of 0.
+fn torque(force: f64, largest: f64) -> String {
+    let is_negligible = force.abs() <= NEGLIGIBLE * largest;
+    match is_negligible || (0.01..1e8).contains(&force.abs()) {
+        true => format!("{:.8}", if is_negligible { 0.0 } else { force }),
+        false => format!("{force:.9e}"),
+    }
 }
 
 fn number(text: &str) -> Inline {

@@ -172,7 +172,7 @@ fn meaning(group: &Group, family: &str, numbers: usize, letters: &Letters) -> Op
         ("Gravity", _) => "gravity term of joint i",
         ("Wrenches of the tips", _) => "contribution of the wrenches of the tips to joint i",
         ("Friction", _) => "friction of joint i",
-        ("Coulomb friction", _) => "Coulomb friction of joint i",
+        ("Load-dependent friction", _) => "load-dependent friction of joint i",
         ("Coefficients of the base parameters", _) => "coefficient of base parameter j in joint i",
         ("Combinations of parameters", _) => "combination of parameters",
         ("Expressions of the state", _) => "expression that occurs several times",

@@ -77,9 +77,9 @@ pub(super) fn method(derivation: &Derivation<'_, '_>) -> Vec<String> {
 }
 
 /// The documentation of the friction in the function.
-const FRICTION_DOC: &str = "Forward dynamics with joint friction, viscous and Coulomb: the \
+const FRICTION_DOC: &str = "Forward dynamics with joint friction, viscous and dry: the \
     accelerations that the joint torques `tau` cause, the solution of M q̈ = τ − C q̇ − g − Q_f. \
-    Coulomb friction uses the sign of the velocity, or its smooth version if the robot file sets \
+    Dry friction uses the sign of the velocity, or its smooth version if the robot file sets \
     `smoothing`; the sign of 0 is 0, so the discontinuous sign does not model stiction. \
     Load-dependent friction depends on q̈ itself: starting from q̈ without it, eight iterations \
     use the friction of the previous one, and each reduces the error by about a factor of the \

@@ -15,7 +15,7 @@ pub(super) fn inverse_dynamics<'g>(
 ) -> Function<'g> {
     let Effects { wrench, friction } = kind.effects();
     let friction_doc = match friction {
-        true => "Includes joint friction, viscous and Coulomb.",
+        true => "Includes joint friction, viscous and dry.",
         false => "Without friction.",
     };
     let sum_doc = match wrench {

@@ -35,7 +35,7 @@ pub(super) fn mass_matrix_lower<'g>(derivation: &Derivation<'_, 'g>) -> Function
     let output = Output::new(
         FunctionKind::MassMatrixLower.name(),
         "The lower triangle of the mass matrix row by row, each row to its diagonal entry, without \
-         the entries that are always 0",
+         those of joints of which neither carries the other",
         &derivation.matrix_unit("kg m²", "kg m", "kg"),
         vec![values.len()],
         values,

@@ -16,7 +16,7 @@ use super::{Derivation, Function, Output, forward_dynamics, mass_matrix};
 /// Pivots below this fraction of the diagonal of M are small: two of sixteen digits are lost. The pivots of industrial
 /// arms with up to eight joints are above 0.02 in all configurations.
 const SMALL: f64 = 1e-2;
-/// The same limit for robots with at least [`MANY`] coordinates. The inner joints of long chains and of humanoids have
+/// The corresponding limit for robots with at least [`MANY`] coordinates. The inner joints of long chains and of humanoids have
 /// pivots down to 10⁻⁴ because the links that they carry are long; such robots are mostly solved by the
 /// articulated-body algorithm anyway.
 const SMALL_OF_MANY: f64 = 1e-5;

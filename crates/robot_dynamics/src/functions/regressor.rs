@@ -147,7 +147,7 @@ fn paragraphs(derivation: &Derivation<'_, '_>, drives: &[String]) -> Vec<String>
     if !drives.is_empty() {
         paragraphs.push(format!(
             "Columns of the drives, reflected inertia (armature) in kg m² or kg, viscous \
-             friction in N m s/rad or N s/m, constant Coulomb friction and friction offset in N \
+             friction in N m s/rad or N s/m, constant dry friction and friction offset in N \
              m or N, and the coupling of a gyroscopic rotor with the link that carries it, its \
              inertia times the gear ratio: {}.",
             drives.join(", ")

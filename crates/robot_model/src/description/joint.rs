@@ -52,9 +52,14 @@ fn elsewhere(word: &str) -> Option<&'static str> {
             between them",
         ),
         "spherical" | "ball" => Some("use three revolute joints, with massless links between them"),
-        "cylindrical" | "screw" | "universal" => {
-            Some("use revolute and prismatic joints, with massless links between them")
+        "cylindrical" => {
+            Some("use a revolute and a prismatic joint, with a massless link between them")
         }
+        "universal" => Some("use two revolute joints, with a massless link between them"),
+        "screw" => Some(
+            "use a revolute joint with a massless link, and a prismatic joint that mimics it, \
+            with its travel per radian as `ratio`",
+        ),
         _ => None,
     }
 }

@@ -154,10 +154,18 @@ fn report_cycles(
             [name, _] => format!("the link {name} is its own parent"),
             _ => format!("links form a cycle, each a child of the next: {}", names.join(", ")),
         };
+        let remedy = match others {
+            [] => format!(
+                "make another link or the base the parent of {}",
+                written(reader.text, first)
+            ),
+            _ => "make a link outside the cycle, such as the base, the parent of one of them"
+                .to_owned(),
+        };
         let mut diagnostic = Diagnostic::error(code::CYCLE, message)
             .at(&place(first), "this parent")
             .because("every link must lead back to the base; closed loops are not supported")
-            .help("make a link outside the cycle, such as the base, the parent of one of them");
+            .help(remedy);
         for link in others.iter().take(8) {
             diagnostic = diagnostic.and_at(&place(link), "and this one");
         }

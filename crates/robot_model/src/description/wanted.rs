@@ -38,7 +38,7 @@ pub(super) struct Wanted {
 pub fn check_bundle_name(name: &str) -> Result<(), String> {
     if !is_identifier(name) {
         return Err(
-            "names consist of letters, digits and `_`, and do not start with a digit".to_owned()
+            "names have at most 64 letters, digits and `_`, and begin with a letter".to_owned()
         );
     }
     let owner = reserved(name).or_else(|| Bundle::owner_of(name).map(str::to_owned));
@@ -55,11 +55,11 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
         let all = names.iter().find(|named| named.name == ALL_FUNCTIONS);
         if let Some(all) = all.filter(|_| names.len() > 1) {
             let message =
-                format!("`{ALL_FUNCTIONS}` selects all functions, and others are named too");
+                format!("`{ALL_FUNCTIONS}` stands alone, and other functions are named too");
             reader.report(
                 Diagnostic::error(code::DUPLICATE, message)
-                    .at(&all.span, "this includes the others")
-                    .help("leave the others out"),
+                    .at(&all.span, "selects every function except the Jacobians of single links")
+                    .help("leave the others out, or name each function instead"),
             );
         }
         wanted.functions = Some(names);

@@ -102,7 +102,7 @@ functions! {
         .with_result("M (n × n)");
     /// The entries in the lower triangle of M that can be nonzero for the robot's structure, from q.
     MassMatrixLower = Declaration::of_composites("mass_matrix_lower", POSITION)
-        .with_result("the entries of M's lower triangle that are not always 0, row by row");
+        .with_result("the entries of M's lower triangle for pairs of joints of which one carries the other, row by row");
     /// The bias torques C q̇ + g from q, q̇.
     Bias = Declaration::of_motions("bias", STATE)
         .with_result("bias torques C q̇ + g (n)");

@@ -373,7 +373,9 @@ fn types_of_joints_of_other_formats_are_known() {
         ("use three prismatic and three revolute joints", vec!["floating", "free"]),
         ("use two prismatic joints and a revolute one", vec!["planar"]),
         ("use three revolute joints", vec!["spherical", "ball"]),
-        ("use revolute and prismatic joints", vec!["cylindrical", "screw", "universal"]),
+        ("use a revolute and a prismatic joint", vec!["cylindrical"]),
+        ("use two revolute joints", vec!["universal"]),
+        ("use a revolute joint with a massless link, and a prismatic joint", vec!["screw"]),
         ("use one of `revolute`, `prismatic` and `fixed`", vec!["Revolute", "r", "sliding"]),
     ];
     for (help, words) in advice {

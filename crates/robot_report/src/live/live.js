@@ -67,7 +67,10 @@
   // Some browsers round `valueAsNumber`.
   const sliders = ["q", "qd", "qdd"].map((name) => find(`input[data-state=${name}]`));
   const payload = find("input[data-parameter]");
-  const told = (slider) => { slider.nextElementSibling.firstChild.data = Number(slider.value).toFixed(2).replace("-", "\u2212"); };
+  const told = (slider) => {
+    const places = Math.max(2, 2 - Math.floor(Math.log10(slider.max - slider.min)));
+    slider.nextElementSibling.firstChild.data = Number(slider.value).toFixed(places).replace("-", "\u2212");
+  };
 
   // Joint torques by cause.
   const causes = find("table.torques tbody tr").map((row) => [...row.querySelectorAll("[data-cause]")]);

@@ -184,7 +184,7 @@ pub const OPTIONS: &[OptionSpec] = &[
         help: "Functions to generate, separated by commas; `all` for every function of the \
             robot, `jacobian_NAME` and `jacobian_dot_qd_NAME` for one frame or moving \
             link [default: those of the robot file's [code], else the forms of inverse dynamics \
-            and the joint wrenches]",
+            and `link_wrenches`]",
         group: Group::Derive,
         kind: Kind::Functions,
         value_name: "NAME",

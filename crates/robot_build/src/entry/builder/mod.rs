@@ -1,5 +1,6 @@
 //! The builder for build scripts.
 
+mod earlier;
 mod output;
 #[cfg(feature = "languages")]
 mod package;
@@ -194,7 +195,8 @@ impl Builder {
 
     /// Sets the folder for the code; the default is `OUT_DIR`. Use it to commit generated code.
     ///
-    /// An existing file with the name of a module that was not generated is not replaced; it is an error.
+    /// An existing file with the name of a module that was not generated is not replaced; it is an error. Files of earlier
+    /// builds stay as they are, also if their robot has another name now; in `OUT_DIR` they no longer compile.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
         self.out_dir = Some(folder.into());
         self
@@ -274,6 +276,9 @@ impl Builder {
     fn run_folder(&self, folder: &Path, directives: &mut Directives) -> Result<(), Errors> {
         directives.rerun_if_changed(folder)?;
         let files = robot_files(&self.package()?, folder)?;
+        if files.is_empty() {
+            return Err(Errors::from(Error::NoRobotsInFolder { folder: folder.to_owned() }));
+        }
         self.run(&files.iter().map(PathBuf::as_path).collect::<Vec<_>>(), directives)
     }
 
@@ -292,7 +297,8 @@ impl Builder {
         })?;
         #[cfg(feature = "languages")]
         if self.language != Language::Rust {
-            return self.packages(paths, &package, &out_dir, directives);
+            let written = self.packages(paths, &package, &out_dir, directives)?;
+            return self.disable_earlier(&out_dir, written);
         }
         let (mut modules, mut errors) = (vec![], vec![]);
         for path in paths {
@@ -310,7 +316,16 @@ impl Builder {
         modules.iter().filter_map(Module::unportable).for_each(|text| directives.warning(&text));
         let inputs = paths.iter().flat_map(|path| robot_inputs(&package.join(path)));
         // In a folder that the user chose, only the requested files are written.
-        output::write(&modules, inputs, &out_dir, self.out_dir.is_none())
+        let written = output::write(&modules, inputs, &out_dir, self.out_dir.is_none())?;
+        self.disable_earlier(&out_dir, written)
+    }
+
+    /// Disables the files of earlier builds. A folder that the user chose can contain other files.
+    fn disable_earlier(&self, folder: &Path, written: Vec<PathBuf>) -> Result<(), Errors> {
+        match self.out_dir {
+            None => earlier::disable_earlier(folder, written),
+            Some(_) => Ok(()),
+        }
     }
 
     fn module(

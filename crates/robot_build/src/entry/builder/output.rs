@@ -83,13 +83,13 @@ pub(super) fn check_names<'n>(
 /// robot files and their pinned plans.
 ///
 /// With `stems`, a module whose name differs from that of its robot file is also written under the latter name, so
-/// that a build that includes `lift.rs` for `lift.toml` finds it.
+/// that a build that includes `lift.rs` for `lift.toml` finds it. Returns the paths of all files.
 pub(super) fn write(
     modules: &[Module],
     inputs: impl Iterator<Item = PathBuf>,
     folder: &Path,
     stems: bool,
-) -> Result<(), Errors> {
+) -> Result<Vec<PathBuf>, Errors> {
     let mut index = format!("// {}\n\n", unnamed_header());
     let mut outputs = vec![];
     for module in modules {
@@ -102,7 +102,7 @@ pub(super) fn write(
         outputs.push(output(folder, INDEX, &index));
     }
     Writer::new().inputs(inputs).write(&outputs)?;
-    Ok(())
+    Ok(outputs.into_iter().map(|output| output.path).collect())
 }
 
 fn output<'a>(folder: &Path, name: &str, code: &'a str) -> Output<'a> {

@@ -23,14 +23,14 @@ struct Package {
 }
 
 impl Builder {
-    /// Writes a folder for each robot, named as its module would be in Rust.
+    /// Writes a folder for each robot, named as its module would be in Rust. Returns the paths of all files.
     pub(super) fn packages(
         &self,
         paths: &[&Path],
         package: &Path,
         folder: &Path,
         directives: &mut Directives,
-    ) -> Result<(), Errors> {
+    ) -> Result<Vec<PathBuf>, Errors> {
         let (mut packages, mut errors) = (vec![], vec![]);
         for path in paths {
             match self.one_package(path, package, directives) {
@@ -46,7 +46,11 @@ impl Builder {
         for Package { name, files, .. } in &packages {
             Writer::new().inputs(inputs.iter().cloned()).write_folder(&folder.join(name), files)?;
         }
-        Ok(())
+        let paths = packages.iter().flat_map(|one| {
+            let folder = folder.join(&one.name);
+            one.files.iter().map(move |file| file.path_in(&folder))
+        });
+        Ok(paths.collect())
     }
 
     fn one_package(

@@ -267,7 +267,7 @@ fn a_folder_is_taken_in_the_order_of_names() {
     assert!(index.ends_with("include!(\"pendulum.rs\");\ninclude!(\"swing.rs\");\n"), "{index}");
     fs::create_dir(package.join("empty")).unwrap();
     let shown = builder(&package).compile_folder("empty").unwrap_err().to_string();
-    assert!(shown.contains("no robot file is given"), "{shown}");
+    assert!(shown.contains("the folder contains no robot file"), "{shown}");
     assert!(builder(&package).compile_folder("none").is_err());
 }
 
@@ -337,7 +337,7 @@ fn wrong_options_are_errors() {
     );
     assert!(message(&with(&[]), &["robots/a.toml"]).contains("the list of functions is empty"));
     let shown = message(&with(&["all", "bias"]), &["robots/a.toml"]);
-    assert!(shown.contains("`all` selects all functions; leave the others out"), "{shown}");
+    assert!(shown.contains("`all` stands alone: it selects every function"), "{shown}");
     let shown = message(&builder(&package).bundle("both", ["bia"]), &["robots/a.toml"]);
     assert!(shown.contains("no function `bia`. Did you mean `bias`? Available: "), "{shown}");
     let shown = message(&builder(&package).bundle("bias", ["bias"]), &["robots/a.toml"]);

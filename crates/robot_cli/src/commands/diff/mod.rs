@@ -30,7 +30,8 @@ const TERMS: usize = 20;
   robot-symbolic diff robots/planar_2r.toml robots/scara.toml --format json
 
 Links, joints, frames and parameters are matched by name, joint torques by the number of the coordinate, terms
-by their symbols. Robot names and comments are ignored. Terms are those of the joint torques without friction;
+by their symbols. Robot names, descriptions, comments and what does not concern the motion
+([code], budgets, LaTeX of symbols) are ignored. Terms are those of the joint torques without friction;
 torques are compared at the nominal parameters, with friction and without wrenches at the tips. If a part
 cannot be compared, the reason is shown. Text rounds numbers of more than 24 characters.
 

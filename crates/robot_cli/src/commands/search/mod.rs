@@ -87,9 +87,9 @@ impl Arguments {
         };
         let Some((found, times)) = watched("searching", terminal, find)? else {
             return Err(Failure::input(format!(
-                "{}: a joint axis depends on parameters, which the economical recursion does not \
-                 support",
-                robot.name
+                "{}: no plan is needed: a joint axis depends on parameters, so code is generated from \
+                 the paper's iterations; to search for a plan, give the axis in numbers",
+                shown(self.robot.path())
             )));
         };
         let snapping = snapping(&robot, self.robot.snap(), Some(&found.plan))?;

@@ -11,7 +11,6 @@ pub(super) const TAKEN: &[&str] = &[
     "i",
     "n",
     "stride",
-    "with_payload",
     "model_init",
     "nominal",
     // Classes in C++.

@@ -42,8 +42,24 @@ pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
+/// A missing parameter would be read as `undefined`, and a misspelled one would have no effect.
+pub(in crate::backend) const PARAMETERS: &str = "function _check_parameters(parameters, names) {
+    for (const name of names) {
+        if (typeof parameters[name] !== \"number\") {
+            throw new TypeError(`the parameter ${name} is not given`);
+        }
+    }
+    for (const name of Object.keys(parameters)) {
+        if (!names.includes(name)) {
+            throw new TypeError(`there is no parameter ${name}`);
+        }
+    }
+}
+
+";
+
 /// Entries that are missing would be read as `undefined`, and those that do not fit into an output would be lost.
-const LENGTHS: &str = "function _check_length(array, name, length) {
+pub(in crate::backend) const LENGTHS: &str = "function _check_length(array, name, length) {
     if (array.length !== length) {
         throw new RangeError(`${name} has ${array.length} entries, not ${length}`);
     }

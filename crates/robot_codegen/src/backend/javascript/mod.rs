@@ -1,7 +1,7 @@
 //! The printer of JavaScript: an ES module with TypeScript declarations.
 
 pub(in crate::backend) mod declarations;
-mod helpers;
+pub(in crate::backend) mod helpers;
 mod keywords;
 
 use robot_symbolic::Function as Call;
@@ -123,6 +123,9 @@ impl Printer<'_> {
     fn text(&self) -> String {
         let mut lines = self.header();
         let helpers = self.tree.helpers().and(Helpers::of(&self.tree.constructor));
+        if self.tree.has_parameters() {
+            lines.extend(helpers::PARAMETERS.lines().map(str::to_owned));
+        }
         lines.extend(helpers::helpers(&helpers, self.options));
         lines.extend(self.options.constants.iter().flat_map(constant));
         lines.push(String::new());
@@ -164,6 +167,7 @@ impl Printer<'_> {
             let arguments: Vec<&str> =
                 setter.arguments.iter().map(|argument| argument.name.as_str()).collect();
             lines.push(format!("export function {name}(parameters, {}) {{", arguments.join(", ")));
+            lines.extend(setter.arrays().map(|(name, length)| check_length(name, length)));
             lines.extend(["    return {", "        ...parameters,"].map(str::to_owned));
             for argument in &setter.arguments {
                 for (index, parameter) in argument.parameters.iter().enumerate() {
@@ -182,6 +186,12 @@ impl Printer<'_> {
         lines
     }
 
+    /// The names of the parameters as a list of strings.
+    pub(in crate::backend) fn parameter_names(&self) -> String {
+        let names = self.tree.parameters.iter().map(|name| format!("\"{name}\""));
+        names.collect::<Vec<_>>().join(", ")
+    }
+
     fn model(&self) -> Vec<String> {
         let (tree, constructor) = (self.tree, &self.tree.constructor);
         let counts = Counts::of(&tree.module.constructor);
@@ -195,6 +205,7 @@ impl Printer<'_> {
             "",
         ));
         lines.push("export function create_model(parameters) {".to_owned());
+        lines.push(format!("    _check_parameters(parameters, [{}]);", self.parameter_names()));
         lines.extend(self.statements(&[], constructor, &constructor.statements));
         lines.push("    return {".to_owned());
         for (field, value) in tree.fields.iter().zip(&constructor.results) {
@@ -278,9 +289,8 @@ impl Printer<'_> {
                 .map(|array| format!("{} = new Float64Array({})", array.name, array.length)),
         );
         lines.push(format!("export function {}({}) {{", function.name, arguments.join(", ")));
-        lines.extend(function.inputs.iter().chain(stored).map(|Array { name, length, .. }| {
-            format!("    _check_length({name}, \"{name}\", {length});")
-        }));
+        let arrays = function.inputs.iter().chain(stored);
+        lines.extend(arrays.map(|Array { name, length, .. }| check_length(name, *length)));
         lines.extend(self.statements(&function.inputs, &body, &body.statements));
         let mut results = body.results.iter();
         for (output, array) in outputs {
@@ -320,6 +330,11 @@ pub(in crate::backend) fn constant(item: &ConstantItem) -> Vec<String> {
         format!("// {}", comment_line(&item.doc)),
         format!("export const {} = {value};", item.printed_name()),
     ]
+}
+
+/// The line that refuses an array with another number of entries.
+fn check_length(name: &str, length: usize) -> String {
+    format!("    _check_length({name}, \"{name}\", {length});")
 }
 
 fn array(values: impl Iterator<Item = String>) -> String {

@@ -178,6 +178,12 @@ impl Printer<'_> {
             vec![format!("function parameters = {name}(parameters, {})", arguments.join(", "))];
         lines.extend(documentation(name, &doc));
         lines.push("%#codegen".to_owned());
+        lines.extend(setter.arrays().map(|(name, length)| {
+            let entries = format!("numel({name})");
+            format!(
+                "assert({entries} == {length}, '{name} has %d entries, not {length}', {entries});"
+            )
+        }));
         for argument in &setter.arguments {
             for (index, parameter) in argument.parameters.iter().enumerate() {
                 let mut known = self.tree.module.parameters.iter();

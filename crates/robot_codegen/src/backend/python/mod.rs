@@ -98,6 +98,11 @@ fn inside(text: &str) -> String {
     comment_line(text).replace('\\', "\\\\").replace("\"\"\"", "\\\"\\\"\\\"")
 }
 
+/// The line that refuses an array with another number of entries.
+fn check_length(name: &str, length: usize) -> String {
+    format!("    _check_length({name}, \"{name}\", {length})")
+}
+
 /// Prints a docstring.
 fn docstring(paragraphs: &[String], indent: &str) -> Vec<String> {
     let lines: Vec<String> = comment_lines(paragraphs).iter().map(|line| inside(line)).collect();
@@ -177,6 +182,7 @@ impl Printer<'_> {
                 doc.push(format!("- `{name}`: {}", common::quantity(meaning, name, unit, &[])));
             }
             lines.extend(docstring(&doc, "    "));
+            lines.extend(setter.arrays().map(|(name, length)| check_length(name, length)));
             let known = &self.tree.module.parameters;
             let mut set = vec![];
             for argument in &setter.arguments {
@@ -252,9 +258,8 @@ impl Printer<'_> {
         let outputs = function.outputs.iter().map(|array| array.name.as_str());
         common::add_results(&mut doc, Some("Returns, in this order:"), function.source, outputs);
         lines.extend(docstring(&doc, "    "));
-        lines.extend(function.inputs.iter().map(|Array { name, length, .. }| {
-            format!("    _check_length({name}, \"{name}\", {length})")
-        }));
+        let inputs = function.inputs.iter();
+        lines.extend(inputs.map(|Array { name, length, .. }| check_length(name, *length)));
         for statement in &body.statements {
             lines.extend(
                 self.statement(&function.inputs, statement).map(|line| format!("    {line}")),

@@ -2,7 +2,7 @@
 
 use super::Printer;
 use crate::backend::flat::Function;
-use crate::backend::javascript;
+use crate::backend::javascript::{self, helpers};
 
 /// Prints the ES module.
 pub(super) fn text(printer: &Printer<'_>) -> String {
@@ -13,12 +13,14 @@ pub(super) fn text(printer: &Printer<'_>) -> String {
     lines.push(String::new());
     if tree.has_parameters() {
         lines.extend(of_javascript.parameters());
+        lines.extend(helpers::PARAMETERS.lines().map(str::to_owned));
+        if !options.setters.is_empty() {
+            lines.extend(helpers::LENGTHS.lines().map(str::to_owned));
+        }
         lines.extend(of_javascript.setters());
     }
-    let parameters: Vec<String> =
-        tree.parameters.iter().map(|name| format!("\"{name}\"")).collect();
     lines.extend([
-        format!("const PARAMETERS = [{}];", parameters.join(", ")),
+        format!("const PARAMETERS = [{}];", of_javascript.parameter_names()),
         format!("const FIELDS = {};", tree.fields.len()),
         format!("const NUMBERS = {};", printer.array()),
         "// Of each function: its names, the lengths of its inputs, and of its outputs name, length and shape.".to_owned(),
@@ -89,15 +91,19 @@ function robot_of(exports) {
     const allocate = (count) => reserve(count * NUMBERS.BYTES_PER_ELEMENT);
     const robot = { exports, memory, allocate, numbers };
 
+    // Without a model, a call would read from the start of the memory.
+    const check_model = (name, model) => {
+        if (!Number.isInteger(model)) {
+            throw new TypeError(`${name}: the first argument is not a model; make one with create_model`);
+        }
+    };
+
     if (PARAMETERS.length > 0) {
         const given = reserve(PARAMETERS.length * 8);
         robot.update_model = (model, parameters) => {
-            const values = PARAMETERS.map((name) => {
-                if (typeof parameters[name] !== "number") {
-                    throw new TypeError(`the parameter ${name} is not given`);
-                }
-                return parameters[name];
-            });
+            check_model("update_model", model);
+            _check_parameters(parameters, PARAMETERS);
+            const values = PARAMETERS.map((name) => parameters[name]);
             new Float64Array(memory.buffer, given, PARAMETERS.length).set(values);
             exports.create_model(model, given);
         };
@@ -122,6 +128,7 @@ function robot_of(exports) {
         const total = all.reduce((sum, length) => sum + length, 0);
         return (...given) => {
             const first = PARAMETERS.length > 0 ? [given.shift()] : [];
+            first.forEach((model) => check_model(name, model));
             const n = is_batch ? given.shift() : 1;
             if (!Number.isInteger(n) || n < 0) {
                 throw new RangeError(`${name}: the number of states is ${n}`);

@@ -75,9 +75,9 @@ impl<'g> Plane<'g> {
         Matrix(turned)
     }
 
-    /// Transforms an arbitrary tensor from the turned to the unturned axes, R T Rᵀ, such that no entry is a difference
-    /// of larger entries that the rotation does not mix. A moment that vanishes with an angle therefore keeps its
-    /// digits, which it would lose in [`Plane::forward_symmetric`].
+    /// Transforms an arbitrary tensor from the turned to the unturned axes, R T Rᵀ, by columns and rows, without use of
+    /// its trace. A moment that vanishes with an angle therefore keeps its digits, which it would lose as the trace
+    /// minus another moment, as in [`Plane::forward_symmetric`].
     pub(crate) fn forward_entries(&self, tensor: Matrix<'g>) -> Matrix<'g> {
         let turned_columns = |Matrix(t): Matrix<'g>| {
             let columns = Matrix(t).transpose().0.map(|column| self.forward(Vector(column)).0);

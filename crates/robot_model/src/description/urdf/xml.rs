@@ -96,7 +96,7 @@ fn of_characters(text: &str, place: &Span, error: &Error) -> Option<(&'static st
         ),
         Error::UnknownToken(_) => (
             "here is text that XML does not allow",
-            "remove it; nothing but comments can follow the root element",
+            "remove it; neither text nor an element can follow the root element",
         ),
         _ => return None,
     })

@@ -181,9 +181,14 @@ fn torques(found: &Torques) -> String {
     shown
 }
 
-/// A position, velocity or acceleration with three decimals, or with a power of ten if it is large.
+/// A position, velocity or acceleration with at least three decimals and three digits, or with a power of ten if it is
+/// large or small.
 fn position(value: f64) -> String {
-    if value.abs() < 1e6 { format!("{value:.3}") } else { format!("{value:.3e}") }
+    let places = (2.0 - value.abs().log10().floor()).clamp(3.0, 9.0) as usize;
+    match value == 0.0 || (1e-6..1e6).contains(&value.abs()) {
+        true => format!("{value:.*}", if value == 0.0 { 3 } else { places }),
+        false => format!("{value:.3e}"),
+    }
 }
 
 /// The number of decimals with which torques are shown so that their difference is visible.
