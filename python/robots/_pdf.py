@@ -60,6 +60,16 @@ def _run(arguments: list[str], folder: Path, **variables: str) -> None:
         raise RobotError("\n".join([f"{arguments[0]} failed:", *said]))
 
 
+def _replace(made: Path, target: Path) -> None:
+    # A copy to another file system can end in the middle, for example on a full disk; a rename cannot.
+    beside = target.with_name(f".{target.name}.{os.getpid()}.part")
+    try:
+        shutil.copyfile(made, beside)
+        os.replace(beside, target)
+    finally:
+        beside.unlink(missing_ok=True)
+
+
 def typeset(write: Callable[[str, Path], None], target: Path, by: str | None) -> None:
     """Writes a PDF; `write` writes its source in a notation."""
     notation, run = typesetter(by)
@@ -68,4 +78,4 @@ def typeset(write: Callable[[str, Path], None], target: Path, by: str | None) ->
         write(notation, source)
         made = Path(folder) / "made.pdf"
         run(source, made)
-        shutil.move(made, target)
+        _replace(made, target)

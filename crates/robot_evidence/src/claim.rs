@@ -33,7 +33,7 @@ pub struct Evidence {
     pub takes_states: bool,
     /// The measurements.
     pub measurements: Measurements,
-    /// The called functions whose code is not examined, by name, with the number of calls.
+    /// The called functions that are not part of the claim, by name, with the number of calls.
     pub calls: Vec<(String, usize)>,
     /// The violations of the claim.
     pub violations: Vec<Violation>,

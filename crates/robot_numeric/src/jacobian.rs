@@ -133,7 +133,7 @@ impl Mechanism {
     }
 
     /// The joint torques that wrenches exerted by the frames (one for each frame) require at rest and without gravity:
-    /// the sum of Jᵀ w.
+    /// the sum of Jᵀ (F, M).
     ///
     /// # Errors
     ///

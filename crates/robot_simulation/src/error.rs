@@ -73,7 +73,11 @@ impl fmt::Display for Cause {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Cause::StepSize => {
-                write!(formatter, "the steps became too small. {SMALL}, or increase the tolerance")
+                write!(
+                    formatter,
+                    "the steps became too small for the time to simulate. {SMALL}; otherwise increase the \
+                     tolerance, or simulate a shorter time"
+                )
             }
             Cause::Accelerations => formatter.write_str(
                 "the accelerations are not a finite number for each coordinate: the mass matrix is singular (a \

@@ -83,7 +83,7 @@ impl Log {
     ///
     /// # Errors
     ///
-    /// CSV files and buckets, which the command `what` does not support.
+    /// CSV files and buckets, which `what`, a command or an option, does not support.
     pub(super) fn parquet(&self, what: &str) -> Result<&[PathBuf], Error> {
         if let Some(path) = self.remote() {
             let reason =

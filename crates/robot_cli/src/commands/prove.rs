@@ -32,7 +32,7 @@ false. In dev builds the runtime's sines and cosines loop over the angles, and a
 claim; arrays may be copied by memcpy. Functions of several states (batches, columns, blocks) loop over the
 states; nothing is claimed about them in dev builds.
 
-The counts of a function include all functions that it calls, each once. `frame` is the function's own stack, `stack`
+The counts of a function include all functions of the claim that it calls, each once. `frame` is the function's own stack, `stack`
 that of the deepest chain of calls, in bytes; the stack of sin and cos is not included.")]
 pub(crate) struct Arguments {
     #[command(flatten)]

@@ -70,7 +70,10 @@ fn what_is_given_twice_is_an_error() {
     let arm = robot("planar_2r");
     for (arguments, expected) in [
         (&["generate", &arm, "--function", "bias,bias"][..], "--function: `bias` is given twice"),
-        (&["stats", &arm, "--function", "all,bias"], "`all` selects all functions"),
+        (
+            &["stats", &arm, "--function", "all,bias"],
+            "`all` stands alone: it selects every function",
+        ),
         (&["generate", &arm, "--bundle", "d=bias,bias"], "--bundle d: `bias` is given twice"),
         (&["equations", &arm, "--quantity", "Q,Q"], "--quantity: `Q` is given twice"),
         (&["equations", &arm, "--quantity", "all,Q"], "`all` selects all quantities"),

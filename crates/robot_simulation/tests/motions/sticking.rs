@@ -157,8 +157,8 @@ fn a_block_slides_down_an_incline_that_is_steeper_than_its_friction() {
     }
 }
 
-/// A mass on a spring whose other end moves at v sticks while the spring is stretched, then slips and sticks again,
-/// with the period of the exact solution.
+/// A mass on a spring whose other end moves at v sticks while the spring is stretched, then slides and comes to rest
+/// for an instant in each period of the exact solution.
 #[test]
 fn a_block_on_a_belt_sticks_and_slips() {
     let text = slide([0.0; 2], "coulomb_positive = 2, coulomb_negative = 2, offset = 0");

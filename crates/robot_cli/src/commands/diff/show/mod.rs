@@ -181,12 +181,10 @@ fn torques(found: &Torques) -> String {
     shown
 }
 
-/// A position, velocity or acceleration with at least three decimals and three digits, or with a power of ten if it is
-/// large or small.
+/// A position, velocity or acceleration with three decimals, or with a power of ten if it is large or small.
 fn position(value: f64) -> String {
-    let places = (2.0 - value.abs().log10().floor()).clamp(3.0, 9.0) as usize;
-    match value == 0.0 || (1e-6..1e6).contains(&value.abs()) {
-        true => format!("{value:.*}", if value == 0.0 { 3 } else { places }),
+    match value == 0.0 || (0.01..1e6).contains(&value.abs()) {
+        true => format!("{value:.3}"),
         false => format!("{value:.3e}"),
     }
 }

@@ -7,6 +7,19 @@
  *   grow without bound.
  */
 
+function _check_parameters(parameters, names) {
+    for (const name of names) {
+        if (typeof parameters[name] !== "number") {
+            throw new TypeError(`the parameter ${name} is not given`);
+        }
+    }
+    for (const name of Object.keys(parameters)) {
+        if (!names.includes(name)) {
+            throw new TypeError(`there is no parameter ${name}`);
+        }
+    }
+}
+
 function _check_length(array, name, length) {
     if (array.length !== length) {
         throw new RangeError(`${name} has ${array.length} entries, not ${length}`);
@@ -107,6 +120,7 @@ export function nominal() {
  * 4 multiplications, 17 additions, 2 divisions, 1 square root, 3 other functions, 1 sine, 1 cosine.
  */
 export function create_model(parameters) {
+    _check_parameters(parameters, ["p", "r"]);
     const p = parameters.p;
     const r = parameters.r;
     const t1 = p * 0.3333333333333333;
