@@ -11,10 +11,9 @@ pub struct Setter {
     pub arguments: Vec<SetterArgument>,
 }
 
-#[cfg(any(feature = "javascript", feature = "matlab", feature = "python"))]
 impl Setter {
     /// The names and lengths of the arguments that are arrays.
-    pub(in crate::backend) fn arrays(&self) -> impl Iterator<Item = (&str, usize)> {
+    pub fn arrays(&self) -> impl Iterator<Item = (&str, usize)> {
         let arguments = self.arguments.iter();
         let lengths = arguments.map(|one| (one.name.as_str(), one.parameters.len()));
         lengths.filter(|(_, length)| *length != 1)
