@@ -1,7 +1,7 @@
 # %% [markdown]
 # # Notebook: two links, from the picture to energy
 #
-# A planar arm with two links is the smallest robot that shows all effects of robot dynamics: inertia that depends on
+# A planar arm with two links is the smallest robot that shows the main effects of robot dynamics: inertia that depends on
 # the configuration, torques from the velocities of other joints, and gravity. This notebook prints its equations, takes them
 # apart, and checks them on a motion.
 
@@ -16,7 +16,7 @@ arm
 
 # %% [markdown]
 # Every value of the file is a symbol, so the equations are those of a textbook. `form="grouped"` groups the terms by
-# acceleration, velocity and gravity. The equations also contain w, the contribution of the wrench at the tip; the
+# acceleration, velocity and gravity. The equations also contain w, here the joint torques that the wrench at the tip requires; the
 # wrench is 0 unless a call sets it.
 
 # %%
@@ -36,7 +36,7 @@ M = torques.jacobian([qdd1, qdd2]).applyfunc(sympy.factor_terms)
 M
 
 # %% [markdown]
-# The position of the first joint does not occur: turning the whole arm changes no distance between its masses. The
+# The position of the first joint does not occur: turning the whole arm changes neither the distances between its masses nor those from the first axis. The
 # matrix is symmetric, and it is positive definite for all masses that a body can have. Its eigenvalues at the values
 # of the file show how much harder it is to turn the stretched arm (q₂ = 0) than the folded one (q₂ = π).
 

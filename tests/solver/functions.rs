@@ -202,6 +202,26 @@ fn functions_of_robots_with_parameters_agree_with_the_numeric_solver() {
     report("parameters", &worst);
 }
 
+/// A parameter can act by its sign alone: its axis is normalized.
+#[test]
+fn functions_of_a_robot_with_a_negative_axis_agree_with_the_numeric_solver() {
+    let joint = |name: &str, axis: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ type = \"revolute\", axis = {axis} }}\n\
+             origin = {{ xyz = [0.1, 0.3, 0] }}\nmass = 2\ncenter_of_mass = [0.1, 0.3, 0.2]\n\
+             inertia = {{ xx = 0.1, yy = 0.1, zz = 0.1 }}\n"
+        )
+    };
+    let (one, two) = (joint("1", "[0, 0, \"s\"]"), joint("2", "[0, \"s\", \"2*s\"]"));
+    let text = format!(
+        "format = 1\n[robot]\nname = \"arm\"\n[parameters]\ns = {{ value = -1 }}\n{one}{two}[tip]\n\
+         name = \"tip\"\nparent = \"2\"\n"
+    );
+    let robot = robot_testing::read("arm.toml", &text);
+    let mut worst = vec![0.0; kinds().len()];
+    (0..3).for_each(|seed| check(&robot, seed, "negative axis", &mut worst));
+}
+
 /// Compares the derivatives by composite quantities, and by forward and reverse differentiation of the torques;
 /// [`FunctionKind::InverseDynamicsDerivatives`] is the one with the fewest operations.
 #[test]

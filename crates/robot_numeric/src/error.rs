@@ -59,7 +59,7 @@ pub enum NumericError {
     ///
     /// [`Mechanism::forward_dynamics`]: super::Mechanism::forward_dynamics
     #[error(
-        "coordinate {coordinate} drives several joints, which the articulated-body algorithm \
+        "coordinate {coordinate} moves several joints, which the articulated-body algorithm \
          does not support: call `forward_dynamics`, which uses the mass matrix"
     )]
     SharedCoordinate {

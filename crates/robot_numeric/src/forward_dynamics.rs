@@ -138,7 +138,7 @@ impl Mechanism {
     /// # Errors
     ///
     /// The errors of [`Mechanism::forward_dynamics`], and [`NumericError::SharedCoordinate`] if a coordinate
-    /// drives several joints.
+    /// moves several joints.
     pub fn articulated_body(
         &self,
         q: &[f64],

@@ -61,7 +61,7 @@ pub struct Placements {
 }
 
 impl Mechanism {
-    /// The placements of all link frames and frames of interest in the base frame at positions q (rad or m).
+    /// The poses of all link frames and named frames at joint positions q (rad or m).
     ///
     /// # Errors
     ///

@@ -3,8 +3,8 @@
 //! [`report`] is pure: from a robot file and the evidence about its code it makes the text of the page, with the same
 //! bytes for the same input. All content from the robot file stays text, because only [`robot_document::markup`] turns
 //! text into markup. The page's policy allows a browser to run and load only what the page itself contains: styles and
-//! scripts, by their hashes, the font of equations and a WebAssembly module. Only [`reloading`] also allows a picture
-//! beside the page.
+//! scripts, by their hashes, the font of equations and a WebAssembly module. Only [`reloading`] also allows pictures,
+//! of which it loads the one beside the page.
 
 mod costs;
 mod drawing;

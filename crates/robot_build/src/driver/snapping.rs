@@ -40,12 +40,13 @@ impl Tried {
     }
 }
 
-/// Computes the effect of snapping on a robot with the given tolerance, or else that of the file, and with larger ones.
+/// Computes the effect of snapping on a robot with the given tolerance, or else that of the file or the default, and with
+/// larger ones that snap more angles.
 /// All use the same plan, or the default plan if none is given.
 ///
 /// # Errors
 ///
-/// The tolerance is not an angle, or the plan does not match the robot.
+/// The tolerance is not an angle, the plan does not match the robot, or inverse dynamics is too large.
 pub fn snapping(robot: &Robot, snap: Option<f64>, plan: Option<&Plan>) -> Result<Snapping, Errors> {
     let tolerance = MechanismOptions::ROUNDED.with_snap(snap, robot).snap;
     let taken = tried(robot, tolerance, plan)?;

@@ -113,10 +113,7 @@ fn read_latex(entry: &Entry, symbols: &Symbols) -> Result<Vec<PrintedEquation>, 
         Some(rows) => (rows, &[".x", ".y", ".z"][..]),
     };
     if rows.len() != axes.len() {
-        let message = match rows.len() {
-            1 => "expected 3 rows in this vector, found one".to_owned(),
-            count => format!("expected 3 rows in this vector, found {count}"),
-        };
+        let message = format!("expected 3 rows in this vector, found {}", rows.len());
         let error = Diagnostic::error(code::WRONG_COUNT, message).at(&left.span, "");
         return Err(error.help("write three components, with a line break between them").into());
     }

@@ -128,7 +128,7 @@ pub(crate) fn input<'a>(
 fn show(path: &Path) -> Result<(), Failure> {
     open::that_detached(path).map_err(|_| {
         let file = shown(path);
-        let wanted = "the page is written, but the system has no program that shows it";
+        let wanted = "the page is written, but could not be shown";
         Failure::input(format!("{wanted}; open {file} in a browser"))
     })
 }

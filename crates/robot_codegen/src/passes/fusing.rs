@@ -42,7 +42,8 @@ pub(crate) fn run(program: &Program) -> Program {
     super::dead_code::run(&builder.finish(results.collect()))
 }
 
-/// For each value, whether it is a product that is used only once, as an operand of a sum.
+/// For each value, whether it becomes part of a multiply-add: a product that is used only once, as an operand of a sum
+/// or difference; of two such operands, only the one that is known later.
 ///
 /// A product that several sums use would have to be multiplied in each of them.
 fn fusible(program: &Program) -> Vec<bool> {

@@ -147,7 +147,7 @@ fn united_friction<'g>(
 /// The definitions of the base parameters and of the standard parameters in them, and the symbols of the base
 /// parameters by their columns.
 ///
-/// Of each pair of `equal` frictions only the first has a symbol, which stands for both.
+/// Of each pair of `equal` friction parameters, only the first has a symbol, which stands for both.
 fn definitions<'g>(
     writer: &mut Writer<'_, 'g>,
     found: &BaseParameters<'g>,

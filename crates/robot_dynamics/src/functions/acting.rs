@@ -16,8 +16,9 @@ use super::{Derivation, Function};
 const STATES: u64 = 3;
 /// A slope below this fraction of the sum of its terms' magnitudes may be 0.
 const NOTICED: f64 = 1e-8;
-/// The factor by which a parameter is multiplied to test whether it has an effect.
-const CHANGE: f64 = 1e3;
+/// The factors by which a parameter is multiplied to test whether it has an effect. A parameter can act by its sign
+/// alone, as s does in s/√(s²), the component of a joint axis.
+const CHANGES: [f64; 3] = [1e3, -1.0, -1e3];
 /// If no value changes by more than this fraction of itself, the parameter has no effect: its contribution to the value
 /// is below the rounding error of the value.
 const UNCHANGED: f64 = 1e-10;
@@ -94,7 +95,8 @@ fn is_idle(
                 if symbol == parameter { value * factor } else { value }
             })
         };
-        same(&at(1.0), &at(CHANGE))
+        let before = at(1.0);
+        CHANGES.into_iter().all(|factor| same(&before, &at(factor)))
     })
 }
 
@@ -271,6 +273,26 @@ mod tests {
             let root = graph.parse(text).unwrap();
             let slope = slopes(&[root], 0)[&graph.symbol("k").as_symbol().unwrap()];
             assert!(slope.sum.abs() > NOTICED * slope.size, "{text}: {} {}", slope.sum, slope.size);
+        }
+    }
+
+    /// A parameter that acts by its sign alone is not idle, though its slope is 0; one that does not act at all is.
+    #[test]
+    fn a_sign_is_not_idle() {
+        let graph = Graph::new();
+        let is_idle = |text: &str| {
+            let evaluator = Evaluator::new(&[graph.parse(text).unwrap()]);
+            let name = |symbol| graph.symbol_name(symbol);
+            let parameter = graph.symbol("s").as_symbol().unwrap();
+            is_idle(&evaluator, parameter, |symbol, state| value(&name(symbol), state))
+        };
+        for text in
+            ["s/sqrt(s^2)", "x*sqrt(s^2)/s", "x + sqrt(s^2) - s", "sqrt(s^2 + 2*s + 1)/(s + 1)"]
+        {
+            assert!(!is_idle(text), "{text}");
+        }
+        for text in ["x + s - s", "(s*x)^2/sqrt(s^2)^2", "x*s/s"] {
+            assert!(is_idle(text), "{text}");
         }
     }
 

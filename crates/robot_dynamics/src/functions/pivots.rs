@@ -53,12 +53,12 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     }
 }
 
-/// Whether a pivot of M is small in some configuration, at the nominal parameters; parameters without a value are set
-/// to 1.
+/// Whether a configuration is found in which a pivot of M is small, at the nominal parameters; parameters without a value
+/// are set to 1.
 ///
 /// A pivot is at least the inertia of the joint's own link and drive. If this bound does not suffice, mass matrices are
-/// evaluated: in configurations with joints at right angles, in which the axes of most wrists are aligned, in random
-/// configurations, and by descents from the worst of them.
+/// evaluated: in configurations in which one or two joint positions are multiples of π/2, where the axes of most wrists are
+/// aligned, and the others are 0 or random, and in descents from the worst of these.
 pub(super) fn may_be_small(robot: &Robot) -> bool {
     let matrix = SampledMassMatrix::new(robot);
     let small = small(matrix.order());
@@ -93,7 +93,7 @@ impl<'m> Search<'m> {
             || worst.into_iter().any(|(part, q)| self.descend(part, q) < self.small)
     }
 
-    /// Evaluates configurations with one or two joints at right angles and the others at random, using half of the
+    /// Evaluates configurations with one or two joint positions at multiples of π/2 and the others at random, using half of the
     /// budget.
     fn look_around(&mut self) {
         let n = self.matrix.order();

@@ -459,8 +459,8 @@ impl Shape {
         self.keys.iter().find(|key| key.name == name)
     }
 
-    /// What the tables of a robot file are called that have a key of this name, in the order of the file.
-    pub(super) fn owners(name: &str) -> Vec<&'static str> {
+    /// What the other tables of a robot file are called that have a key of this name, in the order of the file.
+    pub(super) fn owners(&self, name: &str) -> Vec<&'static str> {
         let mut shapes: Vec<&Shape> = vec![&ROBOT_FILE];
         let mut next = 0;
         while let Some(shape) = shapes.get(next).copied() {
@@ -471,6 +471,12 @@ impl Shape {
             shapes.extend(new);
             next += 1;
         }
-        shapes.into_iter().filter(|one| one.key(name).is_some()).map(|one| one.what).collect()
+        let mut owners: Vec<&str> = vec![];
+        for one in shapes.into_iter().filter(|one| one.key(name).is_some()) {
+            if one.what != self.what && !owners.contains(&one.what) {
+                owners.push(one.what);
+            }
+        }
+        owners
     }
 }

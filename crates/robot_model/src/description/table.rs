@@ -120,7 +120,7 @@ impl<'a> Table<'a> {
                 [only] => format!("the only key of {what} is `{only}`"),
                 known => format!("the keys of {what} are {}", list(known)),
             };
-            let help = match Shape::owners(name).as_slice() {
+            let help = match self.shape.owners(name).as_slice() {
                 owners @ [_, ..] if near.is_none() => {
                     format!("`{name}` is a key of {}; {help}", owners.join(" and "))
                 }

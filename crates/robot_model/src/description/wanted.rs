@@ -54,8 +54,9 @@ pub(super) fn read(reader: &mut Reader<'_>, root: &mut Table<'_>) -> Wanted {
         let names = names(reader, entry.value, &[ALL_FUNCTIONS]);
         let all = names.iter().find(|named| named.name == ALL_FUNCTIONS);
         if let Some(all) = all.filter(|_| names.len() > 1) {
-            let message =
-                format!("`{ALL_FUNCTIONS}` stands alone, and other functions are named too");
+            let message = format!(
+                "`{ALL_FUNCTIONS}` must be the only entry, but other functions are named too"
+            );
             reader.report(
                 Diagnostic::error(code::DUPLICATE, message)
                     .at(&all.span, "selects every function except the Jacobians of single links")

@@ -1,6 +1,6 @@
 //! Plots of values over time as SVG and PNG.
 //!
-//! The letters of a PNG are those of the DejaVu fonts, which are part of the program, so no system fonts are needed. An
+//! The letters of a PNG are those of DejaVu Sans, which is part of the program, so no system fonts are needed. An
 //! SVG uses the sans-serif font of the program that shows it. Equal figures give the same bytes everywhere.
 
 mod axis;

@@ -45,11 +45,11 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 ///
 /// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. If the
 /// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` also has the same module in
-/// `lift.rs`, unless another robot or robot file has this name. If there are several robots, the file `robots.rs`
+/// `lift.rs`, unless another robot or robot file has this name, or it is `robots`. If there are several robots, the file `robots.rs`
 /// includes them all. Paths are relative to the package.
 ///
 /// Cargo runs the build script again if a robot file or its pinned plan changes. It then no longer watches the other
-/// files of the package, as it would if the build script did not print such lines. `robot-symbolic search` updates the
+/// files of the package, as it would if the build script named no files to watch. `robot-symbolic search` updates the
 /// modification time of the robot file, so that Cargo notices a first plan; if a plan is added in another way, such as
 /// by a checkout, touch the robot file. [`Builder::compile_folder`] notices new plans by itself.
 #[derive(Clone, Debug, Default)]

@@ -209,7 +209,7 @@ impl<'t> Translator<'t, '_> {
             _ => {
                 self.refuse_prose()?;
                 self.refuse_bare_function()?;
-                self.refuse_font_switch()?;
+                self.refuse_font()?;
                 match self.upright_function() {
                     Some(name) => self.function(name, here),
                     None => self.symbol(),

@@ -62,23 +62,50 @@ impl Translator<'_, '_> {
         Err(error.help(format!(r"write `\{word}`")))
     }
 
-    /// Refuses a word behind `\rm`, which would be a product of letters.
-    pub(super) fn refuse_font_switch(&self) -> Result<(), ParseError> {
-        let rest = self.tokens.get(self.place..).unwrap_or_default();
-        let Some((switch, letters)) = rest.split_first().filter(|(first, _)| first.text == r"\rm")
-        else {
+    /// Refuses `\rm` except before one letter, because a word behind it would be a product of letters, and other fonts
+    /// around numbers and signs, which would be symbols.
+    pub(super) fn refuse_font(&mut self) -> Result<(), ParseError> {
+        let (start, font) = (self.place, self.peek());
+        if !is_font(font) {
             return Ok(());
-        };
+        }
+        if font == r"\rm" {
+            return self.refuse_switch();
+        }
+        let content = self.capture();
+        let end = self.before();
+        let here = self.tokens.get(start).map_or(end, |token| token.span.start);
+        self.place = start;
+        if content.map_or(true, |text| text.chars().any(char::is_alphabetic)) {
+            return Ok(());
+        }
+        let message = format!("`{font}` is not read around a number or a sign");
+        Err(ParseError::new(here..end, message).help("leave the font out"))
+    }
+
+    fn refuse_switch(&self) -> Result<(), ParseError> {
+        let rest = self.tokens.get(self.place..).unwrap_or_default();
+        let Some((switch, behind)) = rest.split_first() else { return Ok(()) };
+        let is_part = |text: &str| text.chars().all(char::is_alphanumeric);
+        let word: Vec<_> = behind.iter().take_while(|token| is_part(token.text)).collect();
         let is_letter = |text: &str| text.chars().all(char::is_alphabetic);
-        let word: Vec<_> = letters.iter().take_while(|token| is_letter(token.text)).collect();
-        let [_, .., last] = word.as_slice() else { return Ok(()) };
-        let end = last.span.end;
+        let end = match (word.as_slice(), behind) {
+            ([one], _) if is_letter(one.text) => return Ok(()),
+            ([], [greek, ..]) if super::lexer::is_letter(greek.text) => return Ok(()),
+            ([.., last], _) => last.span.end,
+            ([], _) => switch.span.end,
+        };
         let word: String = word.iter().map(|token| token.text).collect();
-        let message = format!(r"`\rm {word}` is read as a product of letters");
+        let message = r"`\rm` is read only before one letter";
         let error = ParseError::new(switch.span.start..end, message);
         Err(error.help(match operator(&word) {
             Some(_) => format!(r"write `\operatorname{{{word}}}`"),
-            None => format!(r"write `\mathrm{{{word}}}` if it is one symbol"),
+            None if word.starts_with(char::is_alphabetic) => {
+                format!(
+                    r"write `\mathrm{{{word}}}` for one symbol, or leave `\rm` out for a product"
+                )
+            }
+            None => "leave it out".to_owned(),
         }))
     }
 

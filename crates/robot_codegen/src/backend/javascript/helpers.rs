@@ -46,7 +46,8 @@ pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
 pub(in crate::backend) const PARAMETERS: &str = "function _check_parameters(parameters, names) {
     for (const name of names) {
         if (typeof parameters[name] !== \"number\") {
-            throw new TypeError(`the parameter ${name} is not given`);
+            const what = parameters[name] === undefined ? \"given\" : \"a number\";
+            throw new TypeError(`the parameter ${name} is not ${what}`);
         }
     }
     for (const name of Object.keys(parameters)) {

@@ -152,7 +152,12 @@ function robot_of(exports) {
                     return values[0];
                 }
                 const result = given[inputs.length + i] ?? new NUMBERS(n * length);
-                result.set(values);
+                if (result.length !== n * length) {
+                    throw new RangeError(`${name}: ${outputs[i][0]} has ${result.length} entries, not ${n * length}`);
+                }
+                values.forEach((value, j) => {
+                    result[j] = value;
+                });
                 return result;
             });
             return found.length === 1 ? found[0] : Object.fromEntries(found.map((one, i) => [outputs[i][0], one]));
