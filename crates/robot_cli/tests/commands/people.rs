@@ -195,11 +195,7 @@ fn pages_are_opened_with_the_program_of_the_system() {
     assert!(done.output.trim().ends_with("planar_2r.html"), "{}", done.output);
     let none = shell.run(&format!("PATH=$(dirname $(command -v robot-symbolic)) {command}"));
     assert_eq!(none.code, Some(1), "{}", none.errors);
-    assert!(
-        none.errors.contains("could not be shown; open planar_2r.html"),
-        "{}",
-        none.errors
-    );
+    assert!(none.errors.contains("could not be shown; open planar_2r.html"), "{}", none.errors);
 }
 
 #[test]

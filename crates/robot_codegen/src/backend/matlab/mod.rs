@@ -269,8 +269,13 @@ impl Printer<'_> {
         ]);
         lines.extend(documentation(name, &doc));
         lines.push("%#codegen".to_owned());
-        lines.extend(function.inputs.iter().map(|Array { name, length, .. }| {
-            format!("assert(size({name}, 1) == {length}, '{name} has %d rows, not {length}', size({name}, 1));")
+        lines.extend(function.inputs.iter().flat_map(|Array { name, length, .. }| {
+            let rows = format!("size({name}, 1)");
+            [
+                format!("assert({rows} == {length}, '{name} has %d rows, not {length}', {rows});"),
+                // Sines of other types, such as single, would be wrong.
+                format!("{name} = double({name});"),
+            ]
         }));
         lines.push(match function.inputs.first() {
             Some(array) => format!("n = size({}, 2);", array.name),

@@ -40,6 +40,16 @@ def _check_length(array, name, length):
         raise ValueError(f"{name} has {len(array)} entries, not {length}")
 
 
+def _float(value):
+    # Other types, such as float32 and int16, would round or overflow within the sums.
+    return value.astype(float, copy=False) if _is_array(value) else float(value)
+
+
+def _floats(array, name, length):
+    _check_length(array, name, length)
+    return _float(array) if _is_array(array) else [_float(value) for value in array]
+
+
 def _shaped(values, shape, inputs):
     if any(_is_array(value) for value in (*inputs, *values)):
         values = _numpy.stack(_numpy.broadcast_arrays(*values))

@@ -229,7 +229,7 @@ impl Printer<'_> {
     fn statement(&self, inputs: &[Array], statement: &Statement) -> Option<String> {
         match statement {
             Statement::Parameter { name, parameter } => {
-                Some(format!("{name} = parameters.{}", self.tree.parameters[*parameter]))
+                Some(format!("{name} = _float(parameters.{})", self.tree.parameters[*parameter]))
             }
             Statement::Entry { name, input, entry } => {
                 Some(format!("{name} = {}[{entry}]", inputs[*input].name))
@@ -259,7 +259,9 @@ impl Printer<'_> {
         common::add_results(&mut doc, Some("Returns, in this order:"), function.source, outputs);
         lines.extend(docstring(&doc, "    "));
         let inputs = function.inputs.iter();
-        lines.extend(inputs.map(|Array { name, length, .. }| check_length(name, *length)));
+        lines.extend(inputs.map(|Array { name, length, .. }| {
+            format!("    {name} = _floats({name}, \"{name}\", {length})")
+        }));
         for statement in &body.statements {
             lines.extend(
                 self.statement(&function.inputs, statement).map(|line| format!("    {line}")),

@@ -79,12 +79,12 @@ function robot_of(exports) {
     const { memory } = exports;
     let free = exports.heap_base.value;
     const reserve = (bytes) => {
-        const address = free;
-        free += Math.ceil(bytes / 16) * 16;
-        const missing = free - memory.buffer.byteLength;
+        const [address, next] = [free, free + Math.ceil(bytes / 16) * 16];
+        const missing = next - memory.buffer.byteLength;
         if (missing > 0) {
             memory.grow(Math.ceil(missing / 65536));
         }
+        free = next;
         return address;
     };
     const numbers = (address, count) => new NUMBERS(memory.buffer, address, count);
@@ -118,8 +118,9 @@ function robot_of(exports) {
     let [space, size] = [free, 0];
     const workspace = (count) => {
         if (count > size) {
-            size = Math.max(count, 2 * size);
-            space = allocate(size);
+            const larger = Math.max(count, 2 * size);
+            space = allocate(larger);
+            size = larger;
         }
         return space;
     };
@@ -133,18 +134,18 @@ function robot_of(exports) {
             if (!Number.isInteger(n) || n < 0) {
                 throw new RangeError(`${name}: the number of states is ${n}`);
             }
+            inputs.forEach((length, i) => {
+                if (given[i]?.length !== n * length) {
+                    throw new RangeError(`${name}: input ${i + 1} has ${given[i]?.length} entries, not ${n * length}`);
+                }
+            });
             let next = workspace(n * total);
             const places = all.map((length) => {
                 const place = next;
                 next += n * length * NUMBERS.BYTES_PER_ELEMENT;
                 return place;
             });
-            inputs.forEach((length, i) => {
-                if (given[i]?.length !== n * length) {
-                    throw new RangeError(`${name}: input ${i + 1} has ${given[i]?.length} entries, not ${n * length}`);
-                }
-                numbers(places[i], n * length).set(given[i]);
-            });
+            inputs.forEach((length, i) => numbers(places[i], n * length).set(given[i]));
             exports[name](...first, ...(is_batch ? [n, n] : []), ...places);
             const found = outputs.map(([, length, shape], i) => {
                 const values = numbers(places[inputs.length + i], n * length);

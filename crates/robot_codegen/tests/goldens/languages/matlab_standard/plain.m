@@ -11,6 +11,7 @@ function values = plain(model, q)
 %   pages.
 %#codegen
 assert(size(q, 1) == 2, 'q has %d rows, not 2', size(q, 1));
+q = double(q);
 n = size(q, 2);
 x = q(1, :);
 y = q(2, :);

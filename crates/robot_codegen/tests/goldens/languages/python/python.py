@@ -28,6 +28,16 @@ def _check_length(array, name, length):
         raise ValueError(f"{name} has {len(array)} entries, not {length}")
 
 
+def _float(value):
+    # Other types, such as float32 and int16, would round or overflow within the sums.
+    return value.astype(float, copy=False) if _is_array(value) else float(value)
+
+
+def _floats(array, name, length):
+    _check_length(array, name, length)
+    return _float(array) if _is_array(array) else [_float(value) for value in array]
+
+
 def _shaped(values, shape, inputs):
     if any(_is_array(value) for value in (*inputs, *values)):
         values = _numpy.stack(_numpy.broadcast_arrays(*values))
@@ -160,8 +170,8 @@ class Model:
 
     def __init__(self, parameters=None):
         parameters = Parameters() if parameters is None else parameters
-        p = parameters.p
-        r = parameters.r
+        p = _float(parameters.p)
+        r = _float(parameters.r)
         t1 = p * 0.3333333333333333
         t2 = r * 0.3333333333333333
         t3 = p + r
@@ -205,7 +215,7 @@ def plain(model, q):
 
     7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
     """
-    _check_length(q, "q", 2)
+    q = _floats(q, "q", 2)
     x = q[0]
     y = q[1]
     sx, cx = _sin_cos(x)
@@ -244,7 +254,7 @@ def turned(model, q):
 
     6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
     """
-    _check_length(q, "q", 2)
+    q = _floats(q, "q", 2)
     x = q[0]
     y = q[1]
     s1, c1 = _sin_cos(x + y)
