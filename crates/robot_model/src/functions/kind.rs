@@ -158,7 +158,7 @@ functions! {
     };
     /// The regressor Y in Q = Y π from q, q̇, q̈; π are the standard parameters, those of the links and drives.
     Regressor = Declaration::new("regressor", MOTION)
-        .with_result("Y (n × parameters of links and drives)");
+        .with_result("Y (n × standard parameters)");
     /// The regressor Y in Q = Y β from q, q̇, q̈; β are the base parameters, the smallest possible set.
     RegressorBase = Declaration { base: true, ..Declaration::new("regressor_base", MOTION) }
         .with_result("Y (n × base parameters)");
