@@ -68,7 +68,7 @@
   const sliders = ["q", "qd", "qdd"].map((name) => find(`input[data-state=${name}]`));
   const payload = find("input[data-parameter]");
   const told = (slider) => {
-    const places = Math.max(2, 2 - Math.floor(Math.log10(slider.max - slider.min)));
+    const places = Math.max(2, 1 - Math.floor(Math.log10(slider.max - slider.min)));
     slider.nextElementSibling.firstChild.data = Number(slider.value).toFixed(places).replace("-", "\u2212");
   };
 
