@@ -8,8 +8,8 @@ use robot_runtime::trig::double::LIMIT;
 use robot_symbolic::Formula;
 
 /// Returns the reason why functions have no values at these positions (rad or m): the first joint whose angle is so
-/// large that the runtime's polynomials give NaN, or the magnitudes of all angles together, which bound the sums that a plan
-/// uses. `None` if neither is too large.
+/// large that the runtime's polynomials give NaN, or the magnitudes of all angles together, which bound the sums that a
+/// plan uses. `None` if neither is too large.
 #[must_use]
 pub fn too_large_angle(robot: &Robot, q: &[f64], trigonometry: Trigonometry) -> Option<String> {
     if trigonometry == Trigonometry::Standard {

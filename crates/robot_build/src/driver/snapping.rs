@@ -40,8 +40,8 @@ impl Tried {
     }
 }
 
-/// Computes the effect of snapping on a robot with the given tolerance, or else that of the file or the default, and with
-/// larger ones that snap more angles.
+/// Computes the effect of snapping on a robot with the given tolerance, or else that of the file or the default, and
+/// with larger ones that snap more angles.
 /// All use the same plan, or the default plan if none is given.
 ///
 /// # Errors

@@ -132,7 +132,8 @@ pub(super) struct Leftover<'g> {
 /// Removes the terms on which a printed and a derived equation agree.
 ///
 /// Like terms may be printed separately: if their sum is the derived term, all of them are right. If neither the sum nor
-/// one of them is, their sum is the wrong term if there is a derived one with the same factors; otherwise each is wrong.
+/// one of them is, their sum is the wrong term if there is a derived one with the same factors; otherwise each is
+/// wrong.
 pub(super) fn leftover<'g>(printed: &[Term<'g>], derived: &[Term<'g>]) -> Leftover<'g> {
     let mut sums: HashMap<Key, Sum> = HashMap::default();
     for term in printed {

@@ -172,8 +172,8 @@ impl<'i> Callable<'i> {
         Errors::check(errors, ())
     }
 
-    /// Computes the function at several states. `inputs` has the entries of each named input at each state; the result has, for each
-    /// state, the entries of all outputs.
+    /// Computes the function at several states. `inputs` has the entries of each named input at each state; the result
+    /// has, for each state, the entries of all outputs.
     ///
     /// # Errors
     ///

@@ -1,8 +1,8 @@
 //! The text form of a program.
 //!
 //! Each value has a line, in order: `v4 = v0 * v3`. A load is printed as its source with an index from 0, a constant as
-//! its digits. A parameter, and a value that is computed from parameters and constants alone, is followed by its stage. The
-//! last line has the results.
+//! its digits. A parameter, and a value that is computed from parameters and constants alone, is followed by its stage.
+//! The last line has the results.
 
 use std::fmt::{Display, Formatter, Result};
 

@@ -209,8 +209,8 @@ impl SymbolTable {
     }
 
     /// Returns the first candidate that is not reserved, is not the letter of sines or cosines, and that no symbol uses
-    /// with a number as its first index, neither in text nor in print; the last one that is not reserved if all are used. An index such as x in M_x
-    /// cannot be mistaken for that of M_12.
+    /// with a number as its first index, neither in text nor in print; the last one that is not reserved if all are
+    /// used. An index such as x in M_x cannot be mistaken for that of M_12.
     #[must_use]
     pub fn free_letter(&self, candidates: &[&'static str]) -> &'static str {
         let free = candidates.iter().find(|letter| !self.is_taken(letter));

@@ -1,9 +1,9 @@
 //! The functions that are generated as code: named arrays of expressions over named input arrays.
 //!
 //! All functions of a robot are derived in one graph ([`Derivation`]), so that expressions that depend only on
-//! parameters are shared among them. Joint torques are derived by the economical recursion, or by the paper's iterations
-//! if a joint axis depends on parameters; quantities that depend on the forces between links are always derived by the
-//! paper's iterations.
+//! parameters are shared among them. Joint torques are derived by the economical recursion, or by the paper's
+//! iterations if a joint axis depends on parameters; quantities that depend on the forces between links are always
+//! derived by the paper's iterations.
 
 mod acting;
 mod alternatives;

@@ -16,8 +16,8 @@ use super::{Derivation, Function, Output, forward_dynamics, mass_matrix};
 /// Pivots below this fraction of the diagonal of M are small: two of sixteen digits are lost. The pivots of industrial
 /// arms with up to eight joints are above 0.02 in all configurations.
 const SMALL: f64 = 1e-2;
-/// The corresponding limit for robots with at least [`MANY`] coordinates. The inner joints of long chains and of humanoids have
-/// pivots down to 10⁻⁴ because the links that they carry are long; such robots are mostly solved by the
+/// The corresponding limit for robots with at least [`MANY`] coordinates. The inner joints of long chains and of
+/// humanoids have pivots down to 10⁻⁴ because the links that they carry are long; such robots are mostly solved by the
 /// articulated-body algorithm anyway.
 const SMALL_OF_MANY: f64 = 1e-5;
 /// The number of coordinates from which [`SMALL_OF_MANY`] applies.
@@ -53,12 +53,12 @@ pub(super) fn pivots<'g>(derivation: &Derivation<'_, 'g>) -> Function<'g> {
     }
 }
 
-/// Whether a configuration is found in which a pivot of M is small, at the nominal parameters; parameters without a value
-/// are set to 1.
+/// Whether a configuration is found in which a pivot of M is small, at the nominal parameters; parameters without a
+/// value are set to 1.
 ///
 /// A pivot is at least the inertia of the joint's own link and drive. If this bound does not suffice, mass matrices are
-/// evaluated: in configurations in which one or two joint positions are multiples of π/2, where the axes of most wrists are
-/// aligned, and the others are 0 or random, and in descents from the worst of these.
+/// evaluated: in configurations in which one or two joint positions are multiples of π/2, where the axes of most wrists
+/// are aligned, and the others are 0 or random, and in descents from the worst of these.
 pub(super) fn may_be_small(robot: &Robot) -> bool {
     let matrix = SampledMassMatrix::new(robot);
     let small = small(matrix.order());
@@ -93,8 +93,8 @@ impl<'m> Search<'m> {
             || worst.into_iter().any(|(part, q)| self.descend(part, q) < self.small)
     }
 
-    /// Evaluates configurations with one or two joint positions at multiples of π/2 and the others at random, using half of the
-    /// budget.
+    /// Evaluates configurations with one or two joint positions at multiples of π/2 and the others at random, using
+    /// half of the budget.
     fn look_around(&mut self) {
         let n = self.matrix.order();
         let mut random = Random::new(SEED);

@@ -9,7 +9,7 @@ use crate::diagnostic::{Diagnostic, Span, code, quote};
 use crate::variable::{JointVariable, WRENCH};
 
 /// The maximum length of a name.
-const MAX_NAME: usize = 64;
+pub(super) const MAX_NAME: usize = 64;
 
 /// Names that are reserved because equations and states use them, and the names of functions in formulas.
 const OWN: &[&str] = &[

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use toml::de::DeValue;
 
 use super::input_limits::MAX_BUNDLES;
-use super::names::{Kind, Registry, is_identifier, reserved};
+use super::names::{Kind, MAX_NAME, Registry, is_identifier, reserved};
 use super::reader::{Named, Reader};
 use super::shape::CODE;
 use super::table::{Entry, Table, Value};
@@ -37,9 +37,9 @@ pub(super) struct Wanted {
 /// The reason why it may not, as the end of a sentence.
 pub fn check_bundle_name(name: &str) -> Result<(), String> {
     if !is_identifier(name) {
-        return Err(
-            "names have at most 64 letters, digits and `_`, and begin with a letter".to_owned()
-        );
+        return Err(format!(
+            "names have at most {MAX_NAME} letters, digits and `_`, and begin with a letter"
+        ));
     }
     let owner = reserved(name).or_else(|| Bundle::owner_of(name).map(str::to_owned));
     owner.map_or(Ok(()), |owner| Err(format!("it is reserved: {owner}")))

@@ -44,8 +44,8 @@ enum Op {
 /// `sin cos tan sqrt abs sign tanh`.
 ///
 /// A formula belongs to no [`Graph`], so it can be kept, copied and sent; [`Formula::lower`] makes an expression from
-/// it. Exponents are integers of magnitude at most [`MAX_EXPONENT`]; `-x^2` is `-(x^2)`, and `x^2^3` is `x^(2^3)`. Numbers are
-/// exact decimals.
+/// it. Exponents are integers of magnitude at most [`MAX_EXPONENT`]; `-x^2` is `-(x^2)`, and `x^2^3` is `x^(2^3)`.
+/// Numbers are exact decimals.
 ///
 /// ```
 /// use robot_symbolic::{Formula, Graph};

@@ -45,8 +45,8 @@ pub fn compile(path: impl AsRef<Path>) -> Result<(), Errors> {
 ///
 /// Each robot becomes a file `<module>.rs` with one module, named after the robot in lower case. If the
 /// robot file has another name (`lift.toml` with the robot `lift_scara`), `OUT_DIR` also has the same module in
-/// `lift.rs`, unless another robot or robot file has this name, or it is `robots`. If there are several robots, the file `robots.rs`
-/// includes them all. Paths are relative to the package.
+/// `lift.rs`, unless another robot or robot file has this name, or it is `robots`. If there are several robots, the
+/// file `robots.rs` includes them all. Paths are relative to the package.
 ///
 /// Cargo runs the build script again if a robot file or its pinned plan changes. It then no longer watches the other
 /// files of the package, as it would if the build script named no files to watch. `robot-symbolic search` updates the
@@ -195,8 +195,8 @@ impl Builder {
 
     /// Sets the folder for the code; the default is `OUT_DIR`. Use it to commit generated code.
     ///
-    /// An existing file with the name of a module that was not generated is not replaced; it is an error. Files of earlier
-    /// builds stay as they are, also if their robot has another name now; in `OUT_DIR` they no longer compile.
+    /// An existing file with the name of a module that was not generated is not replaced; it is an error. Files of
+    /// earlier builds stay as they are, also if their robot has another name now; in `OUT_DIR` they no longer compile.
     pub fn out_dir(mut self, folder: impl Into<PathBuf>) -> Builder {
         self.out_dir = Some(folder.into());
         self

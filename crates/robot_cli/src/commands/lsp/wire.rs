@@ -14,8 +14,8 @@ const MAX_HEADER: u64 = 1 << 12;
 ///
 /// # Errors
 ///
-/// The reason why the input is not a message. The server ends then: if the header is wrong, it is not known where the next
-/// message begins.
+/// The reason why the input is not a message. The server ends then: if the header is wrong, it is not known where the
+/// next message begins.
 pub(super) fn read(stream: &mut dyn BufRead) -> Result<Option<Value>, String> {
     let Some(length) = header(stream)? else { return Ok(None) };
     let mut bytes = vec![];
