@@ -111,6 +111,58 @@ fn assert_bundle_agrees(source: &Source, kinds: &[FunctionKind], percent: usize)
     assert!(all * 100 < sum * percent, "{kinds:?}: {all} together, {sum} apart");
 }
 
+/// A parameter of 0 by which the base parameters are divided: the torques of the bundle are still those of the function.
+#[test]
+fn a_divisor_of_one_function_is_none_of_another() {
+    let inertia = "inertia = { xx = 0.1, yy = 0.12, zz = 0.09 }";
+    let text = format!(
+        "format = 1
+[robot]
+name = \"skew\"
+gravity = [0, 0, \"-g\"]
+[parameters]
+g = 9.81
+ax = 0.6
+ay = 0.8
+az = 0.2
+m1 = 2
+m2 = 1
+l = 0.4
+[[link]]
+name = \"one\"
+mass = \"m1\"
+joint = {{ type = \"revolute\", axis = [\"ax\", \"ay\", \"az\"] }}
+center_of_mass = [0.1, 0.02, 0.03]
+{inertia}
+[[link]]
+name = \"two\"
+mass = \"m2\"
+origin = {{ xyz = [\"l\", 0, 0] }}
+joint = {{ type = \"revolute\", axis = [\"ax\", 0, \"az\"] }}
+center_of_mass = [0.2, 0.01, 0.05]
+{inertia}
+"
+    );
+    let source = Source { name: "skew.toml".to_owned(), text };
+    let kinds = [FunctionKind::InverseDynamics(Effects::NONE), FunctionKind::BaseParameters];
+    let functions = Functions::Chosen(kinds[..1].to_vec());
+    let options =
+        Options { functions, bundles: vec![bundle("together", &kinds)], ..Options::default() };
+    let module = programs(&source, &options).unwrap().module;
+    let state: [(&str, &[f64]); 3] =
+        [("q", &[0.1, 0.2]), ("qd", &[0.3, 0.4]), ("qdd", &[0.5, 0.6])];
+    for zeros in [vec![], vec!["ay"], vec!["ax", "ay"], vec!["az"]] {
+        let given: Vec<(&str, f64)> = zeros.iter().map(|name| (*name, 0.0)).collect();
+        let interpreter = Interpreter::new(&module, &given).unwrap();
+        let apart = interpreter.call("inverse_dynamics", &state).unwrap().remove(0).values;
+        let mut together = interpreter.call("together", &state).unwrap();
+        assert_eq!(together[1].values.iter().all(|value| value.is_finite()), zeros.is_empty());
+        for (value, expected) in together.remove(0).values.iter().zip(&apart) {
+            assert!((value - expected).abs() < 1e-12, "{zeros:?}: {value} for {expected}");
+        }
+    }
+}
+
 #[test]
 fn outputs_of_one_name_are_told_apart() {
     let bundles = vec![bundle("everything", FunctionKind::ALL)];

@@ -94,22 +94,21 @@ pub(in crate::backend) fn unreserved(mut name: String, reserved: &Reserved) -> S
 }
 
 /// Makes names for the fields of a model: a field that copies a parameter has the parameter's name; the others are
-/// `k1`, `k2` and so on.
+/// `k1`, `k2` and so on, without those that are names of parameters.
 pub fn field_names(module: &Module, namer: &mut Namer) -> Vec<String> {
-    let fields = 0..module.constructor.results().len();
-    let copies: Vec<Option<&str>> = fields
-        .map(|field| module.field_parameter(field).map(|parameter| parameter.name.as_str()))
-        .collect();
-    // Copies are named first, so that a numbered field never takes the name of one.
-    let mut names = namer.names(copies.iter().copied().flatten()).into_iter();
+    let parameters = namer.names(module.parameters.iter().map(|one| one.name.as_str()));
     let mut count = 0;
-    let name = |copy: Option<&str>| {
-        copy.and_then(|_| names.next()).unwrap_or_else(|| {
-            count += 1;
-            namer.name(&format!("k{count}"))
-        })
+    let name = |field: usize| {
+        let copied = module.field_parameter(field)?;
+        let place = module.parameters.iter().position(|one| one.name == copied.name)?;
+        parameters.get(place).cloned()
     };
-    copies.into_iter().map(name).collect()
+    let mut numbered = || {
+        count += 1;
+        namer.name(&format!("k{count}"))
+    };
+    let fields = 0..module.constructor.results().len();
+    fields.map(|field| name(field).unwrap_or_else(&mut numbered)).collect()
 }
 
 #[cfg(test)]

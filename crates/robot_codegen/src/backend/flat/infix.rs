@@ -22,6 +22,11 @@ pub trait Spelling {
         }
     }
 
+    /// The function that divides, in a language whose operator fails if the divisor is 0.
+    fn division(&self) -> Option<&'static str> {
+        None
+    }
+
     /// a b + c
     fn mul_add(&self, operands: [String; 3]) -> String;
 
@@ -58,6 +63,12 @@ fn text(expression: &Expression, spelling: &impl Spelling) -> (String, Strength)
                 Operator::Mul | Operator::Div => Strength::Product,
             };
             let [left, right] = operands.each_ref();
+            if expression.divides_by_a_variable()
+                && let Some(function) = spelling.division()
+            {
+                let [left, right] = [left, right].map(|operand| text(operand, spelling).0);
+                return (format!("{function}({left}, {right})"), Strength::Operand);
+            }
             // The right operand must have a higher precedence: a - (b - c) is not (a - b) - c, and
             // a + (b + c) rounds differently from (a + b) + c.
             let left = bracketed(left, spelling, |found| found >= strength);

@@ -214,6 +214,17 @@ impl Expression {
             Expression::Negative(operand) | Expression::Call(_, operand) => operand.each(visit),
         }
     }
+
+    /// Whether the expression is a quotient whose divisor is not a literal number.
+    #[must_use]
+    pub fn divides_by_a_variable(&self) -> bool {
+        match self {
+            Expression::Binary(Operator::Div, operands) => {
+                !matches!(operands[1], Expression::Constant(_))
+            }
+            _ => false,
+        }
+    }
 }
 
 impl Statement {
@@ -262,6 +273,8 @@ pub struct Helpers {
     pub sqrt: bool,
     /// Absolute value.
     pub abs: bool,
+    /// Division by what can be 0.
+    pub division: bool,
 }
 
 impl Helpers {
@@ -274,6 +287,7 @@ impl Helpers {
         found.circular = statements.any(|one| matches!(one, Statement::Circular { .. }));
         body.each_expression(&mut |value| match value {
             Expression::MulAdd(_) => found.mul_add = true,
+            quotient if quotient.divides_by_a_variable() => found.division = true,
             Expression::Call(function, _) => match function {
                 Call::Sin | Call::Cos => found.circular = true,
                 Call::Sign => found.sign = true,
@@ -298,6 +312,7 @@ impl Helpers {
             recip_positive: self.recip_positive | other.recip_positive,
             sqrt: self.sqrt | other.sqrt,
             abs: self.abs | other.abs,
+            division: self.division | other.division,
         }
     }
 }

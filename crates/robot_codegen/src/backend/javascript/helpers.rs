@@ -42,8 +42,25 @@ pub(super) fn helpers(needed: &Helpers, options: &FlatOptions) -> Vec<String> {
     text.lines().map(str::to_owned).collect()
 }
 
+/// Prints the check that a model is one, by a field that parameters do not have.
+pub(super) fn model(field: &str) -> Vec<String> {
+    let text = format!(
+        "// The parameters of a robot in place of its model would be read as a model without some of its numbers.
+function _check_model(model) {{
+    if (typeof model !== \"object\" || model === null || typeof model.{field} !== \"number\") {{
+        throw new TypeError(\"the first argument is not a model; create_model(parameters) makes one\");
+    }}
+}}
+"
+    );
+    text.split('\n').map(str::to_owned).collect()
+}
+
 /// A missing parameter would be read as `undefined`, and a misspelled one would have no effect.
 pub(in crate::backend) const PARAMETERS: &str = "function _check_parameters(parameters, names) {
+    if (typeof parameters !== \"object\" || parameters === null) {
+        throw new TypeError(\"create_model takes the parameters: nominal(), or a copy with other values\");
+    }
     for (const name of names) {
         if (typeof parameters[name] !== \"number\") {
             const what = parameters[name] === undefined ? \"given\" : \"a number\";

@@ -126,6 +126,9 @@ impl Printer<'_> {
         if self.tree.has_parameters() {
             lines.extend(helpers::PARAMETERS.lines().map(str::to_owned));
         }
+        if let Some(field) = self.own_field() {
+            lines.extend(helpers::model(field));
+        }
         lines.extend(helpers::helpers(&helpers, self.options));
         lines.extend(self.options.constants.iter().flat_map(constant));
         lines.push(String::new());
@@ -258,6 +261,14 @@ impl Printer<'_> {
         lines
     }
 
+    /// The first field of the model that is not a parameter.
+    fn own_field(&self) -> Option<&String> {
+        let mut fields = self.tree.fields.iter().enumerate();
+        fields
+            .find(|(field, _)| self.tree.module.field_parameter(*field).is_none())
+            .map(|(_, name)| name)
+    }
+
     fn arguments(&self, function: &Function<'_>) -> Vec<String> {
         let model = self.tree.has_parameters().then(|| "model".to_owned());
         model.into_iter().chain(function.inputs.iter().map(|array| array.name.clone())).collect()
@@ -289,6 +300,9 @@ impl Printer<'_> {
                 .map(|array| format!("{} = new Float64Array({})", array.name, array.length)),
         );
         lines.push(format!("export function {}({}) {{", function.name, arguments.join(", ")));
+        if self.own_field().is_some() {
+            lines.push("    _check_model(model);".to_owned());
+        }
         let arrays = function.inputs.iter().chain(stored);
         lines.extend(arrays.map(|Array { name, length, .. }| check_length(name, *length)));
         lines.extend(self.statements(&function.inputs, &body, &body.statements));

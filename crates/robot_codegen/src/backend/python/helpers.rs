@@ -71,6 +71,7 @@ def _shaped(values, shape, inputs):
         (needed.sqrt, SQRT),
         (needed.sign, SIGN),
         (needed.recip_positive, RECIP_POSITIVE),
+        (needed.division, DIVIDE),
         (needed.tanh, tanh.as_str()),
     ];
     text.extend(optional.into_iter().filter(|(needed, _)| *needed).map(|(_, text)| text));
@@ -108,6 +109,24 @@ def _sign(x):
     if _is_array(x):
         return _numpy.sign(x) + 0.0
     return x if x != x else float(int(x > 0.0) - int(x < 0.0))
+";
+
+/// Parameters in place of a model would be read as a model without some of its numbers.
+pub(super) const MODEL: &str = "
+
+def _check_model(model):
+    if not isinstance(model, Model):
+        raise TypeError(\"the first argument is not a model; Model(parameters) makes one\")
+";
+
+const DIVIDE: &str = "
+
+def _divide(a, b):
+    # Division by 0 gives infinity or NaN, as in other languages, also for numbers.
+    if _is_array(a) or _is_array(b):
+        with _numpy.errstate(divide=\"ignore\", invalid=\"ignore\"):
+            return a / b
+    return a / b if b != 0.0 else a * _math.copysign(_math.inf, b)
 ";
 
 const RECIP_POSITIVE: &str = "

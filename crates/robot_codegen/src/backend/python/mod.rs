@@ -75,6 +75,10 @@ impl Spelling for Printer<'_> {
         format!("model.{}", self.tree.fields[index])
     }
 
+    fn division(&self) -> Option<&'static str> {
+        Some("_divide")
+    }
+
     fn mul_add(&self, [a, b, c]: [String; 3]) -> String {
         format!("_mul_add({a}, {b}, {c})")
     }
@@ -223,6 +227,7 @@ impl Printer<'_> {
         for (field, value) in self.tree.fields.iter().zip(&self.tree.constructor.results) {
             lines.push(format!("        self.{field} = {}", infix(value, self)));
         }
+        lines.extend(helpers::MODEL.lines().map(str::to_owned));
         lines
     }
 
@@ -258,6 +263,9 @@ impl Printer<'_> {
         let outputs = function.outputs.iter().map(|array| array.name.as_str());
         common::add_results(&mut doc, Some("Returns, in this order:"), function.source, outputs);
         lines.extend(docstring(&doc, "    "));
+        if self.tree.has_parameters() {
+            lines.push("    _check_model(model)".to_owned());
+        }
         let inputs = function.inputs.iter();
         lines.extend(inputs.map(|Array { name, length, .. }| {
             format!("    {name} = _floats({name}, \"{name}\", {length})")

@@ -19,10 +19,14 @@
 //! be as small: τ − 2·10⁻¹⁷ cos q for a robot of micrograms. So values are also compared as polynomials in the inputs
 //! and parameters, coefficient by coefficient (`parts`).
 //!
+//! A replacement divides by nothing but the divisors of the replaced value, and factors of them: z a is not computed
+//! as (z/x) (x a), which is NaN where x is 0 (`divisors`).
+//!
 //! Absolute values, signs and roots are treated as unrelated numbers, so that nothing is concluded from the
 //! sign that an argument happens to have at the points.
 
 mod cones;
+mod divisors;
 mod parts;
 mod samples;
 #[cfg(test)]
@@ -31,6 +35,7 @@ mod tests;
 use rustc_hash::FxHashMap;
 
 use self::cones::{Cones, Operands};
+use self::divisors::Divisors;
 use self::parts::Parts;
 use self::samples::Sample;
 pub(crate) use self::samples::Samples;
@@ -129,6 +134,7 @@ struct Search<'p> {
     forms: Vec<Option<Form>>,
     samples: Vec<Sample>,
     parts: Parts,
+    divisors: Divisors,
     /// The values that forms may use.
     operands: Vec<Value>,
     /// The operands by their absolute value at the first point.
@@ -143,6 +149,7 @@ impl<'p> Search<'p> {
         let parts = samples.parts(program);
         let samples = samples.of(program);
         let cones = Cones::new(program);
+        let divisors = Divisors::new(program);
         let mut operands = vec![];
         let mut by_size: FxHashMap<u64, Vec<Value>> = FxHashMap::default();
         let mut by_direction: FxHashMap<u64, Vec<Value>> = FxHashMap::default();
@@ -161,7 +168,7 @@ impl<'p> Search<'p> {
             }
         }
         let forms = vec![None; samples.len()];
-        Search { program, cones, forms, samples, parts, operands, by_size, by_direction }
+        Search { program, cones, forms, samples, parts, divisors, operands, by_size, by_direction }
     }
 
     /// Visits the values, first those whose removal would remove the most operations; returns whether any was replaced.
@@ -292,10 +299,24 @@ impl<'p> Search<'p> {
         let gain = self.cones.gain(value, &operands, form.cost());
         if gain > best.gain
             && !self.cones.depend_on(&operands, value)
+            && self.has_the_divisors(value, &operands)
             && self.parts.agree(value, form)
         {
             *best = Best { gain, form: Some(form) };
         }
+    }
+
+    /// Whether a value is divided by every divisor of these operands, or by a multiple of it.
+    fn has_the_divisors(&self, value: Value, operands: &[Value]) -> bool {
+        let is_multiple = |own: Value, divisor: Value| {
+            let factor = self.samples[own.index()].over(&self.samples[divisor.index()]);
+            let mut factors = self.equal_to(&factor);
+            factor.is_constant()
+                || factors.any(|(factor, _)| self.divisors.added(value, &[factor]).is_empty())
+        };
+        let added = self.divisors.added(value, operands);
+        let own = if added.is_empty() { vec![] } else { self.divisors.of(value) };
+        added.into_iter().all(|divisor| own.iter().any(|own| is_multiple(*own, divisor)))
     }
 
     /// Builds the program in which the values are replaced with their forms.

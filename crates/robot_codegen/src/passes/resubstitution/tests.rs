@@ -70,6 +70,21 @@ fn left(build: impl Fn(&mut Builder, [Value; 5]) -> Vec<Value>) -> usize {
     Counts::of(&with(Resubstitution::Pairs)(&b.finish(results))).operations()
 }
 
+/// (z/x)(x u + x v) is z u + z v only if x is not 0; (z/x) u + (z/x) v is (z/x)(u + v) wherever it is finite.
+#[test]
+fn no_divisor_is_added() {
+    let added = left(|b, [x, z, u, v, _]| {
+        let [xu, xv, zu, zv] = [(x, u), (x, v), (z, u), (z, v)].map(|(a, c)| b.mul(a, c));
+        vec![b.div(z, x), b.add(xu, xv), b.add(zu, zv)]
+    });
+    let same = left(|b, [x, z, u, v, _]| {
+        let quotient = b.div(z, x);
+        let (first, second) = (b.mul(quotient, u), b.mul(quotient, v));
+        vec![quotient, b.add(u, v), b.add(first, second)]
+    });
+    assert_eq!([added, same], [7, 3]);
+}
+
 /// x w, y w and (x ± y) w are two products and a sum.
 #[test]
 fn sums_of_two_values_are_found() {

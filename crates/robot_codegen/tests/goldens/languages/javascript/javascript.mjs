@@ -8,6 +8,9 @@
  */
 
 function _check_parameters(parameters, names) {
+    if (typeof parameters !== "object" || parameters === null) {
+        throw new TypeError("create_model takes the parameters: nominal(), or a copy with other values");
+    }
     for (const name of names) {
         if (typeof parameters[name] !== "number") {
             const what = parameters[name] === undefined ? "given" : "a number";
@@ -18,6 +21,13 @@ function _check_parameters(parameters, names) {
         if (!names.includes(name)) {
             throw new TypeError(`there is no parameter ${name}`);
         }
+    }
+}
+
+// The parameters of a robot in place of its model would be read as a model without some of its numbers.
+function _check_model(model) {
+    if (typeof model !== "object" || model === null || typeof model.k1 !== "number") {
+        throw new TypeError("the first argument is not a model; create_model(parameters) makes one");
     }
 }
 
@@ -170,6 +180,7 @@ export function create_model(parameters) {
  * 7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
  */
 export function plain(model, q, values = new Float64Array(19)) {
+    _check_model(model);
     _check_length(q, "q", 2);
     _check_length(values, "values", 19);
     const x = q[0];
@@ -227,6 +238,7 @@ export function plain(model, q, values = new Float64Array(19)) {
  * 6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
  */
 export function turned(model, q, values = new Float64Array(18)) {
+    _check_model(model);
     _check_length(q, "q", 2);
     _check_length(values, "values", 18);
     const x = q[0];

@@ -78,6 +78,14 @@ def _recip_positive(x):
     return 1.0 / x if 0.0 < x < _math.inf else _math.nan
 
 
+def _divide(a, b):
+    # Division by 0 gives infinity or NaN, as in other languages, also for numbers.
+    if _is_array(a) or _is_array(b):
+        with _numpy.errstate(divide="ignore", invalid="ignore"):
+            return a / b
+    return a / b if b != 0.0 else a * _math.copysign(_math.inf, b)
+
+
 def _tanh(x):
     if _is_array(x):
         y = 2.0 * abs(x)
@@ -138,7 +146,7 @@ class Model:
         t3 = p + r
         t4 = p - r
         t5 = p * r
-        t6 = p / r
+        t6 = _divide(p, r)
         t7 = _mul_add(p, r, 0.3333333333333333)
         t8 = _sin_cos(p)[0]
         t9 = _sin_cos(p)[1]
@@ -167,6 +175,11 @@ class Model:
         self.k16 = t14 + (t13 + t16)
 
 
+def _check_model(model):
+    if not isinstance(model, Model):
+        raise TypeError("the first argument is not a model; Model(parameters) makes one")
+
+
 def plain(model, q):
     """Every operation.
 
@@ -176,6 +189,7 @@ def plain(model, q):
 
     7 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
     """
+    _check_model(model)
     q = _floats(q, "q", 2)
     x = q[0]
     y = q[1]
@@ -188,7 +202,7 @@ def plain(model, q):
     t6 = y + model.k1
     t7 = y - model.k1
     t8 = y * model.k1
-    t9 = y / model.k1
+    t9 = _divide(y, model.k1)
     t10 = _mul_add(y, model.k1, 0.3333333333333333)
     t11 = _sin_cos(y)[0]
     t12 = _sin_cos(y)[1]
@@ -215,6 +229,7 @@ def turned(model, q):
 
     6 multiplications, 20 additions, 2 divisions, 1 square root, 3 other functions, 2 sines, 2 cosines.
     """
+    _check_model(model)
     q = _floats(q, "q", 2)
     x = q[0]
     y = q[1]
@@ -226,7 +241,7 @@ def turned(model, q):
     t5 = y + model.k1
     t6 = y - model.k1
     t7 = y * model.k1
-    t8 = y / model.k1
+    t8 = _divide(y, model.k1)
     t9 = _mul_add(y, model.k1, 0.3333333333333333)
     t10 = _sin_cos(y)[0]
     t11 = _sin_cos(y)[1]
