@@ -182,7 +182,7 @@ The rows are in [conformance/](../conformance/README.md), where anybody can run 
 `tests/derivations/conformance.rs` tests the column *here*. Torques are in N m, forces in N.
 Bold marks an answer that differs from the right one. *Silent* means that the program wrote nothing to standard output or error.
 
-A difference is not always a fault. *Reads it* marks files that this project refuses because of its own limits. Pinocchio and MuJoCo leave
+A difference is not always a fault. *Reads it* marks files that this project refuses because of its own limits; it counts as right. Pinocchio and MuJoCo leave
 checks to others; MuJoCo includes damping and friction in inverse dynamics by design, and both read mimic joints as constraints or not at all
 by default. All programs run with their defaults.
 

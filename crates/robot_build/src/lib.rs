@@ -23,7 +23,8 @@
 //!
 //! The driver itself is pure: [`generate`] takes a text and returns a text. It does not access files, the environment
 //! or the terminal, so the builder, the macro `include_robot!` and the command `robot-symbolic` generate the same
-//! code.
+//! code for the same options and the same plan. Without a pinned plan the command searches for one, and the builder and
+//! the macro take a default plan.
 
 mod driver;
 mod entry;

@@ -24,7 +24,11 @@ pub(crate) fn times(duration: f64, step: f64) -> Result<Vec<f64>, Error> {
     // A time that differs from the end only by rounding counts as the end.
     let whole = (duration / step * (1.0 + 1e-12)).floor();
     if whole > MAX_SAMPLES {
-        let count = if whole.is_finite() { number(whole) } else { "these".to_owned() };
+        let count = match whole {
+            whole if whole < 1e12 => number(whole),
+            whole if whole.is_finite() => format!("about {whole:.0e}"),
+            _ => "these".to_owned(),
+        };
         let message = format!("{count} samples are more than {MAX_SAMPLES}; increase the step");
         return Err(Error::input(message));
     }
@@ -60,7 +64,14 @@ mod tests {
     fn what_is_not_a_grid_is_refused() {
         let shown = times(-1.0, f64::NAN).unwrap_err().to_string();
         assert_eq!(shown.lines().count(), 2, "{shown}");
-        assert!(times(1e9, 1e-9).unwrap_err().to_string().contains("samples"));
+        for (duration, step, message) in [
+            (1e4, 1e-4, "100000000 samples are more than"),
+            (1e9, 1e-9, "about 1e18 samples are more than"),
+            (1e300, 1e-300, "these samples are more than"),
+        ] {
+            let error = times(duration, step).unwrap_err().to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
         let shown = times(1e300, 0.01).unwrap_err().to_string();
         assert!(shown.len() < 100, "{shown}");
     }

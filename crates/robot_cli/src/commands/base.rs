@@ -98,14 +98,31 @@ impl Arguments {
                 size(shown.len())
             )?;
         }
+        note_load(&robot, terminal)?;
         note_offsets(&robot, terminal)?;
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }
 
+fn acts(formula: &Formula) -> bool {
+    formula.as_number().is_none_or(|one| one.to_f64() != 0.0)
+}
+
+/// Prints a note about joints with friction in which the joint torques are not linear.
+fn note_load(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    let joints = robot.links.iter().filter(|link| acts(&link.friction.coulomb));
+    let names: Vec<&str> = joints.map(|link| link.joint.name.as_str()).collect();
+    if names.is_empty() {
+        return Ok(());
+    }
+    let message = "friction that depends on the load (`coulomb`) is not part of the base parameters: it is a product of \
+                   its coefficient and a contact force, so the joint torques are not linear in both";
+    writeln!(terminal.errors, "note: {}: {message}", names.join(", "))?;
+    Ok(())
+}
+
 /// Prints a note about joints whose offset cannot be distinguished from their constant dry friction while they move.
 fn note_offsets(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-    let acts = |formula: &Formula| formula.as_number().is_none_or(|one| one.to_f64() != 0.0);
     let is_dry = |friction: &Friction| {
         [&friction.coulomb_positive, &friction.coulomb_negative].into_iter().any(acts)
     };

@@ -3,12 +3,14 @@
 use robot_symbolic::Formula;
 use serde_json::Value;
 
-use crate::{complaint, folder, output, robot};
+use crate::{complaint, folder, output, robot, run};
 
 fn base(name: &str, frames: &str) -> Value {
     let robot = robot(name);
     let arguments = ["base", &robot, "--format", "json", "--base-frames", frames];
-    serde_json::from_str(&output(&arguments, "")).unwrap()
+    let shown = run(&arguments);
+    assert_eq!(shown.code, 0, "{}", shown.errors);
+    serde_json::from_str(&shown.output).unwrap()
 }
 
 /// Checks that the formula of a base parameter agrees with its coefficients, and that both can be read back.
@@ -91,7 +93,7 @@ fn latex_is_an_environment_of_amsmath() {
 /// two.
 #[test]
 fn a_parameter_of_the_file_is_a_name_alone_where_it_looks_like_its_own() {
-    let shown = |format: &str| output(&["base", &robot("trttr1"), "--format", format], "");
+    let shown = |format: &str| run(&["base", &robot("trttr1"), "--format", format]).output;
     for (format, line) in [
         ("latex", "  M_3 & \\\\"),
         ("typst", "$ M_3 & $"),

@@ -10,6 +10,15 @@ fn notes(arguments: &[&str]) -> String {
 }
 
 #[test]
+fn friction_that_is_in_no_base_parameter_is_noticed() {
+    let note = |name: &str| notes(&["base", &robot(name)]);
+    let found = note("trttr1");
+    let start = "note: 1, 2, 3, 4, 5: friction that depends on the load (`coulomb`) is not part of";
+    assert!(found.starts_with(start), "{found}");
+    assert!(!note("planar_2r").contains("coulomb"));
+}
+
+#[test]
 fn frames_of_base_parameters_are_noticed_where_there_are_none() {
     let arm = robot("planar_2r");
     let frames = ["--base-frames", "denavit_hartenberg"];

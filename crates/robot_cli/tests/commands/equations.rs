@@ -7,7 +7,7 @@ use robot_numeric::{Loads, Mechanism, Wrench};
 use robot_symbolic::Formula;
 use serde_json::{Map, Value};
 
-use crate::{complaint, output, robot};
+use crate::{complaint, output, robot, run};
 
 const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
 const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
@@ -174,10 +174,10 @@ fn latex_has_the_names_of_the_file_and_the_style_asked_for() {
 #[test]
 fn typst_is_a_notation_of_equations_and_documents() {
     let file = robot("trttr1");
-    let shown = super::run(&["equations", &file, "--format", "typst", "--numbers"]);
+    let shown = run(&["equations", &file, "--format", "typst", "--numbers"]);
     assert!(shown.output.contains("numbering: \"(1)\")\n$ Q_1 & = "), "{}", shown.output);
     assert!(shown.output.contains("$ <eq:Q5>\n"), "{}", shown.output);
-    let shown = super::run(&["document", &file, "--format", "typst", "--columns", "2"]);
+    let shown = run(&["document", &file, "--format", "typst", "--columns", "2"]);
     assert_eq!((shown.code, shown.errors.as_str()), (0, ""));
     assert!(shown.output.contains("columns: 2)\n") && shown.output.contains("<eq:grouped:Q>"));
 }
@@ -185,7 +185,7 @@ fn typst_is_a_notation_of_equations_and_documents() {
 /// In two columns as well, a matrix is printed if its entries have room beside the number of the equation.
 #[test]
 fn matrices_take_the_whole_width_of_a_column() {
-    let shown = super::run(&["document", &robot("trttr1"), "--columns", "2"]);
+    let shown = run(&["document", &robot("trttr1"), "--columns", "2"]);
     let matrix = r"H\left(q\right) &= \begin{bmatrix} H_{11} & H_{12} & 0 & H_{14} & 0 \\ ";
     assert!(shown.output.contains(matrix), "{}", shown.output);
 }
@@ -317,7 +317,7 @@ fn mathml_is_a_page_of_its_own() {
         "",
     );
     assert!(count(&narrow) > count(&page));
-    let page = output(&["base", &file, "--format", "mathml", "--numbers"], "");
+    let page = run(&["base", &file, "--format", "mathml", "--numbers"]).output;
     assert!(page.contains("<mtext>(20)</mtext>"), "{page}");
 }
 

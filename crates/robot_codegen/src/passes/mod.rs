@@ -194,8 +194,8 @@ impl Runner {
         self.note(name);
     }
 
-    /// Takes the result of a pass if, after `finished`, no result waits longer and no operation is added. A result can
-    /// wait longer if a tree of sums has become a chain.
+    /// Takes the result of a pass if, after `finished`, the last result is not later and no operation is added. It can be
+    /// later if a tree of sums has become a chain.
     fn take_order(
         &mut self,
         name: &'static str,

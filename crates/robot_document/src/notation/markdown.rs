@@ -49,7 +49,7 @@ fn display(
     Ok(format!("\n$$\n{display}{tag}\n$$\n"))
 }
 
-/// Writes the document as Markdown, without its figure, because Markdown can only show images from other files.
+/// Writes the document as Markdown, without its figure, because GitHub only shows images that are files.
 ///
 /// # Errors
 ///

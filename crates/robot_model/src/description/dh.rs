@@ -57,7 +57,8 @@ fn link_row(
     convention: DhConvention,
 ) -> LinkRow {
     let kind = match table.get("type") {
-        Some(entry) => joint::kind(reader, &entry).unwrap_or_default(),
+        // If the type is wrong, this placeholder lets the rest of the link be checked.
+        Some(entry) => joint::kind(reader, &entry).unwrap_or(Some(JointKind::Revolute)),
         None => Some(JointKind::Revolute),
     };
     let place = table.span.clone();

@@ -86,8 +86,8 @@ pub(super) fn read(
     let entry = if row.is_some() {
         table.get("joint")
     } else {
-        let example = "joint = { type = \"revolute\", axis = \"z\" }";
-        table.require(reader, "joint", example)
+        let axis = if dh { "" } else { ", axis = \"z\"" };
+        table.require(reader, "joint", &format!("joint = {{ type = \"revolute\"{axis} }}"))
     };
     let Some(entry) = entry else { return joint };
     places.joint = entry.value.span();

@@ -97,10 +97,10 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
     };
     let rule = match kind {
         Kind::Identifier => {
-            "use letters, digits and `_`, beginning with a letter, as in `l_5`; the key \
+            "use letters, digits and `_`, not beginning with a digit, as in `l_5`; the key \
              `latex` of a parameter sets how it is printed"
         }
-        Kind::Label => "use letters, digits, `_`, `-` and `.`, beginning with a letter or digit",
+        Kind::Label => "use letters, digits, `_`, `-` and `.`, not beginning with `-` or `.`",
     };
     Diagnostic::error(code::NAME, format!("`{}` cannot be the name of {what}", quote(text)))
         .at(span, label)

@@ -392,7 +392,7 @@ pub static FRAME: Shape = Shape {
 
 /// `[payload]`.
 pub static PAYLOAD: Shape = Shape {
-    what: "a payload",
+    what: "[payload]",
     doc: "A body that the robot may carry, with values set at run time.",
     keys: &[key("parent", Parent, "A link, tip or frame. Default: the last link.")],
 };

@@ -44,6 +44,15 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         if follows_comma(span.start) {
             continue;
         }
+        // Everything behind a list that is not closed would be read as its entries.
+        if error.message().starts_with("missing comma between array elements")
+            && begins_a_line(text, span.start)
+        {
+            let message = "invalid TOML: a list before this line is not closed".to_owned();
+            let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
+            found.push(diagnostic.help("add the missing `]` at the end of the list"));
+            break;
+        }
         let message = words(error.message());
         let help = remedy(text, error.message(), &span);
         let mut diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
@@ -77,6 +86,16 @@ fn line_of(text: &str, byte: usize) -> &str {
     let before = text.get(..byte).unwrap_or_default();
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
     text.get(start..).unwrap_or_default()
+}
+
+/// Whether a header or a key with its value begins at a byte, the first of its line that is not a space.
+fn begins_a_line(text: &str, byte: usize) -> bool {
+    let line = line_of(text, byte).lines().next().unwrap_or_default();
+    let rest = rest_of_line(text, byte);
+    let key = rest.split(['=', ' ']).next().unwrap_or_default();
+    let is_key =
+        !key.is_empty() && key.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+    line.trim_start() == rest && (rest.starts_with('[') || is_key && rest.contains('='))
 }
 
 /// The text from the byte to the end of its line.

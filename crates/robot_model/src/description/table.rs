@@ -4,7 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
-use super::shape::{Presence, Shape};
+use super::shape::{PAYLOAD, Presence, Shape};
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
 /// A value of the file with its place.
@@ -16,6 +16,13 @@ pub(super) struct Entry<'a> {
     pub(super) key: Span,
     pub(super) value: Value<'a>,
 }
+
+/// The keys of the body of a link, which a payload does not have.
+const BODY: [&str; 3] = ["mass", "center_of_mass", "inertia"];
+/// The remedy for them.
+const BODY_OF_PAYLOAD: &str = "the mass, center of mass and inertia of a payload are parameters, `payload_mass` and so \
+                               on, whose values are set where the equations are used; write a body that is always \
+                               there as a fixed `[[link]]`";
 
 /// A table that is being read.
 pub(super) struct Table<'a> {
@@ -121,6 +128,7 @@ impl<'a> Table<'a> {
                 known => format!("the keys of {what} are {}", list(known)),
             };
             let help = match self.shape.owners(name).as_slice() {
+                _ if what == PAYLOAD.what && BODY.contains(&name) => BODY_OF_PAYLOAD.to_owned(),
                 owners @ [_, ..] if near.is_none() => {
                     format!("`{name}` is a key of {}; {help}", owners.join(" and "))
                 }

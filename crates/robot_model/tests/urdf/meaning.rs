@@ -145,6 +145,10 @@ fn limits_that_are_no_range_name_the_remedy() {
     ] {
         assert!(has(&errors(&of(limit)), "R0404", help), "{limit}");
     }
+    let equal = crate::read(&of(r#"lower="1" upper="1""#));
+    assert!(equal.robot.coordinates[0].limits.is_none());
+    let note = "the limits of joint `j1` leave no room to move and are ignored";
+    assert!(has(&equal.choices, "R0706", note), "{:?}", equal.choices);
     let far = errors(&of(r#"lower="-1" upper="1e308""#));
     assert!(has(&far, "R0301", "a limit of `j1` contains a value of 1e308"), "{far}");
 }

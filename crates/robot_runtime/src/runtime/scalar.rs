@@ -38,7 +38,8 @@ pub trait Scalar:
     fn from_f64(value: f64) -> Self;
 
     /// `self · factor + addend`, rounded once if the target has the instruction
-    /// ([`FUSED`](super::FUSED)), otherwise twice; never by slow software emulation.
+    /// ([`FUSED`](super::FUSED)), otherwise twice; never by slow software emulation. In lanes, the instruction set for
+    /// which the lanes are compiled decides.
     #[must_use]
     fn mul_add(self, factor: Self, addend: Self) -> Self;
 

@@ -29,9 +29,9 @@ pub(super) const COLORS: usize = 6;
 const AGAIN: [Dashes; 2] =
     [Dashes { length: 8.0, period: 12.0 }, Dashes { length: 3.0, period: 4.5 }];
 
-/// The distance between the beginnings of the dashes of curves that lie on another curve, and what is added to it each
-/// time that a color occurs again.
+/// The distance between the beginnings of the dashes of curves that lie on another curve, in px.
 const PERIOD: f64 = 16.0;
+/// What is added to this distance each time that a color occurs again, in px.
 const LONGER: f64 = 8.0;
 /// The number of curves on each other that have different dashes; further ones have those of the last.
 const LAYERS: i32 = 4;

@@ -25,17 +25,17 @@ pub use polynomial::{
 };
 pub use text::{to_text, to_text_limited};
 
-/// The largest number of operations of an expression that is printed; a shared operation counts at every use.
+/// The largest number of operations and operands of an expression that is printed; shared ones count at every use.
 pub const MAX_OPERATIONS: u64 = 1_000_000;
 
 /// The error for an expression that is too long to be written out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "written out, the expression has {operations} operations, more than {limit}; introduce names \
-     for parts of it"
+    "written out, the expression has {operations} operations and operands, more than {limit}; \
+     introduce names for parts of it"
 )]
 pub struct TooLarge {
-    /// The number of operations, or the largest `u64` if there are more.
+    /// The number of operations and operands, or the largest `u64` if there are more.
     pub operations: u64,
     /// The largest number that was allowed.
     pub limit: u64,

@@ -19,7 +19,7 @@ use crate::number::Number;
 ///
 /// # Errors
 ///
-/// If the text would have more than [`MAX_OPERATIONS`] operations.
+/// If the text would have more than [`MAX_OPERATIONS`] operations and operands.
 pub fn to_text(expr: Expr<'_>) -> Result<String, TooLarge> {
     to_text_limited(expr, MAX_OPERATIONS)
 }
@@ -28,7 +28,7 @@ pub fn to_text(expr: Expr<'_>) -> Result<String, TooLarge> {
 ///
 /// # Errors
 ///
-/// If the text would have more than `limit` operations.
+/// If the text would have more than `limit` operations and operands.
 pub fn to_text_limited(expr: Expr<'_>, limit: u64) -> Result<String, TooLarge> {
     write(expr, limit, notation)
 }

@@ -272,8 +272,8 @@ impl<'l> States<'l, '_> {
     }
 }
 
-/// Replaces the function with the one that takes wrenches, if states have any; also returns the reason if the robot
-/// has no such function.
+/// Replaces the function with the one that takes wrenches, if states have any and there is one; also returns the
+/// reason if the robot has no such function.
 fn with_wrench(
     kind: FunctionKind,
     robot: &Robot,

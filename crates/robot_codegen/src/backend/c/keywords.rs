@@ -1,7 +1,7 @@
 //! Words that cannot be names in printed C and C++.
 
-/// The reserved words of C and C++, in one list, so that printed code has the same names in both; then the macros and
-/// functions of the standard library that occur in printed code or that a name must not hide.
+/// The reserved words of C and C++, so that printed code has the same names in both, and the macros and functions of
+/// the standard library that occur in printed code or that a name must not hide.
 pub(super) const RESERVED: &[&str] = &[
     "DOMAIN",
     "EOF",
@@ -151,6 +151,7 @@ pub(super) const RESERVED: &[&str] = &[
     "typeid",
     "typename",
     "typeof",
+    "typeof_unqual",
     "uint16_t",
     "uint32_t",
     "uint64_t",
