@@ -1,4 +1,4 @@
-//! Positions on the command line that are outside the limits in the robot file.
+//! Positions on the command line and in files of states that are outside the limits in the robot file.
 
 use robot_model::diagnostic::{number, significant};
 use robot_model::robot::{JointKind, Robot};
@@ -7,6 +7,7 @@ use robot_symbolic::Rational;
 
 use crate::Terminal;
 use crate::failure::Failure;
+use crate::states::Place;
 
 /// Notes that joint positions, given as `text` with an option, are outside their limits. They have no effect on the
 /// dynamics, but such a position may be in degrees.
@@ -18,14 +19,63 @@ pub(crate) fn note(
 ) -> Result<(), Failure> {
     // Who writes a unit or a multiple of pi knows that numbers are in radians.
     let may_be_degrees = !text.contains(['d', '°', 'p']);
-    if let Some(found) = outside(positions, may_be_degrees, robot) {
+    let remedy = |position| {
+        may_be_degrees.then(|| format!("a value in degrees is written {}deg", number(position)))
+    };
+    if let Some(found) = outside(positions, robot, remedy) {
         writeln!(terminal.errors, "note: {option}: {found}")?;
     }
     Ok(())
 }
 
-/// The text about the positions outside their limits, if there are any.
-fn outside(positions: &[f64], may_be_degrees: bool, robot: &Robot) -> Option<String> {
+/// The states of a file whose positions are outside their limits.
+pub(crate) struct Outside<'r> {
+    robot: &'r Robot,
+    limits: Vec<Option<[f64; 2]>>,
+    count: usize,
+    first: Option<String>,
+}
+
+impl Outside<'_> {
+    pub(crate) fn new(robot: &Robot) -> Outside<'_> {
+        let limits = robot.coordinates.iter();
+        let limits = limits.map(|one| Some(one.limits.as_ref()?.each_ref().map(Rational::to_f64)));
+        Outside { robot, limits: limits.collect(), count: 0, first: None }
+    }
+
+    /// Adds the positions of a state.
+    pub(crate) fn add(&mut self, place: Place, positions: &[f64]) {
+        let is_inside = |(limits, position): (&Option<[f64; 2]>, &f64)| {
+            limits.is_none_or(|[lower, upper]| (lower..=upper).contains(position))
+        };
+        if self.limits.iter().zip(positions).all(is_inside) {
+            return;
+        }
+        self.count += 1;
+        if self.first.is_none() {
+            let remedy = |_| Some("angles in files are in radians".to_owned());
+            let text = outside(positions, self.robot, remedy);
+            self.first = text.map(|text| format!("{place}: {text}"));
+        }
+    }
+
+    /// The note about these states of a file, if there are any.
+    pub(crate) fn note(&self, file: &str) -> Option<String> {
+        let all = match self.count {
+            0 | 1 => String::new(),
+            count => format!(" ({count} such states)"),
+        };
+        Some(format!("note: {file}: {}{all}\n", self.first.as_deref()?))
+    }
+}
+
+/// The text about the positions outside their limits, if there are any; `remedy` is the advice if a position would be
+/// inside in degrees.
+fn outside(
+    positions: &[f64],
+    robot: &Robot,
+    remedy: impl Fn(f64) -> Option<String>,
+) -> Option<String> {
     let symbols = robot.symbols(JointVariable::Position);
     let mut found = vec![];
     for ((coordinate, symbol), position) in robot.coordinates.iter().zip(symbols).zip(positions) {
@@ -43,13 +93,10 @@ fn outside(positions: &[f64], may_be_degrees: bool, robot: &Robot) -> Option<Str
         [..] => format!(", and so are {}", others.join(", ")),
     };
     let in_degrees = found.iter().find(|(_, position, [lower, upper], kind)| {
-        may_be_degrees
-            && *kind == JointKind::Revolute
-            && (*lower..=*upper).contains(&position.to_radians())
+        *kind == JointKind::Revolute && (*lower..=*upper).contains(&position.to_radians())
     });
-    let remedy = in_degrees.map_or_else(String::new, |(_, position, ..)| {
-        format!("; a value in degrees is written {}deg", number(*position))
-    });
+    let remedy = in_degrees.and_then(|(_, position, ..)| remedy(*position));
+    let remedy = remedy.map_or_else(String::new, |remedy| format!("; {remedy}"));
     let unit = JointVariable::Position.unit(*kind);
     let [lower, upper] = limits.map(significant);
     let position = number(*position);
@@ -95,9 +142,23 @@ mod tests {
             ),
             ([0.0, 0.0, 1.0, 0.0], Some("q3 = 1 m is outside its limits, 0 to 0.5 m")),
         ] {
-            assert_eq!(outside(&positions, true, &robot).as_deref(), expected, "{positions:?}");
+            let degrees =
+                |position| Some(format!("a value in degrees is written {}deg", number(position)));
+            let found = outside(&positions, &robot, degrees);
+            assert_eq!(found.as_deref(), expected, "{positions:?}");
         }
-        let turned = outside(&[3.0, 0.0, 0.0, 0.0], false, &robot);
+        let turned = outside(&[3.0, 0.0, 0.0, 0.0], &robot, |_| None);
         assert_eq!(turned.as_deref(), Some("q1 = 3 rad is outside its limits, -2 to 2 rad"));
+
+        let mut found = Outside::new(&robot);
+        found.add(Place::Line(2), &[2.0, 90.0, 0.5, -1.0]);
+        assert_eq!(found.note("states.csv"), None);
+        found.add(Place::Line(3), &[90.0, 0.0, 0.0, 0.0]);
+        let first = "note: states.csv: line 3: q1 = 90 rad is outside its limits, -2 to 2 rad; angles in files are in \
+                     radians";
+        assert_eq!(found.note("states.csv"), Some(format!("{first}\n")));
+        found.add(Place::Line(4), &[0.0, 0.0, 1.0, 0.0]);
+        let all = format!("{first} (2 such states)\n");
+        assert_eq!(found.note("states.csv"), Some(all));
     }
 }

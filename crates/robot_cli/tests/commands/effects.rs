@@ -1,6 +1,6 @@
 //! Options and values that have no effect, and those that are given twice, are noticed.
 
-use crate::{complaint, folder, robot, run};
+use crate::{complaint, folder, output, robot, run, run_with};
 
 /// The notes of a command that does its work.
 fn notes(arguments: &[&str]) -> String {
@@ -16,6 +16,24 @@ fn friction_that_is_in_no_base_parameter_is_noticed() {
     let start = "note: 1, 2, 3, 4, 5: friction that depends on the load (`coulomb`) is not part of";
     assert!(found.starts_with(start), "{found}");
     assert!(!note("planar_2r").contains("coulomb"));
+}
+
+/// Positions in degrees would otherwise be read as many turns.
+#[test]
+fn states_outside_the_limits_are_noted_once() {
+    let arguments = ["eval", &robot("ur5"), "--function", "gravity", "--states", "-"];
+    let states = |first: &str| format!("q1,q2,q3,q4,q5,q6\n{first}\n0,90,0,0,0,0\n0,-90,1,0,0,0\n");
+    for (first, all) in
+        [("0,0,0,0,0,0", "line 3: q2 = 90 rad"), ("7,0,0,0,0,0", "line 2: q1 = 7 rad")]
+    {
+        let done = run_with(&arguments, states(first).as_bytes());
+        assert_eq!(done.code, 0, "{}", done.errors);
+        let start = format!("note: standard input: {all} is outside its limits, ");
+        assert!(done.errors.starts_with(&start), "{}", done.errors);
+        assert!(done.errors.contains("angles in files are in radians ("), "{}", done.errors);
+        assert_eq!(done.errors.lines().count(), 1, "{}", done.errors);
+    }
+    output(&arguments, "q1,q2,q3,q4,q5,q6\n0,1,0,0,0,0\n");
 }
 
 #[test]

@@ -7,13 +7,14 @@ use robot_codegen::Errors;
 use robot_codegen::module::Function;
 use robot_jit::Handle;
 use robot_model::robot::Robot;
-use robot_model::variable::WRENCH;
+use robot_model::variable::{JointVariable, WRENCH};
 
 use super::digits::Digits;
 use super::infinite;
 use super::output::Printer;
 use crate::complaints::Complaints;
 use crate::failure::Failure;
+use crate::limits::Outside;
 use crate::outgoing::Outgoing;
 use crate::states::{Layout, Sink, State};
 
@@ -55,6 +56,7 @@ pub(super) struct Evaluation<'e, 'l, 't> {
     is_empty: bool,
     /// Whether the chosen function takes a wrench and no state has one.
     lack_wrenches: bool,
+    outside: Outside<'e>,
     failure: Option<Failure>,
 }
 
@@ -118,6 +120,7 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
             outgoing,
             is_empty: true,
             lack_wrenches: task.takes_wrench,
+            outside: Outside::new(task.robot),
             failure: None,
             task,
         }
@@ -131,6 +134,8 @@ impl<'e, 'l, 't> Evaluation<'e, 'l, 't> {
         self.compute()?;
         std::mem::take(&mut self.wrong).result(self.task.source.is_none())?;
         self.note_wrench();
+        let note = self.task.source.as_deref().and_then(|source| self.outside.note(source));
+        note.iter().for_each(|note| self.outgoing.warn(note));
         if let (true, Some(source)) = (self.is_empty, &self.task.source) {
             self.outgoing.warn(&format!("note: {source} has no states\n"));
         }
@@ -229,6 +234,8 @@ impl<'l> Sink<'l> for Evaluation<'_, 'l, '_> {
         if !self.wrong.is_none() {
             return ControlFlow::Continue(());
         }
+        let positions = state.array(JointVariable::Position.name());
+        self.outside.add(state.place, positions.unwrap_or_default());
         std::mem::swap(&mut self.block[self.waiting], state);
         self.waiting += 1;
         if self.waiting == BLOCK
