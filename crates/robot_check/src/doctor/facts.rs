@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use robot_model::description::{BodyLocation, Described, LinkLocation, Locations};
 use robot_model::diagnostic::Span;
-use robot_model::robot::{Body, JointKind, Link, Robot};
+use robot_model::robot::{Body, DhConvention, JointKind, Link, Robot};
 use robot_numeric::Evaluation;
 
 /// The robot in numbers.
@@ -26,6 +26,9 @@ pub(super) struct LinkFacts<'d> {
     pub(super) points: Vec<Vector3<f64>>,
     /// The distance from the parent's origin to this link's at joint position 0, m.
     pub(super) arm: f64,
+    /// The distance from this origin to that of the frame at the end of the link, if a standard Denavit-Hartenberg row
+    /// places it, m, and the row.
+    pub(super) end: Option<(f64, &'d Span)>,
     /// The distance by which a prismatic joint can move the link, m; 0 if it is not known.
     pub(super) travel: f64,
 }
@@ -54,6 +57,7 @@ impl<'d> RobotFacts<'d> {
             bodies: bodies(link, place, &at),
             points: points(robot, index, &at),
             arm: at.pose(&link.placement).translation.norm(),
+            end: end(robot, index, place, &at),
             travel: travel(robot, link),
         });
         RobotFacts { robot, locations, gravity: at.vector(&robot.gravity), links: links.collect() }
@@ -86,6 +90,19 @@ fn points(robot: &Robot, index: usize, at: &Evaluation<'_>) -> Vec<Vector3<f64>>
     let placements = children.map(|link| &link.placement);
     let placements = placements.chain(frames.map(|frame| &frame.placement));
     placements.map(|placement| at.pose(placement).translation).collect()
+}
+
+fn end<'d>(
+    robot: &Robot,
+    index: usize,
+    place: &'d LinkLocation,
+    at: &Evaluation<'_>,
+) -> Option<(f64, &'d Span)> {
+    let standard = DhConvention::Standard;
+    let row =
+        robot.dh.iter().find(|row| row.moving == Some(index) && row.convention == standard)?;
+    let along = [at.number(&row.a), at.number(&row.d)];
+    Some((along[0].hypot(along[1]), place.origin.as_ref()?))
 }
 
 fn travel(robot: &Robot, link: &Link) -> f64 {

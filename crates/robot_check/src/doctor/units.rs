@@ -25,14 +25,18 @@ const MOMENTS: &[(&str, f64)] =
 
 pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
     for link in &facts.links {
-        if link.arm > LONGEST {
+        if let Some((distance, row)) = long_row(link) {
+            found.push(long("the frame of", &link.link.name, distance, row));
+        }
+        let is_end_of_row = |parent: usize| facts.links.get(parent).and_then(long_row).is_some();
+        if link.arm > LONGEST && !link.link.parent.is_some_and(is_end_of_row) {
             let place = link.place.origin.as_ref().unwrap_or(&link.place.name);
             found.push(long("the frame of", &link.link.name, link.arm, place));
         }
         found.extend(far(facts, link));
         for body in &link.bodies {
             let (name, distance) = (&body.body.name, body.center.norm());
-            if distance > LONGEST {
+            if distance > LONGEST && long_row(link).is_none() {
                 found.push(long("the center of mass of", name, distance, body.of_center()));
             }
             if !body.has_tensor() {
@@ -56,6 +60,12 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
                 .help("give it in m/s^2"),
         );
     }
+}
+
+/// The length and the place of a standard Denavit-Hartenberg row that is too long. It also moves the center of mass of
+/// its link and the frames of the links that follow.
+fn long_row<'d>(link: &LinkFacts<'d>) -> Option<(f64, &'d Span)> {
+    link.end.filter(|(distance, _)| *distance > LONGEST)
 }
 
 /// The warning about the limits of a prismatic joint.
@@ -126,4 +136,44 @@ fn dense(body: &BodyFacts<'_>) -> Diagnostic {
             significant(density(body))
         ))
         .help("give the mass in kg, and the tensor about the center of mass in kg m^2")
+}
+
+#[cfg(test)]
+mod tests {
+    use robot_model::diagnostic::code;
+
+    use crate::doctor::{Options, check};
+
+    /// Each row of a table in mm is reported, and nothing else.
+    #[test]
+    fn rows_in_mm_are_reported_where_they_are() {
+        let rows = ["{ d = 0.29, alpha = \"-pi/2\" }", "{ a = 0.27 }", "{ a = 0.07, d = 0.1 }"];
+        let links: String = (1..=3)
+            .map(|number| {
+                format!(
+                    "[[link]]\nname = \"{number}\"\nmass = 3\ncenter_of_mass = [0.01, 0, 0.02]\n\
+                     inertia = {{ xx = 0.02, yy = 0.03, zz = 0.02 }}\n"
+                )
+            })
+            .collect();
+        for (convention, index, long) in [
+            ("standard", 0, "{ d = 290, alpha = \"-pi/2\" }"),
+            ("standard", 1, "{ a = 270 }"),
+            ("standard", 2, "{ a = 70, d = 100 }"),
+            ("modified", 0, "{ d = 290, alpha = \"-pi/2\" }"),
+            ("modified", 2, "{ a = 70, d = 100 }"),
+        ] {
+            let mut rows = rows;
+            rows[index] = long;
+            let text = format!(
+                "format = 1\n[robot]\nname = \"arm\"\n[dh]\nconvention = \"{convention}\"\nrows = [{}]\n{links}",
+                rows.join(", ")
+            );
+            let found = check("arm.toml", &text, &Options::default()).found;
+            let found = found.iter().filter(|one| one.code == code::UNITS);
+            let places = found.filter_map(|one| Some(&text[one.primary.as_ref()?.span.clone()]));
+            let places: Vec<&str> = places.collect();
+            assert_eq!(places, [long], "{convention}");
+        }
+    }
 }

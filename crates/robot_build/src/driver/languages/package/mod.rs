@@ -118,6 +118,17 @@ impl Parts<'_> {
         }
         section(&mut text, "Use");
         text.push_str(usage);
+        for (setter, name) in self.flat.setters.iter().zip(&tree.setters) {
+            let arguments: Vec<&str> =
+                setter.arguments.iter().map(|argument| argument.name.as_str()).collect();
+            paragraph(
+                &mut text,
+                &format!(
+                    "`{name}` sets these values in the parameters: `{}`.",
+                    arguments.join("`, `")
+                ),
+            );
+        }
         let functions: Vec<String> =
             tree.functions.iter().map(|function| function.name.clone()).collect();
         let sections = Sections {
