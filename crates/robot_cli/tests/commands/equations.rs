@@ -7,7 +7,7 @@ use robot_numeric::{Loads, Mechanism, Wrench};
 use robot_symbolic::Formula;
 use serde_json::{Map, Value};
 
-use crate::{complaint, output, robot, run};
+use crate::{complaint, folder, output, robot, run};
 
 const Q: [f64; 5] = [0.1, -0.7, 0.2, 0.3, 1.1];
 const QD: [f64; 5] = [0.4, 1.2, -0.3, 0.6, -0.9];
@@ -319,6 +319,22 @@ fn mathml_is_a_page_of_its_own() {
     assert!(count(&narrow) > count(&page));
     let page = run(&["base", &file, "--format", "mathml", "--numbers"]).output;
     assert!(page.contains("<mtext>(20)</mtext>"), "{page}");
+}
+
+/// The short form of this friction is not proved equal; it is printed as a plain sum.
+#[test]
+fn what_is_not_proved_is_printed_as_a_sum() {
+    let text = "format = 1\n[robot]\nname = \"swing\"\ngravity = [1, 2, -9]\n[parameters]\nc1 = 0.3\n[[link]]\n\
+                name = \"1\"\njoint = { type = \"revolute\", axis = [0.494, 0, \"2.5*c1\"] }\nmass = 4.5\n\
+                center_of_mass = [0, 0, 0]\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }\n\
+                friction = { coulomb = 0.151, spindle_diameter = 0.05 }\n";
+    let file = folder("unproved").join("swing.toml");
+    std::fs::write(&file, text).unwrap();
+    let file = file.to_str().unwrap();
+    for form in ["grouped", "collected", "regrouped", "expanded"] {
+        let shown = output(&["equations", file, "--form", form, "--friction"], "");
+        assert!(shown.contains("F_l1_y = "), "{form}: {shown}");
+    }
 }
 
 #[test]

@@ -243,8 +243,7 @@ def calls(function, taken, given, states):
             numpy.asarray(part, dtype=float).ravel().tofile(SINGLE)
     inputs = [numpy.ascontiguousarray(block[:, a : a + length].T) for a, length in zip(starts, taken)]
     found = [numpy.asarray(part, dtype=float) for part in parts(function(*MODEL, *inputs))]
-    found = [part.reshape(length, -1) for part, length in zip(found, given)]
-    found = [numpy.broadcast_to(part, (part.shape[0], states)) for part in found]
+    found = [part.reshape(length, states) for part, length in zip(found, given)]
     numpy.concatenate(found).T.copy().tofile(BATCH)
 
 

@@ -97,7 +97,7 @@ fn misshapen(text: &str, span: &Span, what: &str, kind: Kind) -> Diagnostic {
     };
     let rule = match kind {
         Kind::Identifier => {
-            "use letters, digits and `_`, not beginning with a digit, as in `l_5`; the key \
+            "use letters, digits and `_`, not beginning with a digit and not `_` alone, as in `l_5`; the key \
              `latex` of a parameter sets how it is printed"
         }
         Kind::Label => "use letters, digits, `_`, `-` and `.`, not beginning with `-` or `.`",

@@ -32,6 +32,8 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         let before = commas.partition_point(|rest| rest.start < place);
         before.checked_sub(1).and_then(|last| commas.get(last)).is_some_and(|rest| place < rest.end)
     };
+    // Everything behind a list that is not closed would be read as its entries; the errors there are its consequences.
+    let mut open_list: Option<usize> = None;
     for error in &errors {
         let span = error.span().unwrap_or(end..end);
         let duplicate = error.message() == "duplicate key";
@@ -44,14 +46,21 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         if follows_comma(span.start) {
             continue;
         }
-        // Everything behind a list that is not closed would be read as its entries.
+        if open_list.is_some_and(|place| place <= span.start) {
+            continue;
+        }
         if error.message().starts_with("missing comma between array elements")
             && begins_a_line(text, span.start)
         {
+            open_list = Some(span.start);
+            // A string that is not closed is reported instead: it contains the end of the list.
+            if errors.iter().any(|one| is_open_string(one, span.start)) {
+                continue;
+            }
             let message = "invalid TOML: a list before this line is not closed".to_owned();
             let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
             found.push(diagnostic.help("add the missing `]` at the end of the list"));
-            break;
+            continue;
         }
         let message = words(error.message());
         let help = remedy(text, error.message(), &span);
@@ -60,16 +69,17 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         found.push(diagnostic);
     }
     if found.len() > 1 && !is_robot_file(text) {
-        let message = "the text is not a robot file";
         let place = errors.iter().find_map(toml::de::Error::span).unwrap_or(end..end);
-        found = vec![
-            Diagnostic::error(code::SYNTAX, message)
-                .at(&place, "neither TOML nor XML")
-                .because("it has neither `format = 1` nor a table such as `[robot]`")
-                .help("check which file is meant; a robot file is TOML or URDF"),
-        ];
+        found = vec![no_robot_file(&place)];
     }
     (table, found)
+}
+
+fn no_robot_file(place: &Span) -> Diagnostic {
+    Diagnostic::error(code::SYNTAX, "the text is not a robot file")
+        .at(place, "neither TOML nor XML")
+        .because("it has neither `format = 1` nor a table such as `[robot]`")
+        .help("check which file is meant; a robot file is TOML or URDF")
 }
 
 /// Whether a text with errors has the marks of a robot file in TOML, or explains itself, as JSON does.
@@ -86,6 +96,14 @@ fn line_of(text: &str, byte: usize) -> &str {
     let before = text.get(..byte).unwrap_or_default();
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
     text.get(start..).unwrap_or_default()
+}
+
+/// Whether an error is a string before a byte that is not closed.
+fn is_open_string(error: &toml::de::Error, byte: usize) -> bool {
+    let message = error.message();
+    let is_open = message.starts_with("invalid basic string")
+        || message.starts_with("invalid literal string");
+    is_open && error.span().is_some_and(|span| span.start < byte)
 }
 
 /// Whether a header or a key with its value begins at a byte, the first of its line that is not a space.

@@ -95,13 +95,8 @@ impl<'g> Collector<'g, '_> {
             Some(Proved::Same) => terms,
             // A sum in the numerator has canceled the same sum in a denominator.
             Some(Proved::Shorter(canceled)) => self.collect(&canceled, rank, brackets),
-            unproved => {
-                debug_assert!(
-                    unproved.is_none(),
-                    "a collected formula differs from its polynomial"
-                );
-                polynomial.arranged(&rank)
-            }
+            // Relations between sums and roots under fraction bars can be too many for the proof.
+            Some(Proved::Different) | None => polynomial.arranged(&rank),
         }
     }
 
@@ -207,7 +202,7 @@ enum Proved<'g> {
     Same,
     /// It is equal and, multiplied out, this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
     Shorter(Polynomial<'g>),
-    /// It is another polynomial.
+    /// It is another polynomial, or equal because of a relation that the proof does not know.
     Different,
 }
 

@@ -37,9 +37,15 @@ def _floats(array, name, length):
 
 
 def _shaped(values, shape, inputs):
-    if any(_is_array(value) for value in (*inputs, *values)):
-        values = _numpy.stack(_numpy.broadcast_arrays(*values))
-        return values.reshape(shape + values.shape[1:])
+    # The states of the inputs count for values that do not depend on them, too.
+    sizes = [value.shape for value in values if _is_array(value)]
+    for one in inputs:
+        entries = [entry.shape for entry in one if _is_array(entry)]
+        sizes.extend([one.shape[1:]] if _is_array(one) else entries)
+    if sizes:
+        size = _numpy.broadcast_shapes(*sizes)
+        values = _numpy.stack([_numpy.broadcast_to(value, size) for value in values])
+        return values.reshape(shape + size)
     if len(shape) == 2:
         return [values[row * shape[1] : (row + 1) * shape[1]] for row in range(shape[0])]
     return values if shape else values[0]
