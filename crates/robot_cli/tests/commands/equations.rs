@@ -294,7 +294,7 @@ fn the_regrouped_form_is_linear_in_base_parameters() {
 #[test]
 fn a_symbol_with_the_name_of_a_base_parameter_is_refused() {
     let text = std::fs::read_to_string(robot("planar_2r")).unwrap().replace("r1", "ZZR_1");
-    let path = crate::folder("taken").join("arm.toml");
+    let path = folder("taken").join("arm.toml");
     std::fs::write(&path, text).unwrap();
     let errors = complaint(1, &["equations", path.to_str().unwrap(), "--form", "regrouped"], "");
     assert!(errors.contains("defines a symbol `ZZR_1` of its own"), "{errors}");
