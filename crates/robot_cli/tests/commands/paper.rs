@@ -223,7 +223,7 @@ fn introduction(counts: &Counts) -> String {
     let all = same + differing + reordered + names;
     format!(
         "# TRTTR1, equation by equation\n\n\
-         This page shows equations (9) to (61) of the [text that we have of the paper](trttr1.md) beside those that\n\
+         This page shows the scalar equations among (9) to (61) of the [text that we have of the paper](trttr1.md) beside those that\n\
          `robot-symbolic equations robots/trttr1.toml --like docs/trttr1.printed` prints. A test checks that this\n\
          page is up to date.\n\n\
          Of {all} scalar equations:\n\n\

@@ -3,7 +3,7 @@
 //! The interpreter does the operations of the generated code in `f64`, one by one and in the same order.
 //! It computes values without a compiler, and generated code can be compared with it to the last bit, except
 //! for multiply-adds, including those of the runtime's sines: here they round twice on every machine, in
-//! compiled code once on targets that fuse them.
+//! compiled code once on targets that fuse them. Limbs that are alike are computed one by one here.
 //!
 //! [`Interpreter::call`] takes the function and its inputs by name. If one function runs at many states,
 //! [`Interpreter::function`] looks it up once and returns a [`Callable`], which computes blocks of states.

@@ -47,7 +47,7 @@ impl Waiting {
     }
 
     /// Whether a node is a product that becomes part of a multiply-add if it is not the first term of
-    /// the one sum that uses it.
+    /// the one sum that uses it. A single use is taken to be a sum.
     pub(super) fn fuses(&self, id: Id) -> bool {
         let own = self.fused && self.uses[id as usize] == 1 && !self.view.is_early(id);
         own && matches!(self.view.node(id), Node::Product(factors) if factors.len() > 1)

@@ -21,8 +21,8 @@ impl<'g> Mechanism<'g> {
     /// The groups of two or more revolute joints with parallel axes that follow each other along the mechanism, with
     /// or without prismatic joints between them.
     ///
-    /// A joint whose position is neither its coordinate nor the negative of it, such as a geared mimic joint, belongs
-    /// to no group.
+    /// A joint whose position is neither its coordinate nor the negative of it, apart from a constant, such as a geared
+    /// mimic joint, belongs to no group.
     #[must_use]
     pub fn parallel_angles(&self) -> Vec<ParallelAngles<'g>> {
         let mut groups: Vec<ParallelAngles<'g>> = vec![];

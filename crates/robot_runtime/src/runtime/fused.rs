@@ -6,7 +6,7 @@ extern crate std;
 /// Whether [`Scalar::mul_add`](super::Scalar::mul_add) rounds once.
 ///
 /// True with feature `std` (only the standard library offers the instruction in stable Rust) if the program is compiled
-/// for a target that has the instruction: x86 with `fma`, 64-bit ARM, RISC-V with `d`. Otherwise a multiply-add is a
+/// for a target that has the instruction: x86 with `fma`, 64-bit ARM, RISC-V with `d` (with a nightly compiler only). Otherwise a multiply-add is a
 /// product and a sum, each rounded, with the same bits on every such target.
 pub const FUSED: bool = cfg!(all(
     feature = "std",

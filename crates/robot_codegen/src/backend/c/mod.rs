@@ -2,7 +2,7 @@
 //!
 //! It prints one header with a structure of parameters, a structure of the model, whose values depend only on them, and
 //! functions for each function of the module: one that takes the state, one that takes sines and cosines, and one over
-//! columns of states. The code allocates nothing and calls only functions of `<math.h>`. Sines and cosines are the
+//! columns of states. The code allocates nothing and calls only functions of `<math.h>`, and `memcpy`. Sines and cosines are the
 //! runtime's polynomials, unless the options choose the standard library.
 
 mod arduino;

@@ -1,5 +1,5 @@
-//! Documentation of printed code. Text from outside is escaped only here; Markdown from the caller is printed
-//! unchanged.
+//! Documentation of printed code. Text from outside becomes plain Markdown only here; each printer also escapes what
+//! would end its comments. Markdown from the caller keeps its marks.
 
 use crate::counts::Counts;
 use crate::module::Function;

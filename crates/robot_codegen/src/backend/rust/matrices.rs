@@ -16,7 +16,8 @@ use crate::module::Output;
 use crate::program::Operation;
 
 /// The most entries that a loop stores. LLVM joins the sets of memory that may overlap once it has 250 of them, and
-/// then no longer knows that the stores are independent.
+/// then no longer knows that the stores are independent. Entries that would need more than [`MAX_LOOPS`] loops are stored
+/// by a single one.
 const MAX_ENTRIES: usize = 240;
 
 /// The most loops for one function: each computes again what the entries of several loops have in common.

@@ -124,7 +124,7 @@ add_test(NAME {name} COMMAND {name}_test)
             usage = format!("```c\n#include \"{name}.h\"\n\n{example}\n```\n\n");
         }
         usage.push_str(&format!(
-            "Every function is in the header `{name}.h`, which needs only the C library's mathematical functions. Arrays have \
+            "Every function is in the header `{name}.h`, which needs only `<math.h>`, and `memcpy` of `<string.h>`. Arrays have \
              elements of type `{}`; a matrix is an array, row by row. To test it:\n\n\
              ```sh\ncc -std=c99 -O2 -ffp-contract=off test.c -o test -lm && ./test\n```\n\n\
              or with CMake: `cmake -B build && cmake --build build && ctest --test-dir build`. {}\n",
