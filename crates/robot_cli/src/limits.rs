@@ -38,17 +38,13 @@ pub(crate) struct Outside<'r> {
 
 impl Outside<'_> {
     pub(crate) fn new(robot: &Robot) -> Outside<'_> {
-        let limits = robot.coordinates.iter();
-        let limits = limits.map(|one| Some(one.limits.as_ref()?.each_ref().map(Rational::to_f64)));
-        Outside { robot, limits: limits.collect(), count: 0, first: None }
+        Outside { robot, limits: limits(robot).collect(), count: 0, first: None }
     }
 
     /// Adds the positions of a state.
     pub(crate) fn add(&mut self, place: Place, positions: &[f64]) {
-        let is_inside = |(limits, position): (&Option<[f64; 2]>, &f64)| {
-            limits.is_none_or(|[lower, upper]| (lower..=upper).contains(position))
-        };
-        if self.limits.iter().zip(positions).all(is_inside) {
+        let mut all = self.limits.iter().zip(positions);
+        if all.all(|(limits, position)| limits.is_none_or(|limits| is_inside(limits, *position))) {
             return;
         }
         self.count += 1;
@@ -69,6 +65,16 @@ impl Outside<'_> {
     }
 }
 
+/// The limits of each coordinate that has them, in rad or m.
+fn limits(robot: &Robot) -> impl Iterator<Item = Option<[f64; 2]>> {
+    let limits = robot.coordinates.iter().map(|coordinate| coordinate.limits.as_ref());
+    limits.map(|limits| limits.map(|limits| limits.each_ref().map(Rational::to_f64)))
+}
+
+fn is_inside([lower, upper]: [f64; 2], position: f64) -> bool {
+    (lower..=upper).contains(&position)
+}
+
 /// The text about the positions outside their limits, if there are any; `remedy` is the advice if a position would be
 /// inside in degrees.
 fn outside(
@@ -78,11 +84,11 @@ fn outside(
 ) -> Option<String> {
     let symbols = robot.symbols(JointVariable::Position);
     let mut found = vec![];
-    for ((coordinate, symbol), position) in robot.coordinates.iter().zip(symbols).zip(positions) {
-        let Some(limits) = &coordinate.limits else { continue };
-        let [lower, upper] = limits.each_ref().map(Rational::to_f64);
-        if !(lower..=upper).contains(position) {
-            found.push((symbol, *position, [lower, upper], coordinate.kind));
+    let kinds = robot.coordinates.iter().map(|coordinate| coordinate.kind);
+    for (((kind, limits), symbol), position) in kinds.zip(limits(robot)).zip(symbols).zip(positions)
+    {
+        if let Some(limits) = limits.filter(|limits| !is_inside(*limits, *position)) {
+            found.push((symbol, *position, limits, kind));
         }
     }
     let (symbol, position, limits, kind) = found.first()?;
@@ -92,8 +98,8 @@ fn outside(
         [other] => format!(", and so is {other}"),
         [..] => format!(", and so are {}", others.join(", ")),
     };
-    let in_degrees = found.iter().find(|(_, position, [lower, upper], kind)| {
-        *kind == JointKind::Revolute && (*lower..=*upper).contains(&position.to_radians())
+    let in_degrees = found.iter().find(|(_, position, limits, kind)| {
+        *kind == JointKind::Revolute && is_inside(*limits, position.to_radians())
     });
     let remedy = in_degrees.and_then(|(_, position, ..)| remedy(*position));
     let remedy = remedy.map_or_else(String::new, |remedy| format!("; {remedy}"));

@@ -119,12 +119,12 @@ impl Module {
         self.functions.iter().find(|function| function.name == name)
     }
 
-    /// Returns the parameter that a field of the model is a copy of, if it is one.
+    /// Returns the index of the parameter that a field of the model is a copy of, if it is one.
     #[must_use]
-    pub fn field_parameter(&self, field: usize) -> Option<&ParameterSpec> {
+    pub fn field_parameter(&self, field: usize) -> Option<usize> {
         use crate::program::Operation;
         match self.constructor.operation(*self.constructor.results().get(field)?) {
-            Operation::Load(Source::Parameter(index)) => self.parameters.get(index as usize),
+            Operation::Load(Source::Parameter(index)) => Some(index as usize),
             _ => None,
         }
     }

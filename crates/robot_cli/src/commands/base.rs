@@ -98,8 +98,7 @@ impl Arguments {
                 size(shown.len())
             )?;
         }
-        note_load(&robot, terminal)?;
-        note_offsets(&robot, terminal)?;
+        note_friction(&robot, terminal)?;
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }
@@ -108,34 +107,30 @@ fn acts(formula: &Formula) -> bool {
     formula.as_number().is_none_or(|one| one.to_f64() != 0.0)
 }
 
-/// Prints a note about joints with friction in which the joint torques are not linear.
-fn note_load(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-    let joints = robot.links.iter().filter(|link| acts(&link.friction.coulomb));
-    let names: Vec<&str> = joints.map(|link| link.joint.name.as_str()).collect();
-    if names.is_empty() {
-        return Ok(());
-    }
-    let message = "friction that depends on the load (`coulomb`) is not part of the base parameters: it is a product of \
-                   its coefficient and a contact force, so the joint torques are not linear in both";
-    writeln!(terminal.errors, "note: {}: {message}", names.join(", "))?;
-    Ok(())
-}
-
-/// Prints a note about joints whose offset cannot be distinguished from their constant dry friction while they move.
-fn note_offsets(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+/// Prints notes about joints whose friction is not part of the base parameters, and about those whose offset cannot be
+/// distinguished from their constant dry friction while they move.
+fn note_friction(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
     let is_dry = |friction: &Friction| {
         [&friction.coulomb_positive, &friction.coulomb_negative].into_iter().any(acts)
     };
-    let is_both = |friction: &Friction| acts(&friction.offset) && is_dry(friction);
-    let joints = robot.links.iter().filter(|link| is_both(&link.friction));
-    let names: Vec<&str> = joints.map(|link| link.joint.name.as_str()).collect();
-    if names.is_empty() {
-        return Ok(());
-    }
-    let message = "the column of FO differs from that of FP minus that of FN only at rest or, with a smoothing, at low \
-                   velocities; to fit logs of motion, leave `offset` out: FP and FN then include it";
-    writeln!(terminal.errors, "note: {}: {message}", names.join(", "))?;
-    Ok(())
+    let mut note = |concerns: &dyn Fn(&Friction) -> bool, message: &str| -> Result<(), Failure> {
+        let joints = robot.links.iter().filter(|link| concerns(&link.friction));
+        let names: Vec<&str> = joints.map(|link| link.joint.name.as_str()).collect();
+        if !names.is_empty() {
+            writeln!(terminal.errors, "note: {}: {message}", names.join(", "))?;
+        }
+        Ok(())
+    };
+    note(
+        &|friction| acts(&friction.coulomb),
+        "friction that depends on the load (`coulomb`) is not part of the base parameters: it is a product of its \
+         coefficient and a contact force, so the joint torques are not linear in both",
+    )?;
+    note(
+        &|friction| acts(&friction.offset) && is_dry(friction),
+        "the column of FO differs from that of FP minus that of FN only at rest or, with a smoothing, at low \
+         velocities; to fit logs of motion, leave `offset` out: FP and FN then include it",
+    )
 }
 
 /// The number of bytes of formulas that people can read, those of some thirty pages.

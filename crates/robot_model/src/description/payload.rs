@@ -21,6 +21,12 @@ type Parameters = (Vec<Parameter>, Vec<ParameterLocation>);
 /// What the parent of a payload is.
 const CARRIER: &str = "the name of a moving link, of a tip or of a frame";
 
+/// The keys of the body of a link, which a payload does not have, and the remedy for them.
+const BODY: [&str; 3] = ["mass", "center_of_mass", "inertia"];
+const BODY_HELP: &str = "the mass, center of mass and inertia of a payload are parameters, `payload_mass` and so on, \
+                         whose values are set where the equations are used; write a body that is always there as a \
+                         fixed `[[link]]`";
+
 /// Reads the table and adds the parameters of the payload. They are 0 by default: the robot carries nothing.
 pub(super) fn read(
     reader: &mut Reader<'_>,
@@ -35,6 +41,13 @@ pub(super) fn read(
     let last = links.len().checked_sub(1).map_or(Parent::Base, Parent::Link);
     let parent =
         table.get("parent").map_or(Some(last), |entry| named_parent(reader, &entry, CARRIER));
+    for key in BODY {
+        if let Some(entry) = table.misplaced(key) {
+            let message = format!("`{key}` is not a key of {}", PAYLOAD.what);
+            let error = Diagnostic::error(code::UNKNOWN_KEY, message);
+            reader.report(error.at(&entry.key, "unknown key").help(BODY_HELP));
+        }
+    }
     table.finish(reader);
     let frame = frames
         .iter()

@@ -4,7 +4,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::reader::Reader;
-use super::shape::{PAYLOAD, Presence, Shape};
+use super::shape::{Presence, Shape};
 use crate::diagnostic::{Diagnostic, Span, code, quote};
 
 /// A value of the file with its place.
@@ -16,13 +16,6 @@ pub(super) struct Entry<'a> {
     pub(super) key: Span,
     pub(super) value: Value<'a>,
 }
-
-/// The keys of the body of a link, which a payload does not have.
-const BODY: [&str; 3] = ["mass", "center_of_mass", "inertia"];
-/// The remedy for them.
-const BODY_OF_PAYLOAD: &str = "the mass, center of mass and inertia of a payload are parameters, `payload_mass` and so \
-                               on, whose values are set where the equations are used; write a body that is always \
-                               there as a fixed `[[link]]`";
 
 /// A table that is being read.
 pub(super) struct Table<'a> {
@@ -110,25 +103,26 @@ impl<'a> Table<'a> {
 
     /// Reports the keys of the table that are not known.
     pub(super) fn finish(self, reader: &mut Reader<'_>) {
+        let is_own = |known: &&str| self.shape.key(known).is_some();
+        let own: Vec<&str> = self.known.iter().copied().filter(is_own).collect();
         for (key, _) in self.keys {
             let name = key.get_ref().as_ref();
             if self.known.contains(&name) {
                 continue;
             }
             let absent = |known: &&str| !self.keys.contains_key(*known);
-            let near = reader.nearest(name, self.known.iter().copied().filter(absent));
+            let near = reader.nearest(name, own.iter().copied().filter(absent));
             let label = match near {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "unknown key".to_owned(),
             };
             let what = self.shape.what;
             let message = format!("`{}` is not a key of {what}", quote(name));
-            let help = match self.known.as_slice() {
+            let help = match own.as_slice() {
                 [only] => format!("the only key of {what} is `{only}`"),
                 known => format!("the keys of {what} are {}", list(known)),
             };
             let help = match self.shape.owners(name).as_slice() {
-                _ if what == PAYLOAD.what && BODY.contains(&name) => BODY_OF_PAYLOAD.to_owned(),
                 owners @ [_, ..] if near.is_none() => {
                     format!("`{name}` is a key of {}; {help}", owners.join(" and "))
                 }

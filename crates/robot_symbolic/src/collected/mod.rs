@@ -95,8 +95,7 @@ impl<'g> Collector<'g, '_> {
             Some(Proved::Same) => terms,
             // A sum in the numerator has canceled the same sum in a denominator.
             Some(Proved::Shorter(canceled)) => self.collect(&canceled, rank, brackets),
-            // Relations between sums and roots under fraction bars can be too many for the proof.
-            Some(Proved::Different) | None => polynomial.arranged(&rank),
+            None => polynomial.arranged(&rank),
         }
     }
 
@@ -202,11 +201,10 @@ enum Proved<'g> {
     Same,
     /// It is equal and, multiplied out, this polynomial, which has fewer terms: m/(m + n) + n/(m + n) is 1.
     Shorter(Polynomial<'g>),
-    /// It is another polynomial, or equal because of a relation that the proof does not know.
-    Different,
 }
 
-/// Compares an expression with the polynomial by multiplying it out; `None` if this cannot be decided within the limits.
+/// Proves that an expression is equal to the polynomial by multiplying it out; `None` if this is not possible within the
+/// limits, or with the relations between denominators that the proof knows.
 fn proved<'g>(value: Expr<'g>, polynomial: &Polynomial<'g>) -> Option<Proved<'g>> {
     let expanded = Polynomial::of(value, &PolynomialOptions::default()).ok()?;
     if expanded == *polynomial {
@@ -219,11 +217,7 @@ fn proved<'g>(value: Expr<'g>, polynomial: &Polynomial<'g>) -> Option<Proved<'g>
     if polynomial.graph().is_full() {
         return None;
     }
-    Some(match is_zero {
-        true if is_shorter => Proved::Shorter(expanded),
-        true => Proved::Same,
-        false => Proved::Different,
-    })
+    is_zero.then(|| if is_shorter { Proved::Shorter(expanded) } else { Proved::Same })
 }
 
 /// Whether an atom in a denominator is related to other atoms: a sum to its terms, a sine or cosine to the other one.

@@ -98,11 +98,7 @@ pub(in crate::backend) fn unreserved(mut name: String, reserved: &Reserved) -> S
 pub fn field_names(module: &Module, namer: &mut Namer) -> Vec<String> {
     let parameters = namer.names(module.parameters.iter().map(|one| one.name.as_str()));
     let mut count = 0;
-    let name = |field: usize| {
-        let copied = module.field_parameter(field)?;
-        let place = module.parameters.iter().position(|one| one.name == copied.name)?;
-        parameters.get(place).cloned()
-    };
+    let name = |field: usize| parameters.get(module.field_parameter(field)?).cloned();
     let mut numbered = || {
         count += 1;
         namer.name(&format!("k{count}"))

@@ -314,9 +314,10 @@ impl<'p> Search<'p> {
             factor.is_constant()
                 || factors.any(|(factor, _)| self.divisors.added(value, &[factor]).is_empty())
         };
-        let added = self.divisors.added(value, operands);
-        let own = if added.is_empty() { vec![] } else { self.divisors.of(value) };
-        added.into_iter().all(|divisor| own.iter().any(|own| is_multiple(*own, divisor)))
+        let has = |divisor: Value| {
+            self.divisors.of(value).into_iter().any(|own| is_multiple(own, divisor))
+        };
+        self.divisors.added(value, operands).into_iter().all(has)
     }
 
     /// Builds the program in which the values are replaced with their forms.

@@ -42,8 +42,10 @@ def _shaped(values, shape, inputs):
     # The states of the inputs count for values that do not depend on them, too.
     sizes = [value.shape for value in values if _is_array(value)]
     for one in inputs:
-        entries = [entry.shape for entry in one if _is_array(entry)]
-        sizes.extend([one.shape[1:]] if _is_array(one) else entries)
+        if _is_array(one):
+            sizes.append(one.shape[1:])
+        else:
+            sizes.extend(entry.shape for entry in one if _is_array(entry))
     if sizes:
         size = _numpy.broadcast_shapes(*sizes)
         values = _numpy.stack([_numpy.broadcast_to(value, size) for value in values])
