@@ -22,18 +22,10 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
     // An error without a place is at the end of the file, which is taken as the end of the last
     // line with text.
     let end = text.trim_end().len();
-    // What follows a decimal comma on its line; the errors there are its consequences.
-    let places = errors.iter().filter_map(|error| Some(error.span()?.start));
-    let commas = places.filter(|place| is_decimal_comma(text, *place));
-    let mut commas: Vec<Span> =
-        commas.map(|place| place..place + rest_of_line(text, place).len()).collect();
-    commas.sort_unstable_by_key(|rest| rest.start);
-    let follows_comma = |place: usize| {
-        let before = commas.partition_point(|rest| rest.start < place);
-        before.checked_sub(1).and_then(|last| commas.get(last)).is_some_and(|rest| place < rest.end)
-    };
-    // Everything behind a list that is not closed would be read as its entries; the errors there are its consequences.
-    let mut open_list: Option<usize> = None;
+    let commas = decimal_commas(text, &errors);
+    let strings = open_strings(&errors);
+    // What is read as entries of a list or inline table with a wrong bracket; the errors there are consequences.
+    let mut swallowed: Vec<Span> = vec![];
     for error in &errors {
         let span = error.span().unwrap_or(end..end);
         let duplicate = error.message() == "duplicate key";
@@ -43,23 +35,18 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
         if duplicate && line_of(text, span.start).starts_with('[') {
             header = Some(span.start..next_header(text, span.end));
         }
-        if follows_comma(span.start) {
+        if is_within(&commas, span.start) || is_within(&swallowed, span.start) {
             continue;
         }
-        if open_list.is_some_and(|place| place <= span.start) {
-            continue;
-        }
-        if error.message().starts_with("missing comma between array elements")
-            && begins_a_line(text, span.start)
-        {
-            open_list = Some(span.start);
-            // A string that is not closed is reported instead: it contains the end of the list.
-            if errors.iter().any(|one| is_open_string(one, span.start)) {
-                continue;
+        if let Some(bracket) = wrong_bracket(text, error.message(), span.start) {
+            // A string that is not closed is reported instead: it contains the closing bracket.
+            let string = strings[..strings.partition_point(|at| *at < span.start)].last();
+            if string.is_none_or(|at| is_within(&swallowed, *at)) {
+                let message = format!("invalid TOML: {}", bracket.message);
+                let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&bracket.place, "");
+                found.push(diagnostic.help(bracket.help));
             }
-            let message = "invalid TOML: a list before this line is not closed".to_owned();
-            let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
-            found.push(diagnostic.help("add the missing `]` at the end of the list"));
+            swallowed.push(bracket.swallowed);
             continue;
         }
         let message = words(error.message());
@@ -98,12 +85,66 @@ fn line_of(text: &str, byte: usize) -> &str {
     text.get(start..).unwrap_or_default()
 }
 
-/// Whether an error is a string before a byte that is not closed.
-fn is_open_string(error: &toml::de::Error, byte: usize) -> bool {
-    let message = error.message();
-    let is_open = message.starts_with("invalid basic string")
-        || message.starts_with("invalid literal string");
-    is_open && error.span().is_some_and(|span| span.start < byte)
+/// A list or an inline table with a missing or wrong bracket.
+struct WrongBracket {
+    message: &'static str,
+    help: &'static str,
+    place: Span,
+    /// The text that the parser reads as entries because of the bracket.
+    swallowed: Span,
+}
+
+/// The list or inline table with a wrong bracket that is the cause of an error of the parser at a byte.
+fn wrong_bracket(text: &str, error: &str, byte: usize) -> Option<WrongBracket> {
+    let rest = rest_of_line(text, byte);
+    let in_list = error.starts_with("missing comma between array elements");
+    let in_table = error.starts_with("missing comma between key-value pairs");
+    let until = |message, help, end| {
+        let place = byte..byte + first_character(rest).len();
+        Some(WrongBracket { message, help, place, swallowed: byte..end })
+    };
+    if in_list && rest.starts_with('}') {
+        until("`}` does not close a list", "close the list with `]`", usize::MAX)
+    } else if error.starts_with("invalid inline table element") && rest.starts_with(']') {
+        until("`]` does not close an inline table", "close the table with `}`", usize::MAX)
+    } else if in_list && begins_a_line(text, byte) {
+        let message = "a list before this line is not closed";
+        until(message, "add the missing `]` at the end of the list", usize::MAX)
+    } else if in_table && begins_a_line(text, byte) {
+        let message = "an inline table before this line is not closed";
+        until(message, "add the missing `}` at the end of the table", usize::MAX)
+    } else if error.starts_with("extra comma in inline table") && opens_with_number(text, byte) {
+        let message = "the entries of an inline table are `key = value`, not numbers";
+        let end = if rest.contains('}') { byte + rest.len() + 1 } else { usize::MAX };
+        until(message, "write a list in brackets, such as `[0.1, 0, 0]`", end)
+    } else {
+        None
+    }
+}
+
+/// Whether a number in an inline table that it opens ends at the byte.
+fn opens_with_number(text: &str, byte: usize) -> bool {
+    let before = text.get(..byte).unwrap_or_default();
+    let entry = before.rsplit_once('{').map(|(_, entry)| entry.trim());
+    entry.is_some_and(|entry| entry.parse::<f64>().is_ok())
+}
+
+/// The starts of the strings that are not closed, in order.
+fn open_strings(errors: &[toml::de::Error]) -> Vec<usize> {
+    let is_open = |error: &&toml::de::Error| {
+        let message = error.message();
+        message.starts_with("invalid basic string") || message.starts_with("invalid literal string")
+    };
+    let mut starts: Vec<usize> =
+        errors.iter().filter(is_open).filter_map(|error| Some(error.span()?.start)).collect();
+    starts.sort_unstable();
+    starts
+}
+
+/// Whether a byte is in the last span that begins before or at it; the spans are in order.
+fn is_within(spans: &[Span], byte: usize) -> bool {
+    let before = spans.partition_point(|span| span.start <= byte);
+    spans[..before].last().is_some_and(|span| byte < span.end)
 }
 
 /// Whether a header or a key with its value begins at a byte, the first of its line that is not a space.
@@ -119,6 +160,16 @@ fn begins_a_line(text: &str, byte: usize) -> bool {
 /// The text from the byte to the end of its line.
 fn rest_of_line(text: &str, byte: usize) -> &str {
     text.get(byte..).and_then(|rest| rest.lines().next()).unwrap_or_default()
+}
+
+/// What follows each decimal comma on its line, in order; the errors there are consequences of the comma.
+fn decimal_commas(text: &str, errors: &[toml::de::Error]) -> Vec<Span> {
+    let places = errors.iter().filter_map(|error| Some(error.span()?.start));
+    let commas = places.filter(|place| is_decimal_comma(text, *place));
+    let mut rests: Vec<Span> =
+        commas.map(|place| place + 1..place + rest_of_line(text, place).len()).collect();
+    rests.sort_unstable_by_key(|rest| rest.start);
+    rests
 }
 
 /// Whether an error at a byte is a comma in a number, such as that of `0,5`: the byte is the comma or the one after the

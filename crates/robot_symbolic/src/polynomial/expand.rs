@@ -140,7 +140,9 @@ impl<'g> Expander<'g> {
                 self.circular(function, angle.id(), &terms)?
             }
             View::Call(function, argument) => {
-                let terms = self.take(argument.id());
+                // As at the end of the expansion, so that the argument is the same if it is expanded again.
+                let terms = self.take(argument.id()).to_vec();
+                let terms = self.without_denominators(terms)?;
                 self.call(function, &terms)
             }
         })
