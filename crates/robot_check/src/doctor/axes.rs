@@ -25,7 +25,7 @@ pub(super) fn check(facts: &RobotFacts<'_>, found: &mut Vec<Diagnostic>) {
         );
         found.push(
             Diagnostic::warning(code::AXIS_NEAR, message)
-                .at(place, format!("{} is noise?", significant(*least)))
+                .at(place, format!("is {} noise?", significant(*least)))
                 .because(
                     "noise gives the axis a general direction, with many more terms and operations",
                 )

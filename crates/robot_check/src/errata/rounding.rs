@@ -19,7 +19,7 @@ enum Part {
 
 /// Half a unit of the last printed digit of a formula's decimal, as a fraction of the decimal: the largest relative
 /// error of the formula's coefficients. It is `None` unless the formula is a multiple of exactly one decimal: integers, and
-/// quotients of integers, are exact, and so are decimals in sums, such as a denominator.
+/// quotients of integers, are exact, and so are decimals in sums and in divisors.
 pub(super) fn of_formula(formula: &Formula) -> Option<Number> {
     let text = formula.text();
     let decimal = text.get(only_factor(text, decimals(text))?)?;

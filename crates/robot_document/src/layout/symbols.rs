@@ -218,8 +218,8 @@ impl SymbolTable {
         free.or_else(last).copied().unwrap_or("x")
     }
 
-    /// Returns the first candidate that no symbol uses with a number as its first index, and that is not itself a
-    /// symbol: a letter for a matrix or column, which is also printed without indices.
+    /// Like [`free_letter`](Self::free_letter), but prefers a candidate that is not itself a symbol: a letter for a matrix
+    /// or column, which is also printed without indices.
     #[must_use]
     pub fn free_letter_alone(&self, candidates: &[&'static str]) -> &'static str {
         let is_free = |letter: &str| !self.is_taken(letter) && !self.is_symbol(letter);

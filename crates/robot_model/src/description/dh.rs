@@ -57,8 +57,8 @@ fn link_row(
     convention: DhConvention,
 ) -> LinkRow {
     let kind = match table.get("type") {
-        // If the type is wrong, this placeholder lets the rest of the link be checked.
-        Some(entry) => joint::kind(reader, &entry).unwrap_or(Some(JointKind::Revolute)),
+        Some(entry) => joint::kind(reader, &entry)
+            .unwrap_or_else(|| Some(joint::probable_kind(reader, &entry))),
         None => Some(JointKind::Revolute),
     };
     let place = table.span.clone();

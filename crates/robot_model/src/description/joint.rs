@@ -35,13 +35,23 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
     })
 }
 
+/// The kind of joint for which the rest of a link is checked if its type is wrong: the one that is probably meant.
+pub(super) fn probable_kind(reader: &Reader<'_>, entry: &Entry<'_>) -> JointKind {
+    let DeValue::String(word) = entry.value.get_ref() else { return JointKind::Revolute };
+    let is_slide = elsewhere(word) == Some(WRITE_PRISMATIC)
+        || reader.nearest(word, JOINT_TYPES.iter().copied()) == Some("prismatic");
+    if is_slide { JointKind::Prismatic } else { JointKind::Revolute }
+}
+
+const WRITE_PRISMATIC: &str = "write \"prismatic\"";
+
 /// The advice for a joint type that other formats use.
 fn elsewhere(word: &str) -> Option<&'static str> {
     match word {
         "continuous" => Some("write \"revolute\" and leave out `limits`"),
         "rotation" | "rotational" | "hinge" | "R" => Some("write \"revolute\""),
         "translation" | "translational" | "linear" | "slide" | "slider" | "P" => {
-            Some("write \"prismatic\"")
+            Some(WRITE_PRISMATIC)
         }
         "floating" | "free" => Some(
             "use three prismatic and three revolute joints, with massless links between \
@@ -75,7 +85,7 @@ pub(super) fn read(
     places: &mut LinkLocation,
 ) -> DraftJoint {
     let mut joint = DraftJoint {
-        // If the type is wrong, this placeholder lets the rest of the link be checked.
+        // If there is no type, this placeholder lets the rest of the link be checked.
         kind: row.unwrap_or(Some(JointKind::Revolute)),
         name: link.clone(),
         axis: [zero(), zero(), Formula::number(&Rational::ONE)],
@@ -96,11 +106,13 @@ pub(super) fn read(
     };
     if row.is_none() {
         let example = "type = \"revolute\"";
-        match table.require(reader, "type", example).and_then(|entry| kind(reader, &entry)) {
-            Some(kind) => joint.kind = kind,
-            // Without a type, the other keys cannot be checked.
-            None => return joint,
-        }
+        // Without a type, the other keys of the joint cannot be checked.
+        let Some(entry) = table.require(reader, "type", example) else { return joint };
+        let Some(kind) = kind(reader, &entry) else {
+            joint.kind = Some(probable_kind(reader, &entry));
+            return joint;
+        };
+        joint.kind = kind;
     } else if let Some(entry) = table.get("type") {
         let message = "`type` does not belong here: the DH row gives it";
         reader.report(Diagnostic::error(code::CONFLICT, message).at(&entry.key, "no effect").help(

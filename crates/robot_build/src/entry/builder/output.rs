@@ -83,7 +83,8 @@ pub(super) fn check_names<'n>(
 /// robot files and their pinned plans.
 ///
 /// With `stems`, a module whose name differs from that of its robot file is also written under the latter name, so
-/// that a build that includes `lift.rs` for `lift.toml` finds it. Returns the paths of all files.
+/// that a build that includes `lift.rs` for `lift.toml` finds it; not if a robot, another file or the index has this name.
+/// Returns the paths of all files.
 pub(super) fn write(
     modules: &[Module],
     inputs: impl Iterator<Item = PathBuf>,

@@ -1,7 +1,7 @@
 //! Words that cannot be names in printed C and C++.
 
 /// The reserved words of C and C++, so that printed code has the same names in both, and the macros and functions of
-/// the standard library that occur in printed code or that a name must not hide.
+/// the standard library and the macros of compilers that occur in printed code or that a name must not hide.
 pub(super) const RESERVED: &[&str] = &[
     "DOMAIN",
     "EOF",

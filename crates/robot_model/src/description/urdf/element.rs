@@ -259,11 +259,12 @@ impl<'a, 'i> Element<'a, 'i> {
             let near = reader.nearest(name, all);
             let message =
                 format!("`<{}>` is not an element of `<{}>`", quote(name), self.kind.name);
-            let help = match names.as_slice() {
+            let known = match names.as_slice() {
                 [] => format!("`<{}>` has no child elements", self.kind.name),
                 [only] => format!("the only element that is read is `{only}`"),
                 names => format!("the elements that are read are {}", list(names)),
             };
+            let help = if near.is_none() { format!("remove it: {known}") } else { known };
             reader.report(unknown(&place, message, near, self.kind.strict).help(help));
         }
     }

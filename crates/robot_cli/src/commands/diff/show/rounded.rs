@@ -85,8 +85,8 @@ fn is_number(word: &str) -> bool {
         && word.chars().all(|character| character.is_ascii_digit() || "./".contains(character))
 }
 
-/// The value of a decimal or quotient, rounded to this number of significant digits; `None` for names and for what `f64`
-/// cannot hold.
+/// The value of a decimal or quotient, rounded to this number of significant digits; `None` for names, for 0, and for what
+/// `f64` cannot hold.
 fn value(word: &str, digits: usize) -> Option<f64> {
     let mantissa = word.split_once("e-").map_or(word, |(mantissa, _)| mantissa);
     let value = exact_value(word).filter(|_| is_number(mantissa))?.to_f64();
