@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn errors_are_those_of_the_entries_and_of_the_decomposition() {
-        let unit = 3.0 * UNIT;
+        let unit = 3.0 * 2.0_f64.powi(-53);
         // x = (1, −1) for the first pivot.
         let errors = errors(&exact(&[5.0, 4.0, 4.0, 4.0])).unwrap();
         let expected = unit * (5.0 + 4.0 + 2.0 * 20.0_f64.sqrt());
