@@ -14,7 +14,8 @@ pub(super) struct Table {
     rows: std::vec::IntoIter<LinkRow>,
     /// The place of `rows`.
     place: Span,
-    count: usize,
+    /// The number of rows that are written; `None` if they cannot be read.
+    count: Option<usize>,
     taken: usize,
 }
 
@@ -27,28 +28,33 @@ pub(super) struct LinkRow {
     pub(super) place: Span,
 }
 
-/// Reads the table, if the file has one.
+/// Reads the table, if the file has one. If its rows cannot be read, each link has a placeholder.
 pub(super) fn read(reader: &mut Reader<'_>, root: &mut table::Table<'_>) -> Option<Table> {
     let entry = root.get("dh")?;
-    let mut table = reader.table(entry.value, &DH_TABLE)?;
-    // An invalid convention has been reported; this placeholder stands in for it.
-    let convention = convention(reader, &mut table).unwrap_or(DhConvention::Standard);
+    let mut read = Table {
+        // An invalid convention is reported; this placeholder stands in for it.
+        convention: DhConvention::Standard,
+        place: entry.key.clone(),
+        count: None,
+        taken: 0,
+        rows: vec![].into_iter(),
+    };
+    let Some(mut table) = reader.table(entry.value, &DH_TABLE) else { return Some(read) };
+    read.convention = convention(reader, &mut table).unwrap_or(read.convention);
     let example = "rows = [{ type = \"revolute\", a = 0, alpha = \"pi/2\", d = 0.5 }]";
     let rows = table.require(reader, "rows", example);
     table.finish(reader);
-    let rows = rows?;
-    let values = reader.list(rows.value, "a list of rows `{ a = …, alpha = …, d = … }`")?;
+    let list = "a list of rows `{ a = …, alpha = …, d = … }`";
+    let Some(values) = rows.and_then(|rows| reader.list(rows.value, list)) else {
+        return Some(read);
+    };
     let tables = values.iter().filter_map(|value| reader.table(value, &DH_TABLE_ROW));
     let tables: Vec<_> = tables.collect();
     let rows: Vec<LinkRow> =
-        tables.into_iter().map(|table| link_row(reader, table, convention)).collect();
-    Some(Table {
-        convention,
-        place: entry.key,
-        count: values.len(),
-        taken: 0,
-        rows: rows.into_iter(),
-    })
+        tables.into_iter().map(|table| link_row(reader, table, read.convention)).collect();
+    read.count = Some(values.len());
+    read.rows = rows.into_iter();
+    Some(read)
 }
 
 fn link_row(
@@ -87,10 +93,8 @@ impl Table {
     /// Reports an error if the number of rows is not the number of links without a frame of their
     /// own.
     pub(super) fn finish(self, reader: &mut Reader<'_>) {
-        if self.count == self.taken {
-            return;
-        }
-        let (rows, links) = (self.count, self.taken);
+        let Some(rows) = self.count.filter(|rows| *rows != self.taken) else { return };
+        let links = self.taken;
         let plural = if rows == 1 { "" } else { "s" };
         let message = format!(
             "the DH table has {rows} row{plural}, but the number of links that take a row is {links}"

@@ -112,4 +112,20 @@ mod tests {
         }
         assert_eq!(errors(&exact(&[1.0, 2.0, 2.0, 1.0])), None);
     }
+
+    #[test]
+    fn errors_of_entries_are_limited_in_long_chains_alone() {
+        for (order, own) in [(LONG, 1.0), (LONG + 1, ROTATION * 18.0 * UNIT * 4.0)] {
+            let mut matrix = vec![Rounded { value: 0.0, error: 1.0 }; order * order];
+            for row in 0..order {
+                matrix[row * order + row].value = 4.0;
+            }
+            let decomposition = (order as f64 + 1.0) * UNIT * 4.0;
+            let errors = errors(&matrix).unwrap();
+            assert!(
+                errors.iter().all(|error| *error == own + decomposition),
+                "{order}: {errors:?}"
+            );
+        }
+    }
 }
