@@ -12,8 +12,8 @@ use crate::failure::Failure;
 /// The length up to which text is held back, so that nothing is printed if the work fails early.
 const HELD: usize = 1 << 16;
 
-/// A text that is written piece by piece. A file is put in its place when it is complete; standard output is written
-/// immediately, except for the last piece.
+/// A text that is written piece by piece. A file is put in its place when it is complete; standard output gets a
+/// piece as soon as it is long enough, and the last one at the end.
 pub(crate) struct Outgoing<'t> {
     destination: Destination<'t>,
     errors: &'t mut dyn Write,

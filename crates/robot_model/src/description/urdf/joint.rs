@@ -296,8 +296,8 @@ fn direction(reader: &mut Reader<'_>, attribute: &Attribute<'_>) -> Option<[Form
     Some(numbers.each_ref().map(Formula::number))
 }
 
-/// Reads the lower and upper limits. As URDF specifies, a limit that is left out is 0, which is noted unless the joint
-/// `mimics` another. `None` if both are equal.
+/// Reads the lower and upper limits, and their place. As URDF specifies, one limit that is left out is 0, which is noted
+/// unless the joint `mimics` another. `None` if both are left out or equal, or if one is infinite or invalid.
 fn limits(
     reader: &mut Reader<'_>,
     element: &Element<'_, '_>,
