@@ -6,10 +6,11 @@ use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::functions::out_of_reach;
 use robot_model::functions::{Effects, FunctionKind};
 use robot_model::robot::{BaseFrames, Robot};
-use robot_numeric::random::Random;
+use robot_numeric::random::{Random, Recipe};
+use robot_numeric::robots;
 use robot_symbolic::{Expr, Formula, Graph, Rational};
 
-use crate::{STATES, TOLERANCE, robots};
+use crate::{STATES, TOLERANCE};
 use robot_testing::place::{Layout, Off};
 use robot_testing::solver::{expected, state};
 use robot_testing::{evaluate, magnitude, robot};
@@ -47,9 +48,21 @@ fn check(robot: &Robot, name: &str, seed: u64) -> usize {
     values.len()
 }
 
+/// The rotor of a joint that mimics another turns by the ratio of the joint times the coordinate.
+#[test]
+fn base_parameters_of_rotors_that_follow_others() {
+    let followers = (60..68).map(|seed| {
+        let recipe = Recipe { drives: true, mimic: true, fixed: true, ..Recipe::tree(6) };
+        let robot = robots::robot(&mut Random::new(seed), &recipe);
+        check(&robot, "tree", seed);
+        robot.links.iter().filter(|it| it.drive.gyroscopic && it.joint.ratio.text() != "1").count()
+    });
+    assert!(followers.sum::<usize>() > 0);
+}
+
 #[test]
 fn base_parameters_give_the_joint_torques() {
-    for (name, robot, seed) in robots() {
+    for (name, robot, seed) in crate::robots() {
         for base_frames in BaseFrames::ALL {
             let robot = Robot { base_frames, ..robot.clone() };
             if out_of_reach(&robot).is_none() {

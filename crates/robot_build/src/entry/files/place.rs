@@ -120,6 +120,8 @@ fn location(path: &Path) -> Option<PathBuf> {
 
 #[cfg(all(test, target_os = "linux"))]
 mod tests {
+    use std::os::fd::AsRawFd;
+
     use super::*;
 
     #[test]
@@ -145,6 +147,21 @@ mod tests {
         ] {
             assert!(!is_stream(Path::new(path)), "{path}");
         }
+    }
+
+    #[test]
+    fn streams_are_for_reading_if_they_are_opened_for_it_alone() {
+        let path = std::env::temp_dir().join(format!("robot_stream_{}", std::process::id()));
+        let written = fs::File::create(&path).unwrap();
+        let read = fs::File::open(&path).unwrap();
+        for (file, expected) in [(&read, true), (&written, false)] {
+            for folder in ["/dev/fd", "/proc/self/fd"] {
+                let stream = Path::new(folder).join(file.as_raw_fd().to_string());
+                assert_eq!(is_for_reading(&stream), expected, "{}", stream.display());
+            }
+        }
+        assert!(!is_for_reading(Path::new("/")));
+        fs::remove_file(path).unwrap();
     }
 
     #[test]
