@@ -436,4 +436,6 @@ fn what_is_out_of_date_is_said() {
         assert_eq!(staleness(&path, &wanted), Ok(expected), "{present:?}");
     }
     assert!(staleness(&folder.path(""), &wanted).is_err());
+    // A file cannot contain another one.
+    assert!(staleness(&folder.put("file", "text").join("inside"), &wanted).is_err());
 }
