@@ -175,8 +175,8 @@ impl Math {
         }
     }
 
-    /// Whether a thin space separates the piece from the preceding one: both are factors, and one of them is a word in
-    /// italics, such as `ZZR` with an index.
+    /// Whether a thin space separates the piece from the preceding one: both are factors, and one of them is a symbol
+    /// of several letters, such as `mp`, or a word in italics, such as `ZZR` with an index.
     #[must_use]
     pub fn is_apart_from(&self, before: &Math) -> bool {
         let is_factor = |piece: &Math| {
@@ -188,9 +188,19 @@ impl Math {
 
     fn is_word(&self) -> bool {
         match self {
-            Math::Symbol(symbol) => symbol.shape.is_word(),
+            Math::Symbol(symbol) => symbol.shape.is_word() || symbol.shape.is_upright_word(),
             Math::Script(script) => script.base.is_word(),
             Math::Styled(Font::Italic, inside) => matches!(**inside, Math::Row(_)),
+            _ => false,
+        }
+    }
+
+    /// Whether the piece is an upright word, with or without indices. Beside other pieces of a symbol, such a word needs
+    /// no space.
+    fn is_upright_word(&self) -> bool {
+        match self {
+            Math::Word(_) => true,
+            Math::Script(script) => script.base.is_upright_word(),
             _ => false,
         }
     }

@@ -20,11 +20,11 @@
 //! These are the spans of motion of P. M. Wensing, G. Niemeyer, J.-J. E. Slotine, "A geometric characterization of
 //! observability in inertial parameter identification" (2018), extended here to drives.
 
-use robot_model::robot::{LINK_PARAMETERS, Robot};
+use robot_model::robot::LINK_PARAMETERS;
 
 use super::echelon::{Echelon, Row, closure};
 use super::joint::{Joint, energy};
-use super::scalar::Scalar;
+use super::scalar::{Points, Scalar};
 use super::standard::Quantity;
 use crate::mechanism::Mechanism;
 
@@ -46,9 +46,9 @@ struct Span<'g> {
 pub(super) fn conditions<'g>(
     mechanism: &Mechanism<'g>,
     joints: &[Joint<'g>],
-    robot: &Robot,
+    points: &Points<'_>,
 ) -> Vec<Vec<Row<'g>>> {
-    let base = at_base(mechanism, robot);
+    let base = at_base(mechanism, points);
     let mut spans: Vec<Span<'g>> = vec![];
     let mut conditions = vec![];
     for (link, joint) in mechanism.links.iter().zip(joints) {
@@ -62,12 +62,12 @@ pub(super) fn conditions<'g>(
 
 /// The span at the base, which is at rest: there are no twists, and the potential energy is −g · h plus a constant,
 /// with the first moment h.
-fn at_base<'g>(mechanism: &Mechanism<'g>, robot: &Robot) -> Span<'g> {
+fn at_base<'g>(mechanism: &Mechanism<'g>, points: &Points<'_>) -> Span<'g> {
     let graph = mechanism.graph;
     let zero = Scalar::new(graph.zero());
     let mut potential = vec![zero; LINK_PARAMETERS + 1];
     for (place, component) in mechanism.gravity.0.into_iter().enumerate() {
-        potential[1 + place] = Scalar::of(-component, robot);
+        potential[1 + place] = Scalar::of(-component, points);
     }
     potential[LINK_PARAMETERS] = Scalar::integer(zero, 1);
     Span { twists: vec![], kinetic: vec![], potential: vec![potential] }

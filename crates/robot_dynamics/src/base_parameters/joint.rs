@@ -1,10 +1,10 @@
 //! The transformation of twists and bodies across a joint and the placement before it.
 
-use robot_model::robot::{JointKind, LINK_PARAMETERS, Robot};
+use robot_model::robot::{JointKind, LINK_PARAMETERS};
 use robot_symbolic::{Expr, Graph};
 
 use super::echelon::Row;
-use super::scalar::Scalar;
+use super::scalar::{Points, Scalar};
 use crate::body::{Body, ENTRIES, FIRST_MOMENT, TENSOR};
 use crate::mechanism::MechanismLink;
 use crate::vector::{Matrix, Vector};
@@ -19,11 +19,11 @@ struct Map<'g> {
 
 impl<'g> Map<'g> {
     fn new<const N: usize>(
-        robot: &Robot,
+        points: &Points<'_>,
         units: usize,
         image: impl Fn(usize) -> [Expr<'g>; N],
     ) -> Map<'g> {
-        let column = |unit| image(unit).map(|entry| Scalar::of(entry, robot)).to_vec();
+        let column = |unit| image(unit).map(|entry| Scalar::of(entry, points)).to_vec();
         Map { columns: (0..units).map(column).collect() }
     }
 
@@ -77,7 +77,7 @@ pub(super) struct Joint<'g> {
 }
 
 impl<'g> Joint<'g> {
-    pub(super) fn new(link: &MechanismLink<'g>, robot: &Robot) -> Joint<'g> {
+    pub(super) fn new(link: &MechanismLink<'g>, points: &Points<'_>) -> Joint<'g> {
         let graph = link.mass.graph();
         let (axis, zero) = (link.axis, Vector::zero(graph));
         let kind = link.kind;
@@ -101,7 +101,7 @@ impl<'g> Joint<'g> {
         let carried = |place: usize| {
             Body::unit(graph, place).turned(link.rotation).about(link.translation).parameters()
         };
-        let scalar = |expr| Scalar::of(expr, robot);
+        let scalar = |expr| Scalar::of(expr, points);
         let own = match kind {
             JointKind::Revolute => twist(axis, zero),
             JointKind::Prismatic => twist(zero, axis),
@@ -109,10 +109,10 @@ impl<'g> Joint<'g> {
         Joint {
             twist: own.map(scalar).to_vec(),
             axis: axis.0.map(scalar).to_vec(),
-            placement: Map::new(robot, TWIST, placement),
-            turning: Map::new(robot, TWIST, turning),
-            carried: Map::new(robot, LINK_PARAMETERS, carried),
-            moving: Map::new(robot, LINK_PARAMETERS, |place| moving(graph, kind, axis, place)),
+            placement: Map::new(points, TWIST, placement),
+            turning: Map::new(points, TWIST, turning),
+            carried: Map::new(points, LINK_PARAMETERS, carried),
+            moving: Map::new(points, LINK_PARAMETERS, |place| moving(graph, kind, axis, place)),
         }
     }
 

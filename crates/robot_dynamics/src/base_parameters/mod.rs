@@ -149,10 +149,11 @@ pub fn base_parameters<'g>(derivation: &Derivation<'_, 'g>) -> Option<BaseParame
     let mechanism = reframed.as_ref().map_or(&derivation.mechanism, |moved| &moved.mechanism);
     let parameters: Vec<StandardParameter> =
         standard.iter().map(|(parameter, _)| *parameter).collect();
+    let points = scalar::Points::new(mechanism, derivation.robot);
     let joints: Vec<Joint<'g>> =
-        mechanism.links.iter().map(|link| Joint::new(link, derivation.robot)).collect();
-    let conditions = identifiable::conditions(mechanism, &joints, derivation.robot);
-    let mut kept = regroup::regroup(mechanism, &joints, &conditions, &parameters, frames);
+        mechanism.links.iter().map(|link| Joint::new(link, &points)).collect();
+    let conditions = identifiable::conditions(mechanism, &joints, &points);
+    let mut kept = regroup::regroup(mechanism, &joints, &conditions, &parameters, frames, &points);
     let one = scalar::Scalar::new(mechanism.graph.one());
     let friction = parameters.iter().enumerate();
     let friction = friction.filter(|(_, parameter)| !regroup::is_inertial(parameter.quantity));

@@ -10,7 +10,7 @@ use super::echelon::{Echelon, Row};
 use super::identifiable::DRIVE;
 use super::joint::Joint;
 use super::moments::{of_moments, to_inertia, to_second, unit_in_frame};
-use super::scalar::Scalar;
+use super::scalar::{Points, Scalar};
 use super::standard::{Quantity, StandardParameter};
 use crate::body::{FIRST_MOMENT, tensor_place};
 use crate::economical::WorkingFrame;
@@ -33,12 +33,13 @@ pub(super) fn regroup<'g>(
     conditions: &[Vec<Row<'g>>],
     standard: &[StandardParameter],
     frames: Option<&[WorkingFrame<'g>]>,
+    points: &Points<'_>,
 ) -> Vec<Kept<'g>> {
     let one = Scalar::new(mechanism.graph.one());
-    let Own { mut gathered, columns } = own(joints.len(), standard, frames, one);
+    let Own { mut gathered, columns } = own(joints.len(), standard, frames, one, points);
     let mut kept = vec![];
     for (index, link) in mechanism.links.iter().enumerate().rev() {
-        let order: Vec<usize> = preference(link, frames.is_some())
+        let order: Vec<usize> = preference(link, frames.is_some(), points)
             .into_iter()
             .filter(|place| columns[index][*place].is_some())
             .collect();
@@ -90,6 +91,7 @@ fn own<'g>(
     standard: &[StandardParameter],
     frames: Option<&[WorkingFrame<'g>]>,
     one: Scalar<'g>,
+    points: &Points<'_>,
 ) -> Own<'g> {
     let mut gathered: Vec<Vec<Form<'g>>> =
         vec![vec![Form::new(); LINK_PARAMETERS + DRIVE.len()]; links];
@@ -103,7 +105,7 @@ fn own<'g>(
                     let coefficients = unit_in_frame(frame, place);
                     for (form, coefficient) in gathered[parameter.link].iter_mut().zip(coefficients)
                     {
-                        add(form, &Form::from([(column, one)]), Scalar::new(coefficient));
+                        add(form, &Form::from([(column, one)]), Scalar::of(coefficient, points));
                     }
                 }
                 None => {
@@ -141,8 +143,8 @@ pub(super) fn add<'g>(sum: &mut Form<'g>, form: &Form<'g>, factor: Scalar<'g>) {
 /// The first seven for a revolute joint, or four for a prismatic joint, are those that the recursion computes. Of the
 /// second moments, a revolute joint does not identify the one along its axis; of the inertia tensor, the one that is
 /// left out is perpendicular to the axis.
-fn preference(link: &MechanismLink<'_>, second: bool) -> Vec<usize> {
-    let size = |component: usize| Scalar::new(link.axis.0[component]).size();
+fn preference(link: &MechanismLink<'_>, second: bool, points: &Points<'_>) -> Vec<usize> {
+    let size = |component: usize| Scalar::of(link.axis.0[component], points).size();
     let z = [0, 1].into_iter().fold(2, |best, k| if size(k) > size(best) { k } else { best });
     let (x, y) = ((z + 1) % 3, (z + 2) % 3);
     let tensor = tensor_place;

@@ -6,10 +6,14 @@ use robot_model::robot::Robot;
 use robot_symbolic::polynomial::reduced;
 use robot_symbolic::{Expr, Polynomial, PolynomialOptions, Random, View, walk};
 
+use crate::mechanism::Mechanism;
+
 /// The number of points at which symbols have seeded values.
 const POINTS: usize = 3;
 /// The seed of the symbols' values at the first point.
 const SEED: u64 = 1990;
+/// The smallest part of the distance from nominal to seeded values that is tried.
+const NEAREST: f64 = 1e-6;
 /// A difference below this fraction of its operands may be 0.
 const NOTICED: f64 = 1e-9;
 /// Limits on the expansion of a difference. Beyond them, the values at the points decide whether it is 0.
@@ -46,25 +50,66 @@ fn seeded(name: &str, point: u64) -> f64 {
     Random::of_name(name, SEED + point).uniform(0.4, 1.6)
 }
 
+/// The points at which the geometry of a robot is evaluated: seeded values of its parameters, as near to the nominal ones
+/// as the geometry requires. An axis with the component √(1 − c²) has no value at c = 1.2.
+pub(super) struct Points<'r> {
+    robot: &'r Robot,
+    /// The part of the distance from the nominal value to the seeded one.
+    distance: f64,
+}
+
+impl<'r> Points<'r> {
+    pub(super) fn new(mechanism: &Mechanism<'_>, robot: &'r Robot) -> Points<'r> {
+        let of_links = mechanism.links.iter().flat_map(|link| {
+            let axes = link.rotation.0.into_iter().chain([link.translation.0, link.axis.0]);
+            axes.flatten()
+        });
+        let geometry: Vec<Expr<'_>> = of_links.chain(mechanism.gravity.0).collect();
+        let mut points = Points { robot, distance: 1.0 };
+        while points.distance > NEAREST && !points.all_finite(&geometry) {
+            points.distance /= 2.0;
+        }
+        points
+    }
+
+    fn all_finite(&self, expressions: &[Expr<'_>]) -> bool {
+        let is_finite = |expr: &Expr<'_>| self.values(*expr).iter().all(|value| value.is_finite());
+        expressions.iter().all(is_finite)
+    }
+
+    fn values(&self, expr: Expr<'_>) -> [f64; POINTS] {
+        let name = |symbol| expr.graph().symbol_name(symbol);
+        [0, 1, 2].map(|point| expr.evaluate(|symbol| self.value(&name(symbol), point)))
+    }
+
+    fn value(&self, name: &str, point: u64) -> f64 {
+        let (far, nominal) = (seeded(name, point), self.nominal(name));
+        if self.distance == 1.0 { far } else { nominal + self.distance * (far - nominal) }
+    }
+
+    /// The nominal value of a parameter; of one without a value, that of the first point.
+    fn nominal(&self, name: &str) -> f64 {
+        let value = self.robot.nominal_value(name);
+        if value.is_nan() { seeded(name, 0) } else { value }
+    }
+}
+
 impl<'g> Scalar<'g> {
-    /// A scalar whose nominal value does not matter.
+    /// A constant, or a scalar whose nominal value does not matter and that has values everywhere.
     pub(super) fn new(expr: Expr<'g>) -> Scalar<'g> {
         let name = |symbol| expr.graph().symbol_name(symbol);
         let points = [0, 1, 2].map(|point| expr.evaluate(|symbol| seeded(&name(symbol), point)));
         Scalar { expr, at: points, nominal: points[0] }.settled([1e-3; POINTS])
     }
 
-    /// A scalar with its value at the nominal parameters of a robot.
-    pub(super) fn of(expr: Expr<'g>, robot: &Robot) -> Scalar<'g> {
-        let scalar = Scalar::new(expr);
+    /// A scalar with its values at the points and at the nominal parameters of a robot.
+    pub(super) fn of(expr: Expr<'g>, points: &Points<'_>) -> Scalar<'g> {
+        let at = points.values(expr);
+        let scalar = Scalar { expr, at, nominal: at[0] }.settled([1e-3; POINTS]);
         if scalar.is_constant() {
             return scalar;
         }
-        let nominal = expr.evaluate(|symbol| {
-            let name = expr.graph().symbol_name(symbol);
-            let value = robot.nominal_value(&name);
-            if value.is_nan() { seeded(&name, 0) } else { value }
-        });
+        let nominal = expr.evaluate(|symbol| points.nominal(&expr.graph().symbol_name(symbol)));
         Scalar { nominal, ..scalar }
     }
 

@@ -48,6 +48,25 @@ fn check(robot: &Robot, name: &str, seed: u64) -> usize {
     values.len()
 }
 
+/// A component √(1 − c²) of an axis has values only at |c| ≤ 1, and what vanishes is recognized there, whatever the
+/// parameter is called.
+#[test]
+fn axes_with_roots_of_parameters() {
+    for name in ["b", "c", "k", "w", "c1", "cx"] {
+        for (first, drive, count) in [("[1, 0, 0]", "0", 10), ("[0.3, 0.7, 1]", "0.1", 11)] {
+            let body = "mass = 1.5\ncenter_of_mass = [0.1, 0.2, 0]\ninertia = { xx = 0.1, yy = 0.1, zz = 0.1 }";
+            let text = format!(
+                "format = 1\n[robot]\nname = \"skew\"\n[parameters]\n{name} = 0.6\n[[link]]\nname = \"1\"\n\
+                 joint = {{ type = \"revolute\", axis = {first} }}\n{body}\n[[link]]\nname = \"2\"\n\
+                 joint = {{ type = \"revolute\", axis = [\"{name}\", 0, \"sqrt(1 - {name}^2)\"] }}\n\
+                 origin = {{ xyz = [0.3, 0, 0] }}\ndrive = {{ armature = {drive} }}\n{body}\n"
+            );
+            let robot = robot_testing::read(name, &text);
+            assert_eq!(check(&robot, name, 5), count, "{name}, {first}");
+        }
+    }
+}
+
 /// The rotor of a joint that mimics another turns by the ratio of the joint times the coordinate.
 #[test]
 fn base_parameters_of_rotors_that_follow_others() {
