@@ -58,6 +58,10 @@ fn expressions_are_set() {
         ("sin(q2)^2*cos(q3)*x", r"\sin^{2} q_2 \cdot \cos q_3 \cdot x"),
         ("x*sin(q2 + q3)", r"x \sin\left(q_2 + q_3\right)"),
         ("(a/b)^2", r"\left(\frac{a}{b}\right)^{2}"),
+        (
+            "2*mp*lp^2*x*(mp + lp)",
+            r"2\, \mathrm{mp}\, \mathrm{lp}^{2}\, x \left(\mathrm{mp} + \mathrm{lp}\right)",
+        ),
     ] {
         assert_eq!(expression(source, Trigonometry::Named), latex, "{source}");
     }

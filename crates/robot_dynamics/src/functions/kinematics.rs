@@ -141,8 +141,8 @@ fn jacobian<'g>(
     };
     let doc = format!(
         "The geometric Jacobian J of {what}: J q̇ is the velocity of the frame's origin \
-         (rows 0 to 2, m/s) and the angular velocity of the frame (rows 3 to 5, rad/s), both in \
-         base axes."
+         (first three rows, m/s) and the angular velocity of the frame (last three rows, rad/s), both \
+         in base axes."
     );
     let unit = "m and 1 for a revolute joint, 1 and 0 for a prismatic joint";
     let shape = vec![6, derivation.mechanism.degrees_of_freedom];

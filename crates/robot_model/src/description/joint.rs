@@ -12,7 +12,7 @@ use super::placement::zero;
 use super::reader::{Named, Reader};
 use super::shape::{AXES, JOINT, JOINT_TYPES, MIMIC};
 use super::table::{Entry, Table, Value};
-use super::value::{Quantity, quantity};
+use super::value::{Quantity, is_hidden, quantity};
 use crate::diagnostic::{Diagnostic, code};
 use crate::robot::JointKind;
 
@@ -101,6 +101,19 @@ pub(super) fn read(
     };
     let Some(entry) = entry else { return joint };
     places.joint = entry.value.span();
+    if let DeValue::String(word) = entry.value.get_ref()
+        && JOINT_TYPES.contains(&word.as_ref())
+    {
+        let axis = if dh || word == "fixed" { "" } else { ", axis = \"z\"" };
+        let expected = format!("a joint as a table `{{ type = \"{word}\"{axis} }}`");
+        reader.wrong_type(entry.value, &expected);
+        joint.kind = match word.as_ref() {
+            "fixed" => None,
+            "prismatic" => Some(JointKind::Prismatic),
+            _ => Some(JointKind::Revolute),
+        };
+        return joint;
+    }
     let Some(mut table) = reader.table(entry.value, &JOINT) else {
         return joint;
     };
@@ -252,6 +265,12 @@ fn mimic(reader: &mut Reader<'_>, value: Value<'_>, kind: Option<JointKind>) -> 
     const RATIO: Quantity = Quantity { what: "the ratio", dimension: None };
     let kind = kind.unwrap_or(JointKind::Revolute);
     let offset_of_joint = by_kind("the offset", kind, (0, 0, 0), (0, 1, 0));
+    if let DeValue::String(leader) = value.get_ref()
+        && !leader.contains(|character: char| "\"\\`".contains(character) || is_hidden(character))
+    {
+        reader.wrong_type(value, &format!("a `mimic` table `{{ joint = \"{leader}\" }}`"));
+        return None;
+    }
     let mut table = reader.table(value, &MIMIC)?;
     let joint = table
         .require(reader, "joint", "joint = \"name of the leading joint\"")
