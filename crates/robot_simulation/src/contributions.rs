@@ -50,6 +50,13 @@ impl TorqueContributions {
         kinds
     }
 
+    /// Whether a column of a table contains a contribution to the torque of a coordinate, such as `gravity2`.
+    pub(crate) fn is_column(name: &str) -> bool {
+        let contribution = name.trim_end_matches(|last: char| last.is_ascii_digit());
+        let names = ["inertia", "coriolis", "gravity", "friction", "wrench"];
+        contribution.len() < name.len() && names.contains(&contribution)
+    }
+
     /// The contributions by their names, with the total last.
     #[must_use]
     pub fn named(&self) -> Vec<(&'static str, &Series)> {

@@ -7,6 +7,7 @@ use robot_model::robot::Robot;
 use robot_model::variable::JointVariable;
 use robot_symbolic::Formula;
 
+use crate::contributions::TorqueContributions;
 use crate::csv::unit;
 use crate::dynamics::{Features, State, TorqueLaw};
 use crate::error::Error;
@@ -86,7 +87,8 @@ impl Torques {
     }
 
     /// Reads the samples of a table with the column t (s), whose values must increase, and a column `tau1` … for each
-    /// coordinate; the other columns of a motion are ignored. Torques are linear in t between samples and constant
+    /// coordinate; the other columns of a motion, and the contributions to
+    /// torques, are ignored. Torques are linear in t between samples and constant
     /// outside them, but the samples must cover the `duration` (s).
     ///
     /// # Errors
@@ -123,7 +125,11 @@ impl Torques {
                 lacks.join(", ")
             ));
         }
-        let known = |name: &str| names.iter().any(|known| known == name) || is_of_motion(name);
+        let known = |name: &str| {
+            names.iter().any(|known| known == name)
+                || is_of_motion(name)
+                || TorqueContributions::is_column(name)
+        };
         for name in table.names().filter(|name| !known(name)) {
             let (name, unit) = (quote(name), unit(name));
             wrong.push(format!("{source}: the column `{name}` does not match a coordinate{unit}"));

@@ -42,6 +42,20 @@ fn expressions_know_time_state_and_parameters() {
     );
 }
 
+/// Such a table is what the computation of torques writes.
+#[test]
+fn contributions_in_a_table_are_ignored() {
+    let programs = compiled(&robot_file("planar_2r"), false);
+    let read = |columns: &str| {
+        let text = format!("t,tau1,tau2,{columns}\n0,1,2,3,4\n1,1,2,3,4\n");
+        let table = Table::read("a.csv", &text).unwrap();
+        Torques::from_table(&programs.robot, "a.csv", &table, 1.0)
+    };
+    assert!(read("inertia1,wrench2").is_ok());
+    let error = read("gravity,inertia").unwrap_err().to_string();
+    assert!(error.contains("the column `gravity` does not match a coordinate"), "{error}");
+}
+
 #[test]
 fn tables_are_linear_between_samples() {
     let programs = compiled(&robot_file("planar_2r"), false);
