@@ -70,10 +70,11 @@ fn far(body: &BodyFacts<'_>, distance: f64, size: f64) -> Diagnostic {
     let name = &body.body.name;
     let message =
         format!("the center of mass of `{name}` lies {} m outside the link", significant(distance));
+    let facts = if body.has_tensor() { "frames and inertia" } else { "frames" };
     Diagnostic::warning(code::CENTER_FAR, message)
         .at(body.of_center(), "in the link frame?")
         .because(format!(
-            "judging by its frames and inertia, the size of the link is {} m, and a link's center of \
+            "judging by its {facts}, the size of the link is {} m, and a link's center of \
              mass is normally near its joint",
             significant(size)
         ))
