@@ -35,6 +35,9 @@ pub struct TorqueContributions {
 /// The values of a contribution over time, each with one entry per coordinate.
 type Series = Vec<Vec<f64>>;
 
+/// The names of the contributions in tables and plots.
+const NAMES: [&str; 5] = ["inertia", "coriolis", "gravity", "friction", "wrench"];
+
 impl TorqueContributions {
     /// The functions that the programs must contain.
     #[must_use]
@@ -53,20 +56,17 @@ impl TorqueContributions {
     /// Whether a column of a table contains a contribution to the torque of a coordinate, such as `gravity2`.
     pub(crate) fn is_column(name: &str) -> bool {
         let contribution = name.trim_end_matches(|last: char| last.is_ascii_digit());
-        let names = ["inertia", "coriolis", "gravity", "friction", "wrench"];
-        contribution.len() < name.len() && names.contains(&contribution)
+        contribution.len() < name.len() && NAMES.contains(&contribution)
     }
 
     /// The contributions by their names, with the total last.
     #[must_use]
     pub fn named(&self) -> Vec<(&'static str, &Series)> {
-        let mut contributions = vec![
-            ("inertia", &self.inertia),
-            ("coriolis", &self.coriolis),
-            ("gravity", &self.gravity),
-        ];
-        contributions.extend(self.friction.as_ref().map(|series| ("friction", series)));
-        contributions.extend(self.wrench.as_ref().map(|series| ("wrench", series)));
+        let [inertia, coriolis, gravity, friction, wrench] = NAMES;
+        let mut contributions =
+            vec![(inertia, &self.inertia), (coriolis, &self.coriolis), (gravity, &self.gravity)];
+        contributions.extend(self.friction.as_ref().map(|series| (friction, series)));
+        contributions.extend(self.wrench.as_ref().map(|series| (wrench, series)));
         contributions.push(("total", &self.total));
         contributions
     }

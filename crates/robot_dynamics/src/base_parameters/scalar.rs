@@ -50,6 +50,12 @@ fn seeded(name: &str, point: u64) -> f64 {
     Random::of_name(name, SEED + point).uniform(0.4, 1.6)
 }
 
+/// The values of an expression at the points, from those of its symbols.
+fn values(expr: Expr<'_>, value: impl Fn(&str, u64) -> f64) -> [f64; POINTS] {
+    let name = |symbol| expr.graph().symbol_name(symbol);
+    [0, 1, 2].map(|point| expr.evaluate(|symbol| value(&name(symbol), point)))
+}
+
 /// The points at which the geometry of a robot is evaluated: seeded values of its parameters, as near to the nominal ones
 /// as the geometry requires. An axis with the component √(1 − c²) has no value at c = 1.2.
 pub(super) struct Points<'r> {
@@ -78,13 +84,16 @@ impl<'r> Points<'r> {
     }
 
     fn values(&self, expr: Expr<'_>) -> [f64; POINTS] {
-        let name = |symbol| expr.graph().symbol_name(symbol);
-        [0, 1, 2].map(|point| expr.evaluate(|symbol| self.value(&name(symbol), point)))
+        values(expr, |name, point| self.value(name, point))
     }
 
     fn value(&self, name: &str, point: u64) -> f64 {
-        let (far, nominal) = (seeded(name, point), self.nominal(name));
-        if self.distance == 1.0 { far } else { nominal + self.distance * (far - nominal) }
+        let far = seeded(name, point);
+        if self.distance == 1.0 {
+            return far;
+        }
+        let nominal = self.nominal(name);
+        nominal + self.distance * (far - nominal)
     }
 
     /// The nominal value of a parameter; of one without a value, that of the first point.
@@ -97,15 +106,16 @@ impl<'r> Points<'r> {
 impl<'g> Scalar<'g> {
     /// A constant, or a scalar whose nominal value does not matter and that has values everywhere.
     pub(super) fn new(expr: Expr<'g>) -> Scalar<'g> {
-        let name = |symbol| expr.graph().symbol_name(symbol);
-        let points = [0, 1, 2].map(|point| expr.evaluate(|symbol| seeded(&name(symbol), point)));
-        Scalar { expr, at: points, nominal: points[0] }.settled([1e-3; POINTS])
+        Scalar::with_values(expr, values(expr, seeded))
+    }
+
+    fn with_values(expr: Expr<'g>, at: [f64; POINTS]) -> Scalar<'g> {
+        Scalar { expr, at, nominal: at[0] }.settled([1e-3; POINTS])
     }
 
     /// A scalar with its values at the points and at the nominal parameters of a robot.
     pub(super) fn of(expr: Expr<'g>, points: &Points<'_>) -> Scalar<'g> {
-        let at = points.values(expr);
-        let scalar = Scalar { expr, at, nominal: at[0] }.settled([1e-3; POINTS]);
+        let scalar = Scalar::with_values(expr, points.values(expr));
         if scalar.is_constant() {
             return scalar;
         }

@@ -28,31 +28,35 @@ pub(super) fn kind(reader: &mut Reader<'_>, entry: &Entry<'_>) -> Option<Option<
         );
         return None;
     }
-    Some(match reader.word(entry.value, "a joint type", JOINT_TYPES)? {
+    reader.word(entry.value, "a joint type", JOINT_TYPES).map(of_type)
+}
+
+/// The kind of joint for a word of [`JOINT_TYPES`]; `None` for a fixed link.
+fn of_type(word: &str) -> Option<JointKind> {
+    match word {
         "revolute" => Some(JointKind::Revolute),
         "prismatic" => Some(JointKind::Prismatic),
         _ => None,
-    })
+    }
 }
 
 /// The kind of joint for which the rest of a link is checked if its type is wrong: the one that is probably meant.
 pub(super) fn probable_kind(reader: &Reader<'_>, entry: &Entry<'_>) -> JointKind {
     let DeValue::String(word) = entry.value.get_ref() else { return JointKind::Revolute };
-    let is_slide = elsewhere(word) == Some(WRITE_PRISMATIC)
+    let is_slide = SLIDES.contains(&word.as_ref())
         || reader.nearest(word, JOINT_TYPES.iter().copied()) == Some("prismatic");
     if is_slide { JointKind::Prismatic } else { JointKind::Revolute }
 }
 
-const WRITE_PRISMATIC: &str = "write \"prismatic\"";
+/// Words for a prismatic joint in other formats.
+const SLIDES: &[&str] = &["translation", "translational", "linear", "slide", "slider", "P"];
 
 /// The advice for a joint type that other formats use.
 fn elsewhere(word: &str) -> Option<&'static str> {
     match word {
         "continuous" => Some("write \"revolute\" and leave out `limits`"),
         "rotation" | "rotational" | "hinge" | "R" => Some("write \"revolute\""),
-        "translation" | "translational" | "linear" | "slide" | "slider" | "P" => {
-            Some(WRITE_PRISMATIC)
-        }
+        word if SLIDES.contains(&word) => Some("write \"prismatic\""),
         "floating" | "free" => Some(
             "use three prismatic and three revolute joints, with massless links between \
             them",
@@ -85,7 +89,7 @@ pub(super) fn read(
     places: &mut LinkLocation,
 ) -> DraftJoint {
     let mut joint = DraftJoint {
-        // If there is no type, this placeholder lets the rest of the link be checked.
+        // Without a type, this placeholder lets the rest of the link be checked.
         kind: row.unwrap_or(Some(JointKind::Revolute)),
         name: link.clone(),
         axis: [zero(), zero(), Formula::number(&Rational::ONE)],
@@ -102,16 +106,13 @@ pub(super) fn read(
     let Some(entry) = entry else { return joint };
     places.joint = entry.value.span();
     if let DeValue::String(word) = entry.value.get_ref()
+        && row.is_none()
         && JOINT_TYPES.contains(&word.as_ref())
     {
         let axis = if dh || word == "fixed" { "" } else { ", axis = \"z\"" };
         let expected = format!("a joint as a table `{{ type = \"{word}\"{axis} }}`");
         reader.wrong_type(entry.value, &expected);
-        joint.kind = match word.as_ref() {
-            "fixed" => None,
-            "prismatic" => Some(JointKind::Prismatic),
-            _ => Some(JointKind::Revolute),
-        };
+        joint.kind = of_type(word);
         return joint;
     }
     let Some(mut table) = reader.table(entry.value, &JOINT) else {

@@ -43,7 +43,7 @@ pub(super) fn parse(text: &str) -> (Spanned<DeTable<'_>>, Vec<Diagnostic>) {
             let string = strings[..strings.partition_point(|at| *at < span.start)].last();
             if string.is_none_or(|at| is_within(&swallowed, *at)) {
                 let message = format!("invalid TOML: {}", bracket.message);
-                let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&bracket.place, "");
+                let diagnostic = Diagnostic::error(code::SYNTAX, message).at(&span, "");
                 found.push(diagnostic.help(bracket.help));
             }
             swallowed.push(bracket.swallowed);
@@ -89,7 +89,6 @@ fn line_of(text: &str, byte: usize) -> &str {
 struct WrongBracket {
     message: &'static str,
     help: &'static str,
-    place: Span,
     /// The text that the parser reads as entries because of the bracket.
     swallowed: Span,
 }
@@ -99,27 +98,26 @@ fn wrong_bracket(text: &str, error: &str, byte: usize) -> Option<WrongBracket> {
     let rest = rest_of_line(text, byte);
     let in_list = error.starts_with("missing comma between array elements");
     let in_table = error.starts_with("missing comma between key-value pairs");
-    let until = |message, help, end| {
-        let place = byte..byte + first_character(rest).len();
-        Some(WrongBracket { message, help, place, swallowed: byte..end })
-    };
-    if in_list && rest.starts_with('}') {
-        until("`}` does not close a list", "close the list with `]`", usize::MAX)
+    let mut end = usize::MAX;
+    let (message, help) = if in_list && rest.starts_with('}') {
+        ("`}` does not close a list", "close the list with `]`")
     } else if error.starts_with("invalid inline table element") && rest.starts_with(']') {
-        until("`]` does not close an inline table", "close the table with `}`", usize::MAX)
+        ("`]` does not close an inline table", "close the table with `}`")
     } else if in_list && begins_a_line(text, byte) {
-        let message = "a list before this line is not closed";
-        until(message, "add the missing `]` at the end of the list", usize::MAX)
+        ("a list before this line is not closed", "add the missing `]` at the end of the list")
     } else if in_table && begins_a_line(text, byte) {
         let message = "an inline table before this line is not closed";
-        until(message, "add the missing `}` at the end of the table", usize::MAX)
+        (message, "add the missing `}` at the end of the table")
     } else if error.starts_with("extra comma in inline table") && opens_with_number(text, byte) {
+        if rest.contains('}') {
+            end = byte + rest.len() + 1;
+        }
         let message = "the entries of an inline table are `key = value`, not numbers";
-        let end = if rest.contains('}') { byte + rest.len() + 1 } else { usize::MAX };
-        until(message, "write a list in brackets, such as `[0.1, 0, 0]`", end)
+        (message, "write a list in brackets, such as `[0.1, 0, 0]`")
     } else {
-        None
-    }
+        return None;
+    };
+    Some(WrongBracket { message, help, swallowed: byte..end })
 }
 
 /// Whether a number in an inline table that it opens ends at the byte.
