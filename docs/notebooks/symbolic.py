@@ -54,8 +54,9 @@ by_lagrange = by_lagrange.subs([(old, new) for old, new in names.items()])
 # ## The difference
 #
 # The printed equations also contain a wrench at the tip, which Lagrange's method omits here, so the wrench is set
-# to 0. The difference must be 0 for *all* values, so no numbers are substituted. SymPy multiplies out and expands
-# sines of sums; that is enough, since both sides are polynomials in the sines and cosines of single angles.
+# to 0. The difference must be 0 for *all* values, so no numbers are substituted. SymPy multiplies out, expands
+# sines of sums and replaces sin² + cos² by 1; that is enough, since both sides are polynomials in the sines and
+# cosines of single angles.
 
 # %%
 wrench = {symbol: 0 for symbol in printed.free_symbols if symbol.name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")}

@@ -242,11 +242,11 @@ pub mod trttr1 {
         /// Inverse dynamics: the joint torques τ (generalized forces Q) that produce the accelerations `qdd`: M q̈ + C q̇ + g.
         /// Without friction.
         ///
-        /// - `q`: Joint positions, in rad; m for the prismatic joints (entries 0, 2, 3, counted from 0).
-        /// - `qd`: Joint velocities, in rad/s; m/s for the prismatic joints (entries 0, 2, 3, counted from 0).
-        /// - `qdd`: Joint accelerations, in rad/s²; m/s² for the prismatic joints (entries 0, 2, 3, counted from 0).
+        /// - `q`: Joint positions, in rad; m for the prismatic joints (the first, third and fourth entries).
+        /// - `qd`: Joint velocities, in rad/s; m/s for the prismatic joints (the first, third and fourth entries).
+        /// - `qdd`: Joint accelerations, in rad/s²; m/s² for the prismatic joints (the first, third and fourth entries).
         ///
-        /// Returns: Joint torques, in N m; N for the prismatic joints (entries 0, 2, 3, counted from 0).
+        /// Returns: Joint torques, in N m; N for the prismatic joints (the first, third and fourth entries).
         ///
         /// 32 multiplications, 20 additions, 2 sines, 2 cosines.
         #[inline]

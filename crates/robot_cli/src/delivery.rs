@@ -19,8 +19,7 @@ const SHOWN: usize = 5;
 /// Whether files of others are replaced.
 #[derive(Args)]
 pub(crate) struct ForceArgument {
-    /// Replace an existing file that this program did not write, or a document, page or picture that has been edited since;
-    /// never an input
+    /// Replace an existing file that this program did not write, or that may have been edited since; never an input
     #[arg(long)]
     force: bool,
 }
@@ -274,6 +273,7 @@ fn up_to_date<'a>(
     for (path, bytes) in files {
         let Some(found) = staleness(&path, bytes)? else { continue };
         let name = shown(&path);
+        let is_missing = matches!(found, Staleness::Missing);
         stale.push(match found {
             Staleness::Bytes => format!("{name} is out of date"),
             Staleness::Missing => format!("{name} is missing"),
@@ -281,6 +281,10 @@ fn up_to_date<'a>(
         });
         if let Err(errors) = writer.check(&[(&path, ownership)]) {
             refused.extend(errors.as_slice().iter().map(Error::to_string));
+        } else if matches!(ownership, Ownership::Edited) && !is_missing {
+            refused.push(format!(
+                "run the same command with --force instead of --check to replace {name}; edits of it are lost"
+            ));
         }
     }
     if stale.is_empty() {

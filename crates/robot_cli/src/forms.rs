@@ -64,8 +64,8 @@ pub(crate) struct EquationArguments {
           "no_references", "letters"])]
     like: Option<PathBuf>,
     /// Letters for joint torques, mass matrix, Coriolis and centrifugal terms, and gravity terms, such as tau,M,C,g;
-    /// `field` for these four, `paper` for Q and letters that no symbol of the robot uses [default: paper]; the letter C
-    /// stands for the matrix in C(q, q̇) q̇, as with --christoffel
+    /// `field` for these four, `paper` for Q and letters that no symbol of the robot uses, but always g [default: paper];
+    /// the letter C stands for the matrix in C(q, q̇) q̇, as with --christoffel
     #[arg(long, value_name = "LETTERS", value_parser = Letters::parse)]
     letters: Option<Letters>,
     /// Significant digits of decimals in equations; 17 prints all [default: 10]

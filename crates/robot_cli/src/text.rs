@@ -93,8 +93,9 @@ fn breaks(text: &str) -> Vec<(usize, usize)> {
     breaks
 }
 
-/// Breaks a sum into lines of at most `columns` columns, before signs. It is broken within parentheses only if
-/// their contents do not fit on a line, and within the argument of a function only if no other break is within reach.
+/// Breaks a sum before signs, into lines of at most `columns` columns if that is possible. Of the breaks within reach,
+/// those within the fewest parentheses are preferred, and of these the last; a line is broken within the argument of a
+/// function only if there is no other.
 fn wrapped(text: &str, columns: usize) -> Vec<&str> {
     let breaks = breaks(text);
     let (mut lines, mut start) = (vec![], 0);

@@ -2,8 +2,9 @@
 //!
 //! Running error analysis (N. Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., 2002,
 //! section 3.3): each operation propagates the errors of its operands, to first order, and adds the unit roundoff
-//! times the magnitude of its result. Inputs and angles are taken as exact, although angles that are computed from
-//! several terms are rounded; parameters are decimal numbers that are rounded to the nearest `f64`.
+//! times the magnitude of its result. Inputs, constants and angles are taken as exact, although constants and
+//! angles that are computed from several terms are rounded; parameters are decimal numbers that are rounded to the
+//! nearest `f64`.
 
 use robot_symbolic::Function as Call;
 

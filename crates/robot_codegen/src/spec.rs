@@ -1,6 +1,6 @@
 //! The specification of code: named expressions over named inputs and parameters.
 //!
-//! Documentation is Markdown from the caller and is printed unchanged. The caller must pass text that it does not
+//! Documentation is Markdown from the caller and is not escaped. The caller must pass text that it does not
 //! control, such as a remark in a robot file, through [`markdown`](crate::backend::common::markdown) before adding it
 //! to the documentation. Names, units and the documentation of parameters can be text from a robot file; they are
 //! escaped when they are printed.

@@ -103,10 +103,11 @@ impl Dimensions {
         names.filter(|name| !self.symbols.contains_key(name.as_str())).collect()
     }
 
-    /// Whether the derived terms of equations, each given with the dimension of its quantity, have these dimensions as
-    /// far as they are known. If one has not, its coefficient has a dimension, as with numbers in place of masses and
-    /// lengths, and so may the coefficient of any printed term.
-    pub(super) fn explain<'t, 'g: 't>(
+    /// Whether the dimensions of some derived terms are known, and all of these are the dimensions of their quantities.
+    /// Each equation is given by its terms and the dimension of its quantity. If a term has another dimension, its
+    /// coefficient has a dimension, as with numbers in place of masses and lengths, and so may the coefficient of any
+    /// printed term.
+    pub(super) fn terms_have_units<'t, 'g: 't>(
         &self,
         derived: impl Iterator<Item = (&'t [Term<'g>], Dimension)>,
     ) -> bool {

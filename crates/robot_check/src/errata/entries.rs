@@ -8,8 +8,21 @@ use super::printed::Notation;
 use super::unprinted::{blanked, printed, without_comments, without_dollars};
 
 /// The environments that display equations, without the star.
-const DISPLAYS: [&str; 8] =
-    ["equation", "align", "gather", "multline", "eqnarray", "flalign", "alignat", "displaymath"];
+pub(super) const DISPLAYS: [&str; 11] = [
+    "equation",
+    "align",
+    "gather",
+    "multline",
+    "eqnarray",
+    "flalign",
+    "alignat",
+    "displaymath",
+    "IEEEeqnarray",
+    "dmath",
+    "empheq",
+];
+/// The displays and columns whose arguments follow their name, in brackets and in braces.
+const WITH_ARGUMENTS: [&str; 5] = ["alignat", "array", "IEEEeqnarray", "dmath", "empheq"];
 /// The environments within these that only arrange equations.
 const ARRANGED: [&str; 4] = ["split", "aligned", "gathered", "alignedat"];
 /// The environment of a system of equations in a brace, or of the alternatives of a value.
@@ -141,7 +154,7 @@ fn not_an_equation(part: &Part<'_>, notation: Notation) -> Diagnostic {
     let help = if part.text.starts_with(['+', '-', '*']) {
         "begin a line that continues an equation with a space"
     } else if notation == Notation::Latex {
-        "write `quantity = terms`; begin a line of words with `%`, or put the equations in displays"
+        "write `quantity = terms`; begin a line of words with `%`, or put the equations in displays such as `equation`, `align` or `\\[ \\]`"
     } else if is_heading {
         "begin a heading with `#`; of the forms that `equations` prints, `expanded` and `collected` without friction can be read"
     } else {
@@ -266,7 +279,7 @@ fn seam(text: &str, place: usize) -> Option<usize> {
 }
 
 /// The ranges of displayed equations, or errors at places at which something is not closed.
-fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
+pub(super) fn displays(text: &str) -> Vec<Result<Range<usize>, Box<Diagnostic>>> {
     let mut found = vec![];
     let mut place = 0;
     while let Some(rest) = text.get(place..).filter(|rest| !rest.is_empty()) {
@@ -316,10 +329,26 @@ fn begins<'t>(text: &'t str, names: &[&str]) -> Option<(&'t str, usize)> {
     let name = rest.get(..rest.bytes().take(16).position(|byte| byte == b'}')?)?;
     names.contains(&name.trim_end_matches('*')).then_some(())?;
     let inside = text.len() - rest.len() + name.len() + 1;
-    let argument = text.get(inside..).filter(|rest| rest.starts_with('{'));
-    let known = matches!(name, "alignat" | "alignat*" | "array");
-    let argument = argument.filter(|_| known).and_then(|rest| rest.find('}'));
-    Some((name, inside + argument.map_or(0, |end| end + 1)))
+    let mut inside = inside;
+    if WITH_ARGUMENTS.contains(&name.trim_end_matches('*')) {
+        inside += arguments(text.get(inside..).unwrap_or_default());
+    }
+    Some((name, inside))
+}
+
+/// The number of bytes of the arguments of an environment: groups in brackets or braces.
+pub(super) fn arguments(text: &str) -> usize {
+    let mut length = 0;
+    loop {
+        let rest = text.get(length..).unwrap_or_default();
+        let close = match rest.chars().next() {
+            Some('[') => ']',
+            Some('{') => '}',
+            _ => return length,
+        };
+        let Some(end) = rest.find(close) else { return length };
+        length += end + 1;
+    }
 }
 
 /// One entry for each row that contains `=` and the following rows without it.

@@ -24,6 +24,7 @@ mod term;
 #[cfg(test)]
 mod tests;
 mod unprinted;
+mod unread;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -110,6 +111,9 @@ pub struct Comparison {
     pub wrench: bool,
     /// The number of derived coefficients that agree with the printed decimals only to the digits printed.
     pub rounded: usize,
+    /// The lines, counted from 1, of equations that are not compared because they are outside of the displays that are
+    /// read.
+    pub unread: Vec<usize>,
     /// The differences, in the order of the printed equations.
     pub differences: Vec<Difference>,
 }
@@ -134,7 +138,7 @@ pub fn compare(
     let graph = Graph::new();
     let exact = MechanismOptions::EXACT.with_snap(options.snap, robot);
     let mechanism = Mechanism::new(robot, &graph, &exact);
-    let printed = read(robot, source, options, &mechanism).map_err(failed)?;
+    let (printed, unread) = read(robot, source, options, &mechanism).map_err(failed)?;
     let wrench = has_wrench(robot, &printed);
     let quantities: BTreeMap<String, Quantity<'_>> = quantities(&mechanism, wrench)
         .into_iter()
@@ -150,6 +154,7 @@ pub fn compare(
         terms,
         wrench,
         rounded,
+        unread: unread.into_iter().map(|place| lines.at(place)).collect(),
         differences,
     })
 }
@@ -160,20 +165,22 @@ fn quantities<'g>(mechanism: &Mechanism<'g>, wrench: bool) -> Vec<Quantity<'g>> 
     Kind::ALL.iter().flat_map(|kind| solution.quantities(*kind)).collect()
 }
 
-/// Reads the printed equations; all must be equations of quantities that the robot has.
+/// Reads the printed equations; all must be equations of quantities that the robot has. Also returns the places of
+/// equations that are not read.
 fn read(
     robot: &Robot,
     source: &Source,
     options: &Options,
     mechanism: &Mechanism<'_>,
-) -> Result<Vec<PrintedEquation>, Vec<Diagnostic>> {
+) -> Result<(Vec<PrintedEquation>, Vec<usize>), Vec<Diagnostic>> {
     let quantities = quantities(mechanism, true);
     let values: Vec<Expr<'_>> = quantities.iter().map(|quantity| quantity.value).collect();
     let used = walk::symbols(&values).into_iter();
     let used = used.map(|symbol| mechanism.graph.symbol_name(symbol)).collect();
     let names: Vec<_> = quantities.iter().map(|quantity| quantity.symbol).collect();
     let notation = options.notation.unwrap_or_else(|| Notation::detect(&source.text));
-    let printed = read_printed(source, notation, &Symbols::of(robot, &names, used))?;
+    let symbols = Symbols::of(robot, &names, used);
+    let printed = read_printed(source, notation, &symbols)?;
     if let Some(further) = printed.get(MAX_REPEATED * names.len()) {
         return Err(vec![left_side::too_many(further, MAX_REPEATED)]);
     }
@@ -183,7 +190,11 @@ fn read(
     let empty = printed.iter().filter(|equation| left_side::is_repeated(equation));
     let empty = empty.map(left_side::repeated);
     let wrong: Vec<Diagnostic> = unknown.chain(empty).collect();
-    if wrong.is_empty() { Ok(printed) } else { Err(wrong) }
+    let unread = match notation {
+        Notation::Latex => unread::unread(&source.text, &symbols),
+        Notation::Text => vec![],
+    };
+    if wrong.is_empty() { Ok((printed, unread)) } else { Err(wrong) }
 }
 
 /// Whether any equation contains a symbol of a tip's wrench.
@@ -338,7 +349,7 @@ fn find(
         printed.insert(one.name(), &one.print);
     }
     let derived = compared.iter().map(|one| (one.derived.as_slice(), one.dimension));
-    let has_units = dimensions.explain(derived);
+    let has_units = dimensions.terms_have_units(derived);
     let friction =
         dimensions.of_friction_alone(compared.iter().flat_map(|one| one.derived.as_slice()));
     let known = Known { printed, dimensions, has_units, friction };

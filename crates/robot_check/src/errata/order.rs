@@ -23,7 +23,7 @@ pub fn term_order(
     let graph = Graph::new();
     let exact = MechanismOptions::EXACT.with_snap(options.snap, robot);
     let mechanism = Mechanism::new(robot, &graph, &exact);
-    let printed = read(robot, source, options, &mechanism)
+    let (printed, _) = read(robot, source, options, &mechanism)
         .map_err(|errors| Diagnostics::new(source.clone(), errors))?;
     let mut order = TermOrder::default();
     for equation in printed {

@@ -144,7 +144,7 @@ fn without_end(latex: &str) -> &str {
     let mut rest = latex;
     loop {
         let cut = rest.trim_end_matches(end);
-        let marks = [r"\nonumber", r"\notag", "&"];
+        let marks = [r"\nonumber", r"\notag", r"\IEEEnonumber", r"\IEEEyesnumber", "&"];
         if let Some(before) = marks.iter().find_map(|mark| cut.strip_suffix(mark)) {
             rest = before;
             continue;
@@ -188,7 +188,7 @@ fn shifted(span: &Span, by: usize) -> Span {
 }
 
 /// The number of an equation in parentheses, and the rest of the left side.
-fn numbered(left: &str) -> (Option<String>, &str) {
+pub(super) fn numbered(left: &str) -> (Option<String>, &str) {
     let left = left.trim();
     match left.strip_prefix('(').and_then(|rest| rest.split_once(')')) {
         Some((number, rest)) => (Some(quote(number.trim())), rest.trim()),

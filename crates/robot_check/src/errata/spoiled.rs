@@ -242,7 +242,7 @@ fn how_latex_is_read() {
         let source = Source { name: "printed".to_owned(), text: (*text).to_owned() };
         let _ = writeln!(shown, "{text}");
         match read(&robot, &source, &options, &mechanism) {
-            Ok(equations) => {
+            Ok((equations, _)) => {
                 for one in equations {
                     let terms: Vec<&str> = one.terms.iter().map(Formula::text).collect();
                     let left = &text[one.span.clone()];

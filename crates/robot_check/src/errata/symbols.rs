@@ -105,6 +105,11 @@ impl Symbols {
         known.get(&plain_key(latex)).cloned().unwrap_or_else(|| latex.trim().to_owned())
     }
 
+    /// Whether LaTeX on a left side denotes a quantity or a vector of quantities.
+    pub(super) fn has_quantity(&self, latex: &str) -> bool {
+        self.quantities.contains_key(&plain_key(latex)) || self.is_vector(latex)
+    }
+
     /// Whether LaTeX on a left side denotes a vector of quantities.
     pub(super) fn is_vector(&self, latex: &str) -> bool {
         self.vectors.contains_key(&plain_key(latex))

@@ -419,3 +419,44 @@ fn names_that_differ_in_one_letter_have_another_index() {
         assert_eq!(mistakes, [mistake]);
     }
 }
+
+/// Equations in environments that are not displays, and in sentences, are counted if displays are read.
+#[test]
+fn equations_outside_of_displays_are_counted() {
+    let robot = link("1", "0", "m1*r1^2");
+    let right = "\\[ Q_1 = m_1 r_1^2 \\ddot q_1 \\]\n";
+    let wrong = "Q_1 &= 7 r_1 \\ddot q_1";
+    for outside in [
+        "with $Q_1 = 7 r_1 \\ddot q_1$",
+        "is \\(\\tau_1 = 7\\).",
+        "\\begin{own}[x]{rCl} Q_1 &=& 7 r_1 \\end{own}",
+        "\\begin{own}\n Q_1 &=& 7 r_1 \\end{own}",
+        "$x = 3$, $(3)\\ Q_1 = 7$",
+    ] {
+        let found = compared(&robot, &format!("{right}{outside}\n")).unwrap();
+        let line = if outside.contains("own}\n") { 3 } else { 2 };
+        assert_eq!((found.equations, found.unread), (1, vec![line]), "{outside}");
+    }
+    for outside in
+        ["$x = 3$", "% $Q_1 = 7$", "\\begin{comment}$Q_1 = 7$\\end{comment}", "$Q_1$ = 3"]
+    {
+        let found = compared(&robot, &format!("{right}{outside}\n")).unwrap();
+        assert_eq!(found.unread, [0; 0], "{outside}");
+    }
+    for display in [
+        "{IEEEeqnarray}{rCl}",
+        "{IEEEeqnarray*}[x]{rCl}",
+        "{dmath}",
+        "{dmath*}[label={eq:a}]",
+        "{empheq}[left=x]{align}",
+    ] {
+        let name = display.split_inclusive('}').next().unwrap_or_default();
+        let text = format!("{right}\\begin{display} {wrong} \\IEEEyesnumber \\end{name}\n");
+        let found = compared(&robot, &text).unwrap();
+        assert_eq!(
+            (found.equations, found.differences.len(), found.unread.len()),
+            (2, 1, 0),
+            "{text}"
+        );
+    }
+}

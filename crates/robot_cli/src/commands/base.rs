@@ -99,6 +99,7 @@ impl Arguments {
             )?;
         }
         note_friction(&robot, terminal)?;
+        note_inseparable(&set, terminal)?;
         Ok(terminal.output.write_all(shown.as_bytes())?)
     }
 }
@@ -131,6 +132,21 @@ fn note_friction(robot: &Robot, terminal: &mut Terminal<'_>) -> Result<(), Failu
         "the column of FO differs from that of FP minus that of FN only at rest or, with a smoothing, at low \
          velocities; to fit logs of motion, leave `offset` out: FP and FN then include it",
     )
+}
+
+/// Prints a note for each group of base parameters that logs of motion do not separate.
+fn note_inseparable(set: &BaseSet, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
+    for group in &set.inseparable {
+        let names = group.iter().filter_map(|place| set.list.get(*place));
+        let names: Vec<&str> = names.map(|entry| entry.name.as_str()).collect();
+        writeln!(
+            terminal.errors,
+            "note: {}: their columns are linearly dependent while the joints move, because gravity on a slide is \
+             constant; to fit logs of motion, give one of them its known value, or leave `drive` out",
+            names.join(", ")
+        )?;
+    }
+    Ok(())
 }
 
 /// The number of bytes of formulas that people can read, those of some thirty pages.

@@ -73,7 +73,10 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
         if !(columns.contains(name) || *name == "t" || is_energy(name)) {
             let meant = text::meant(&in_our_order(name), &columns);
             let unknown = format!("unknown column `{}`.{meant}", quote(name));
-            let unit = unit(name);
+            let unit = match is_time(name) {
+                true => "; call the column of times `t`, which is not used, or remove it",
+                false => unit(name),
+            };
             let unknown = if unit.is_empty() { &unknown } else { unknown.trim_end_matches('.') };
             errors.push(format!("the header: {unknown}{unit}"));
         } else if header[..index].contains(name) {
@@ -89,6 +92,12 @@ fn header_errors(header: &[&str], layout: &Layout) -> Vec<String> {
         }
     }
     errors
+}
+
+/// Whether a name is one of those that other programs give to a column of times.
+fn is_time(name: &str) -> bool {
+    let name = name.trim_start_matches('%').to_ascii_lowercase();
+    name.starts_with("time") || name == "stamp"
 }
 
 /// The name `qd1` for `dq1`, as other programs name velocities and accelerations; others unchanged.

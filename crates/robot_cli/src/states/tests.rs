@@ -106,6 +106,11 @@ fn everything_that_is_wrong_with_csv_is_named() {
     // Files that other programs write have a remedy.
     let deg = errors("q1 [deg],q2\n");
     assert!(deg[0].ends_with("fx, fy, fz, mx, my, mz; write the name without a unit, and values in s, rad, m, N m and N: degrees are not converted"), "{deg:?}");
+    let time = errors("time,q1,q2\n");
+    assert!(
+        time[0].ends_with("mz; call the column of times `t`, which is not used, or remove it"),
+        "{time:?}"
+    );
     let semicolons = "the header has semicolons instead of commas; separate columns with commas, and write decimals with points";
     assert_eq!(errors("q1;q2\n0;1\n"), [semicolons]);
     let found = errors("q1,q2\n1,nan\n1\n2,\n");

@@ -127,3 +127,47 @@ fn what_is_out_of_reach_is_told() {
     let errors = complaint(1, &["base", path.to_str().unwrap()], "");
     assert!(errors.contains("joints share a coordinate"), "{errors}");
 }
+
+/// On a vertical slide with a drive and dry friction, motions do not separate the mass, the drive's inertia and the
+/// friction; without one of these, or on a horizontal slide, they do.
+#[test]
+fn what_motions_do_not_separate_is_named() {
+    let path = folder("inseparable").join("arm.toml");
+    let link = |name: &str, joint: &str, more: &str| {
+        format!(
+            "[[link]]\nname = \"{name}\"\njoint = {{ {joint} }}\norigin = {{ xyz = [0.3, 0, 0] }}\nmass = 1.5\n\
+             center_of_mass = [0.1, 0, 0.02]\ninertia = {{ xx = 0.01, yy = 0.03, zz = 0.03 }}\n{more}"
+        )
+    };
+    let (turn, vertical) =
+        ("type = \"revolute\", axis = \"z\"", "type = \"prismatic\", axis = \"z\"");
+    let drive = "drive = { armature = 1.2 }\n";
+    let friction = "friction = { coulomb_force = 12, viscous = 5 }\n";
+    for (first, slide, more, named) in [
+        (turn, vertical, format!("{drive}{friction}"), Some("ZZR_1, M_2, IA_2, FP_2, FN_2")),
+        (
+            "type = \"prismatic\", axis = \"y\"",
+            vertical,
+            format!("{drive}{friction}"),
+            Some("M_1, M_2, IA_2, FP_2, FN_2"),
+        ),
+        (vertical, vertical, format!("{drive}{friction}"), None),
+        (turn, vertical, drive.to_owned(), None),
+        (turn, vertical, friction.to_owned(), None),
+        (turn, "type = \"prismatic\", axis = \"x\"", format!("{drive}{friction}"), None),
+        ("type = \"revolute\", axis = \"x\"", vertical, format!("{drive}{friction}"), None),
+    ] {
+        let links = link("a", first, "") + &link("b", slide, &more);
+        std::fs::write(&path, format!("format = 1\n[robot]\nname = \"arm\"\n{links}")).unwrap();
+        let shown = run(&["base", path.to_str().unwrap()]);
+        let note = shown.errors.lines().find(|line| line.contains("linearly dependent"));
+        match named {
+            Some(named) => assert!(
+                note.is_some_and(|note| note.starts_with(&format!("note: {named}: "))),
+                "{}",
+                shown.errors
+            ),
+            None => assert_eq!(note, None, "{first} {slide} {more}"),
+        }
+    }
+}

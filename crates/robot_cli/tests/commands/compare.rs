@@ -46,7 +46,7 @@ fn the_paper_differs_in_the_terms_that_the_document_lists() {
     assert_eq!((differences.len(), &found["terms"]), (34, &Value::from(839)));
     for difference in differences {
         assert!(!difference["evidence"].as_array().unwrap().is_empty(), "{difference}");
-        assert!(!difference["slips"].as_array().unwrap().is_empty(), "{difference}");
+        assert!(!difference["mistakes"].as_array().unwrap().is_empty(), "{difference}");
     }
     // A changed sign is found.
     let changed = paper("+ M5*qdd3 + cos(q5)*Fz6", "- M5*qdd3 + cos(q5)*Fz6", "text");
@@ -234,7 +234,7 @@ fn every_difference_of_the_paper_has_one_grade_and_the_grade_its_reason() {
         let text = |value: &Value| value.as_str().unwrap().to_owned();
         let evidence = difference["evidence"].as_array().unwrap();
         let wrong = evidence.iter().any(|one| text(one).starts_with("has units "));
-        let mistakes = difference["slips"].as_array().unwrap();
+        let mistakes = difference["mistakes"].as_array().unwrap();
         let [mistake] = &mistakes[..] else { panic!("{mistakes:?}") };
         let (of, glyph) = match text(&mistake["kind"]).as_str() {
             "dot" => ("a dot", true),

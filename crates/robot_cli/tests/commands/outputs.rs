@@ -190,6 +190,8 @@ fn a_robot_file_with_notes_is_replaced_with_force_alone() {
     let shown = run(&import);
     assert_eq!(shown.code, 1);
     assert!(shown.errors.contains("out.toml is not replaced"), "{}", shown.errors);
+    let checked = complaint(1, &[&import[..], &["--check"]].concat(), "");
+    assert!(checked.contains("with --force instead of --check to replace"), "{checked}");
     // Other commands do not replace it either.
     let other = inputs.path("arm.toml");
     assert_eq!(run(&["generate", &other, "-o", &toml]).code, 1);

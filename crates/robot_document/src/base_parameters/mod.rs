@@ -2,7 +2,7 @@
 
 mod coefficients;
 
-use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity};
+use robot_dynamics::base_parameters::{BaseParameter, BaseParameters, Quantity, inseparable};
 use robot_dynamics::functions::Derivation;
 use robot_dynamics::mechanism::MechanismOptions;
 use robot_model::robot::Robot;
@@ -43,6 +43,8 @@ pub struct BaseSet {
     /// Whether coefficients are rounded: because joints share a coordinate (see [`BaseParameters::rounded`]), or because
     /// exact ones would be long expressions in sines and roots of numbers.
     pub rounded: bool,
+    /// Base parameters that rows with all joints in motion do not separate, as places in the list (see [`inseparable`]).
+    pub inseparable: Vec<Vec<usize>>,
 }
 
 /// A base parameter, as text and formulas.
@@ -124,7 +126,8 @@ fn written(robot: &Robot, snap: Option<f64>, graph: &Graph) -> Result<BaseSet, E
         });
     }
     let standard = standard.into_iter().flatten().map(|one| one.text).collect();
-    Ok(BaseSet { standard, list, rounded: found.rounded })
+    let inseparable = inseparable(&derivation, &found);
+    Ok(BaseSet { standard, list, rounded: found.rounded, inseparable })
 }
 
 /// Returns an error if a symbol of the robot has the name or the layout of a standard or base parameter without being

@@ -123,8 +123,8 @@ fn equal_frictions(found: &BaseParameters<'_>, values: &[Polynomial<'_>]) -> Vec
     equal
 }
 
-/// The symbol of dry friction that is the same in both directions. Its definition is added to `equations`, unless the
-/// robot file has this symbol.
+/// The symbol of dry friction that is the same in both directions. Its definition is added to `equations`, unless
+/// the friction is itself a symbol of the robot file, which is then used.
 fn united_friction<'g>(
     writer: &mut Writer<'_, 'g>,
     link: usize,

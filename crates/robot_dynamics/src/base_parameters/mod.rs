@@ -40,6 +40,7 @@ use robot_model::functions::{has_shared_coordinates, out_of_reach};
 use robot_model::robot::BaseFrames;
 use robot_model::robot::LINK_PARAMETERS;
 use scalar::tidied;
+pub use shared::inseparable;
 pub use standard::{Quantity, StandardParameter, standard_parameters};
 
 /// The base parameters of a robot.

@@ -167,18 +167,15 @@ impl<'r, 'g> Derivation<'r, 'g> {
                 JointKind::Revolute => false,
                 JointKind::Prismatic => true,
             })
-            .map(|(index, _)| index.to_string())
+            .map(|(index, _)| ordinal(index + 1))
             .collect();
-        match translations.len() {
-            0 => rotation.to_owned(),
-            count if count == kinds.len() => translation.to_owned(),
-            1 => format!(
-                "{rotation}; {translation} for the prismatic joint (entry {}, counted from 0)",
-                translations.concat()
-            ),
-            _ => format!(
-                "{rotation}; {translation} for the prismatic joints (entries {}, counted from 0)",
-                translations.join(", ")
+        match translations.as_slice() {
+            [] => rotation.to_owned(),
+            all if all.len() == kinds.len() => translation.to_owned(),
+            [one] => format!("{rotation}; {translation} for the prismatic joint (the {one} entry)"),
+            [others @ .., last] => format!(
+                "{rotation}; {translation} for the prismatic joints (the {} and {last} entries)",
+                others.join(", ")
             ),
         }
     }
@@ -217,5 +214,37 @@ impl<'r, 'g> Derivation<'r, 'g> {
             symbols: wrench.components().map(str::to_owned).collect(),
         });
         inputs.collect()
+    }
+}
+
+/// A position in a list, counted from 1, in words: languages count their entries from 0 or from 1.
+fn ordinal(position: usize) -> String {
+    const WORDS: [&str; 12] = [
+        "first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth",
+        "tenth", "eleventh", "twelfth",
+    ];
+    if let Some(word) = position.checked_sub(1).and_then(|index| WORDS.get(index)) {
+        return (*word).to_owned();
+    }
+    let ending = match (position % 10, position % 100) {
+        (_, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    format!("{position}{ending}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::ordinal;
+
+    #[test]
+    fn positions_are_words_up_to_twelve() {
+        let shown = [1, 12, 13, 21, 22, 33, 112, 113, 121].map(ordinal);
+        let expected =
+            ["first", "twelfth", "13th", "21st", "22nd", "33rd", "112th", "113th", "121st"];
+        assert_eq!(shown, expected);
     }
 }

@@ -6,8 +6,8 @@ use robot_model::variable::JointVariable;
 use robot_symbolic::{Expr, Formula, Graph, Number, walk};
 
 use super::direction::unit_vector;
-use super::snapped::{Near, near};
-use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions, Snap};
+use super::snapped::{changes, near};
+use super::{Mechanism, MechanismFrame, MechanismFriction, MechanismLink, MechanismOptions};
 use crate::vector::{Matrix, Vector};
 
 /// Expresses the robot in symbols of `graph`.
@@ -16,7 +16,7 @@ pub(super) fn lower<'g>(
     graph: &'g Graph,
     options: &MechanismOptions,
 ) -> Mechanism<'g> {
-    let mut lowering = Lowering { graph, options, snapped: vec![] };
+    let lowering = Lowering { graph, options };
     // The symbols are in the order of the mechanism and the file, whatever symbols the formulas use first.
     for symbol in JointVariable::MOTION.into_iter().flat_map(|variable| robot.symbols(variable)) {
         graph.symbol(&symbol);
@@ -33,7 +33,7 @@ pub(super) fn lower<'g>(
         links,
         frames,
         degrees_of_freedom: robot.coordinates.len(),
-        snapped: lowering.snapped,
+        snapped: changes(robot, options.snap),
         base: None,
     }
 }
@@ -41,7 +41,6 @@ pub(super) fn lower<'g>(
 struct Lowering<'g, 'o> {
     graph: &'g Graph,
     options: &'o MechanismOptions,
-    snapped: Vec<Snap>,
 }
 
 impl<'g> Lowering<'g, '_> {
@@ -62,13 +61,13 @@ impl<'g> Lowering<'g, '_> {
         self.graph.number(Number::real(expr.evaluate(|_| f64::NAN)))
     }
 
-    fn link(&mut self, link: &Link) -> MechanismLink<'g> {
-        let (rotation, translation) = self.placement(&link.name, &link.placement);
+    fn link(&self, link: &Link) -> MechanismLink<'g> {
+        let (rotation, translation) = self.placement(&link.placement);
         let joint = &link.joint;
         let (ratio, offset) = (self.value(&joint.ratio), self.value(&joint.offset));
         let motion =
             |variable: JointVariable| ratio * self.graph.symbol(&variable.symbol(joint.coordinate));
-        let (mass, center_of_mass, inertia) = self.bodies(&link.name, &link.bodies);
+        let (mass, center_of_mass, inertia) = self.bodies(&link.bodies);
         let drive = &link.drive;
         let (rotor_inertia, gear_ratio) =
             (self.value(&drive.rotor_inertia), self.value(&drive.gear_ratio));
@@ -106,8 +105,8 @@ impl<'g> Lowering<'g, '_> {
         }
     }
 
-    fn frame(&mut self, frame: &Frame) -> MechanismFrame<'g> {
-        let (rotation, translation) = self.placement(&frame.name, &frame.placement);
+    fn frame(&self, frame: &Frame) -> MechanismFrame<'g> {
+        let (rotation, translation) = self.placement(&frame.placement);
         let symbols = |names: &[String; 3]| Vector([0, 1, 2].map(|i| self.graph.symbol(&names[i])));
         MechanismFrame {
             name: frame.name.clone(),
@@ -122,14 +121,14 @@ impl<'g> Lowering<'g, '_> {
     }
 
     /// The rotation R and translation p of a displacement: x_outer = R x_inner + p.
-    fn placement(&mut self, name: &str, placement: &Placement) -> (Matrix<'g>, Vector<'g>) {
+    fn placement(&self, placement: &Placement) -> (Matrix<'g>, Vector<'g>) {
         let mut rotation = Matrix::identity(self.graph);
         let mut translation = Vector::zero(self.graph);
         for step in &placement.0 {
             match step {
                 Move::Translate(by) => translation = translation + rotation * self.vector(by),
                 Move::Rotate(axis, angle) => {
-                    let angle = self.angle(name, angle);
+                    let angle = self.angle(angle);
                     let (sine, cosine) = (self.round(angle.sin()), self.round(angle.cos()));
                     let axis = self.coordinate_axis(*axis);
                     rotation = rotation * Matrix::rotation(axis, sine, cosine);
@@ -140,16 +139,13 @@ impl<'g> Lowering<'g, '_> {
     }
 
     /// A constant angle within the tolerance of a multiple of π/2 becomes that multiple.
-    fn angle(&mut self, name: &str, formula: &Formula) -> Expr<'g> {
+    fn angle(&self, formula: &Formula) -> Expr<'g> {
         // The exact value is needed, because rounding would make `pi/2` a floating-point number, whose cosine is not 0.
         let exact = formula.lower(self.graph, &mut |name| self.graph.symbol(name));
-        let Some(Near { quarters, angle, change }) = near(formula, self.options.snap) else {
-            return exact;
-        };
-        if change != 0.0 {
-            self.snapped.push(Snap { name: name.to_owned(), angle, change });
+        match near(formula, self.options.snap) {
+            Some(near) => self.graph.pi() * near.quarters / 2,
+            None => exact,
         }
-        self.graph.pi() * quarters / 2
     }
 
     fn coordinate_axis(&self, axis: Axis) -> Vector<'g> {
@@ -162,8 +158,8 @@ impl<'g> Lowering<'g, '_> {
     }
 
     /// The mass, center of mass and inertia tensor about the center of mass of all bodies together.
-    fn bodies(&mut self, link: &str, bodies: &[Body]) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
-        let parts: Vec<_> = bodies.iter().map(|body| self.body(link, body)).collect();
+    fn bodies(&self, bodies: &[Body]) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
+        let parts: Vec<_> = bodies.iter().map(|body| self.body(body)).collect();
         if let [single] = parts[..] {
             return single;
         }
@@ -181,8 +177,8 @@ impl<'g> Lowering<'g, '_> {
         (mass, center, inertia)
     }
 
-    fn body(&mut self, link: &str, body: &Body) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
-        let (rotation, center) = self.placement(link, &body.placement);
+    fn body(&self, body: &Body) -> (Expr<'g>, Vector<'g>, Matrix<'g>) {
+        let (rotation, center) = self.placement(&body.placement);
         let Inertia { xx, yy, zz, xy, xz, yz } = &body.inertia;
         let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         let inertia = Matrix::from_fn(|row, column| self.value(rows[row][column]));

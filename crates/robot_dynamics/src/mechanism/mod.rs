@@ -96,7 +96,7 @@ impl<'g> BaseMotion<'g> {
 /// A constant angle that was snapped to a multiple of π/2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snap {
-    /// The name of the link or frame whose placement contains the angle.
+    /// The name of the link, body or frame whose placement contains the angle; the first of them if there are several.
     pub name: String,
     /// The angle in the file, rad.
     pub angle: f64,

@@ -1,5 +1,6 @@
 //! Snapping of constant angles to multiples of π/2.
 
+use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 
 use robot_model::robot::{Move, Placement, Robot};
@@ -41,18 +42,17 @@ fn quarters(angle: &Number, tolerance: f64) -> Option<(i64, f64)> {
 /// and so on, and the angles that this changes.
 #[must_use]
 pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
+    let snaps = changes(robot, tolerance);
     let mut robot = robot.clone();
-    let mut snaps = vec![];
     for link in &mut robot.links {
-        place(&link.name, &mut link.placement, tolerance, &mut snaps);
+        snap_all(&mut link.placement, tolerance);
         for body in &mut link.bodies {
-            place(&link.name, &mut body.placement, tolerance, &mut snaps);
+            snap_all(&mut body.placement, tolerance);
         }
     }
     for frame in &mut robot.frames {
-        place(&frame.name, &mut frame.placement, tolerance, &mut snaps);
+        snap_all(&mut frame.placement, tolerance);
     }
-    // The placements contain these angles, so that their changes are in the list already.
     for row in &mut robot.dh {
         for angle in [&mut row.alpha, &mut row.theta] {
             snap(angle, tolerance);
@@ -61,12 +61,51 @@ pub fn snapped(robot: &Robot, tolerance: f64) -> (Robot, Vec<Snap>) {
     (robot, snaps)
 }
 
-fn place(name: &str, placement: &mut Placement, tolerance: f64, snaps: &mut Vec<Snap>) {
+/// The angles that snapping changes. The angle of a fixed link is in the placements of its body, of its frame and of the
+/// links that it carries; it is in the list once.
+pub(super) fn changes(robot: &Robot, tolerance: f64) -> Vec<Snap> {
+    let mut list = List { tolerance, seen: HashMap::new(), snaps: vec![] };
+    for (index, link) in robot.links.iter().enumerate() {
+        list.add(&link.name, link.parent, &link.placement);
+        for body in &link.bodies {
+            list.add(&body.name, Some(index), &body.placement);
+        }
+    }
+    for frame in &robot.frames {
+        list.add(&frame.name, frame.link, &frame.placement);
+    }
+    list.snaps
+}
+
+/// The changed angles that were found so far.
+struct List<'r> {
+    tolerance: f64,
+    /// The moves from a link, or the base, up to and including each changed angle.
+    seen: HashMap<Option<usize>, Vec<&'r [Move]>>,
+    snaps: Vec<Snap>,
+}
+
+impl<'r> List<'r> {
+    /// Adds the angles of a placement relative to the link `from`, or the base, that are not in the list.
+    fn add(&mut self, name: &str, from: Option<usize>, placement: &'r Placement) {
+        for (place, step) in placement.0.iter().enumerate() {
+            let Move::Rotate(_, formula) = step else { continue };
+            let near = near(formula, self.tolerance).filter(|near| near.change != 0.0);
+            let Some(Near { angle, change, .. }) = near else { continue };
+            let moves = &placement.0[..=place];
+            let seen = self.seen.entry(from).or_default();
+            if !seen.contains(&moves) {
+                seen.push(moves);
+                self.snaps.push(Snap { name: name.to_owned(), angle, change });
+            }
+        }
+    }
+}
+
+fn snap_all(placement: &mut Placement, tolerance: f64) {
     for step in &mut placement.0 {
-        let Move::Rotate(_, formula) = step else { continue };
-        let Some(Near { angle, change, .. }) = snap(formula, tolerance) else { continue };
-        if change != 0.0 {
-            snaps.push(Snap { name: name.to_owned(), angle, change });
+        if let Move::Rotate(_, formula) = step {
+            snap(formula, tolerance);
         }
     }
 }
@@ -105,6 +144,8 @@ fn multiple_text(quarters: i64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use robot_model::description::read_toml;
+
     use super::*;
 
     #[test]
@@ -138,5 +179,27 @@ mod tests {
         let near = [FRAC_PI_2 + 4e-6, -2.0 * FRAC_PI_2 - 8e-6, 1e-12, 0.0].map(of);
         assert_eq!(near, [Some(1), Some(-2), Some(0), None]);
         assert_eq!([FRAC_PI_2 + 2e-5, 0.785, 1e-4].map(of), [None; 3]);
+    }
+
+    /// A fixed link's angle is in the placements of its body, of its frame and of what it carries.
+    #[test]
+    fn the_angle_of_a_fixed_link_is_in_the_list_once() {
+        let link = |name: &str, joint: &str, more: &str| {
+            format!(
+                "[[link]]\nname = \"{name}\"\njoint = {{ {joint} }}\norigin = {{ xyz = [0, 0, 0.3]{more} }}\nmass = 1\n\
+                 center_of_mass = [0, 0, 0.1]\ninertia = {{ xx = 0.01, yy = 0.01, zz = 0.01 }}\n"
+            )
+        };
+        let turns = "type = \"revolute\", axis = \"y\"";
+        let angle = ", rpy = [0, 0, 1.5708]";
+        let text = "format = 1\n[robot]\nname = \"arm\"\n".to_owned()
+            + &link("a", turns, "")
+            + &link("palm", "type = \"fixed\"", angle)
+            + &link("b", turns, "")
+            + &link("c", turns, angle);
+        let robot = read_toml("arm.toml", &text).unwrap().robot;
+        let (_, snaps) = snapped(&robot, 1e-5);
+        let names: Vec<&str> = snaps.iter().map(|snap| snap.name.as_str()).collect();
+        assert_eq!(names, ["palm", "c"]);
     }
 }

@@ -25,8 +25,8 @@ fn units_name_the_prismatic_joints_among_others() {
     let (r, p) = ("revolute", "prismatic");
     assert_eq!(unit(&[r, r]), "N m");
     assert_eq!(unit(&[p, p]), "N");
-    assert_eq!(unit(&[r, p]), "N m; N for the prismatic joint (entry 1, counted from 0)");
-    assert_eq!(unit(&[p, r, p]), "N m; N for the prismatic joints (entries 0, 2, counted from 0)");
+    assert_eq!(unit(&[r, p]), "N m; N for the prismatic joint (the second entry)");
+    assert_eq!(unit(&[p, r, p]), "N m; N for the prismatic joints (the first and third entries)");
 }
 
 /// The documentation of the regressor describes the columns of drives, if there are any.

@@ -56,8 +56,8 @@ pub(super) struct Bytes {
     pub(super) addressing: Addressing,
     /// The number in the pool at which the rows of constants start.
     rows: usize,
-    /// The numbers by which the pointers to working memory and constants are advanced, so that displacements of one
-    /// byte reach twice as many numbers.
+    /// How many numbers the pointers to working memory and to constants are advanced by, so that displacements of one
+    /// byte reach twice as many.
     reach: [i64; 2],
     /// The offset at which the code of a state starts.
     start: u64,

@@ -29,7 +29,9 @@ pub(super) fn read(
     let parent = parent(reader, &mut table, index, &mut places);
     let own_frame = table.has("origin") || table.has("dh");
     let row = dh.as_mut().filter(|_| !own_frame).map(dh::Table::next_row);
-    let is_dh = row.is_some() || table.has("dh");
+    // If both `origin` and `dh` are given by mistake, an axis belongs to `origin`.
+    let is_dh = row.is_some()
+        || table.has("dh") && !(table.has("origin") && table.has_within("joint", "axis"));
     let kind = row.as_ref().map(|row| row.kind);
     let joint = joint::read(reader, &mut table, &named, kind, is_dh, &mut places);
     let frames = match row {

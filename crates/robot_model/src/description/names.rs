@@ -176,9 +176,13 @@ impl Registry {
                 format!("the names of the {what}s `{other}` and `{name}` are too similar");
             Diagnostic::error(code::ALIKE, message)
                 .at(&named.span, "differs only in case or underscores")
-                .because("readers confuse them, some file systems ignore case, and equations print names without underscores")
+                .because("readers confuse them, some file systems ignore case, and typeset equations have names without underscores")
         };
-        Some(diagnostic.and_at(&first.span, "first defined here").help("rename one of them"))
+        let help = match (name == other, self.what) {
+            (false, "symbol") => "rename one of them; its key `latex` can print any letter",
+            _ => "rename one of them",
+        };
+        Some(diagnostic.and_at(&first.span, "first defined here").help(help))
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use robot_symbolic::{Formula, Graph, Id, Number, Rational, nearest_word, walk};
 
-use super::defined::LARGE_ANGLE;
+use super::defined::{LARGE_ANGLE, undefined};
 use super::locations::AngleLocation;
 use super::names::{self, Registry, is_coordinate};
 use super::options::Options;
@@ -180,49 +180,49 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// Reports a formula whose value is not finite; returns whether it is finite.
+    /// Reports a formula whose value is not finite or not known; returns whether it is finite.
     pub(super) fn finite(&mut self, formula: &Formula, span: &Span) -> bool {
         let known = self.known(formula);
-        let undefined = self.undefined(formula).or_else(|| unbounded(formula));
-        if undefined.is_none() && known.is_none_or(f64::is_finite) {
+        let undefined = self.undefined(formula);
+        let unbounded = without_value(formula);
+        if undefined.is_none() && unbounded.is_none() && known.is_none_or(f64::is_finite) {
             return true;
         }
-        let nominal =
-            if formula.is_constant() { "" } else { " at the nominal values of the parameters" };
-        let label = match (known, undefined) {
-            (Some(value), _) if value.is_infinite() => "this is infinite".to_owned(),
-            (Some(value), Some(reason)) if value.is_finite() => reason.to_owned(),
-            (None, Some(reason)) => reason.to_owned(),
-            _ => "this is not a number".to_owned(),
+        let reason = match known {
+            Some(value) if value.is_infinite() => "this is infinite",
+            Some(value) if value.is_nan() => "this is not a number",
+            _ => undefined.or(unbounded).unwrap_or("this is not a number"),
         };
-        let help = match undefined {
-            Some(LARGE_ANGLE) => "write the angle without its multiples of 2π",
-            _ => {
+        let is_lost = reason == LARGE_ANGLE;
+        let values = match unbounded {
+            _ if formula.is_constant() => "",
+            Some(_) => " for any values of the parameters",
+            None => " at the nominal values of the parameters",
+        };
+        let message = match is_lost {
+            true => format!("the value of the expression is not known{values}"),
+            false => format!("the expression does not have a finite value{values}"),
+        };
+        let help = match is_lost {
+            true => "write the angle without its multiples of 2π",
+            false => {
                 "look for a division by zero, the tangent of a right angle, the square root of a negative number, or \
                  an overflow"
             }
         };
-        self.report(
-            Diagnostic::error(
-                code::NUMBER,
-                format!(
-                    "the expression does not have a finite \
-                value{nominal}"
-                ),
-            )
-            .at(span, label)
-            .help(help),
-        );
+        self.report(Diagnostic::error(code::NUMBER, message).at(span, reason).help(help));
         false
     }
 }
 
-/// The reason why a part of the formula is not a finite number for any values of the parameters, as in `1/(x - x)`.
-fn unbounded(formula: &Formula) -> Option<&'static str> {
+/// The reason why a formula does not have a finite value for any values of its parameters, as `1/(x - x)`; `None` if it
+/// may have one.
+fn without_value(formula: &Formula) -> Option<&'static str> {
     if formula.is_constant() {
         return None;
     }
-    (!is_finite(formula)).then_some("this is not a number")
+    let part = "division by 0, the square root of a negative number, or an overflow";
+    undefined(formula).or_else(|| (!is_finite(formula)).then_some(part))
 }
 
 /// Whether every constant part of the formula is a finite number. In `1/(x - x)`, for example, the quotient is not.

@@ -54,6 +54,12 @@ impl<'a> Table<'a> {
         self.keys.contains_key(key)
     }
 
+    /// Whether the value of a key is a table that has another key. Neither key becomes known by this.
+    pub(super) fn has_within(&self, key: &str, inner: &str) -> bool {
+        let value = self.keys.get(key).map(|value| value.get_ref());
+        matches!(value, Some(DeValue::Table(table)) if table.contains_key(inner))
+    }
+
     /// Whether the table has an unknown key in place of this one, such as `masss`, which is reported as an unknown key.
     pub(super) fn misspells(&self, reader: &Reader<'_>, key: &str) -> bool {
         let absent = self.shape.keys.iter().map(|known| known.name).filter(|name| !self.has(name));

@@ -1,7 +1,7 @@
-//! Errors and warnings about a robot file: the place, the reason and the remedy.
+//! Errors, warnings and notes about a robot file: the place, the reason and the remedy.
 //!
 //! Every reader collects [`Diagnostic`]s and continues, so that all errors in a file are reported at once, in the order
-//! of their places.
+//! of their places. If a file has errors of syntax, only these are reported.
 
 pub mod code;
 mod group;

@@ -3,9 +3,9 @@
 use crate::robot::{BaseFrames, Link, Move, Placement, Robot};
 
 /// The reason why the base parameters of a robot cannot be determined; `None` if they can. One case is that joints
-/// share coordinates while lengths, angles, gravity or ratios are parameters, so that the rank at states with given
-/// values proves nothing. The other case is that Denavit–Hartenberg frames are requested while a joint axis is a
-/// parameter.
+/// share coordinates while lengths, angles, axes, gravity, ratios or offsets are parameters, so that the rank at states
+/// with given values proves nothing. The other case is that Denavit–Hartenberg frames are requested while a joint axis
+/// is a parameter.
 #[must_use]
 pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
     let is_free = |link: &Link| link.joint.axis.iter().any(|axis| axis.symbols().next().is_some());
@@ -16,8 +16,8 @@ pub fn out_of_reach(robot: &Robot) -> Option<&'static str> {
         );
     }
     (has_shared_coordinates(robot) && has_free_geometry(robot)).then_some(
-        "joints share a coordinate, and lengths, axes, gravity or ratios are parameters; write \
-         them with numbers",
+        "joints share a coordinate, and lengths, angles, axes, gravity, ratios or offsets are \
+         parameters; write them with numbers",
     )
 }
 

@@ -8,8 +8,8 @@ use super::cells;
 /// Separators of other formats, with their names.
 const SEPARATORS: [(char, &str); 3] = [(';', "semicolons"), ('\t', "tabs"), ('|', "vertical bars")];
 
-/// The message with a remedy if a header is a comment, ends with a comma, has a quote without a partner or is separated by
-/// other characters than commas, or if its lines end with carriage returns alone; `None` otherwise.
+/// The message with a remedy about a first line that is not a header of a CSV file, such as a comment, numbers or names
+/// with semicolons between them; `None` if it can be a header.
 #[must_use]
 pub fn wrong_header(header: &str) -> Option<String> {
     let header = header.trim();

@@ -209,7 +209,8 @@ impl Builder {
     }
 
     /// Sets whether physically impossible values are accepted, with a warning: negative masses, and inertia tensors
-    /// with a principal moment that is negative or exceeds the sum of the others.
+    /// with a principal moment that is negative or exceeds the sum of the others. In URDF, an excess of at most 10 % is
+    /// always only a warning.
     pub fn allow_unphysical(mut self, allow: bool) -> Builder {
         self.options.allow_unphysical = allow;
         self

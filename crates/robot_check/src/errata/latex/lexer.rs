@@ -14,7 +14,7 @@ pub(super) struct Token<'t> {
 }
 
 /// Commands that only print space, and alignment marks.
-const SPACES: [&str; 17] = [
+const SPACES: [&str; 19] = [
     "&",
     "~",
     r"\,",
@@ -27,6 +27,8 @@ const SPACES: [&str; 17] = [
     r"\qquad",
     r"\nonumber",
     r"\notag",
+    r"\IEEEnonumber",
+    r"\IEEEyesnumber",
     r"\displaystyle",
     r"\limits",
     r"\hfill",

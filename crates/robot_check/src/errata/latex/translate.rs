@@ -25,7 +25,9 @@ pub(super) fn translate(latex: &str, names: &Names<'_>) -> Result<Infix, ParseEr
     let tokens = lexer::tokens(latex);
     if tokens.len() > MAX_TOKENS {
         let message = format!("the formula has more than {MAX_TOKENS} tokens");
-        return Err(ParseError::new(0..latex.len(), message).help("split it into several"));
+        return Err(
+            ParseError::new(0..latex.len(), message).help("take common factors out of its sums")
+        );
     }
     let infix = Infix { text: String::new(), pieces: vec![], end: latex.len() };
     let mut translator = Translator { tokens: &tokens, place: 0, depth: 0, names, infix };

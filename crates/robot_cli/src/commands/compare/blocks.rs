@@ -228,7 +228,15 @@ mod tests {
     }
 
     fn comparison(differences: Vec<Difference>) -> Comparison {
-        Comparison { equations: 1, names: 0, terms: 1, wrench: true, rounded: 0, differences }
+        Comparison {
+            equations: 1,
+            names: 0,
+            terms: 1,
+            wrench: true,
+            rounded: 0,
+            unread: vec![],
+            differences,
+        }
     }
 
     fn planar_2r() -> Robot {

@@ -109,7 +109,7 @@ fn mistakes(difference: &Difference) -> String {
 
 /// Prints a summary such as `85 equations (10 only name other quantities), 839 terms: 34 terms differ (23 dot, 8 index, …)`.
 pub(super) fn summary(comparison: &Comparison) -> String {
-    let Comparison { equations, names, terms, wrench, rounded, differences } = comparison;
+    let Comparison { equations, names, terms, wrench, rounded, unread, differences } = comparison;
     let mut kinds: BTreeMap<MistakeKind, usize> = BTreeMap::new();
     for mistake in differences.iter().flat_map(|difference| &difference.mistakes) {
         *kinds.entry(mistake.kind).or_default() += 1;
@@ -136,7 +136,20 @@ pub(super) fn summary(comparison: &Comparison) -> String {
         1 => "; 1 coefficient agrees only to the digits printed",
         count => &format!("; {count} coefficients agree only to the digits printed"),
     };
-    shown + agreed
+    shown + agreed + &not_compared(unread)
+}
+
+/// The end of a summary about equations on these lines, which are not compared.
+fn not_compared(lines: &[usize]) -> String {
+    let shown: Vec<String> = lines.iter().take(5).map(ToString::to_string).collect();
+    let more = if lines.len() > shown.len() { ", …" } else { "" };
+    let (equations, is, on) = match lines.len() {
+        0 => return String::new(),
+        1 => ("1 equation".to_owned(), "is", "line"),
+        count => (format!("{count} equations"), "are", "lines"),
+    };
+    let shown = shown.join(", ");
+    format!("; {equations} outside of displays {is} not compared ({on} {shown}{more})")
 }
 
 /// Prints the comparison as `{"equations": …, "terms": …, "differences": […]}`.
@@ -159,7 +172,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
                 "number": difference.number,
                 "quantity": difference.quantity,
                 "line": difference.line,
-                "slips": mistakes,
+                "mistakes": mistakes,
                 "printed": difference.printed,
                 "derived": difference.derived,
                 "nearest": difference.nearest,
@@ -173,6 +186,7 @@ pub(super) fn json(comparison: &Comparison) -> String {
         "terms": comparison.terms,
         "wrench": comparison.wrench,
         "rounded": comparison.rounded,
+        "unread": comparison.unread,
         "differences": differences,
     });
     format!("{shown:#}\n")
@@ -205,6 +219,7 @@ mod tests {
             terms: 5,
             wrench: false,
             rounded: 0,
+            unread: vec![],
             differences,
         };
         let shown = text(&comparison(differences));
@@ -228,7 +243,15 @@ mod tests {
     }
 
     fn comparison(differences: Vec<Difference>) -> Comparison {
-        Comparison { equations: 1, names: 0, terms: 1, wrench: true, rounded: 0, differences }
+        Comparison {
+            equations: 1,
+            names: 0,
+            terms: 1,
+            wrench: true,
+            rounded: 0,
+            unread: vec![],
+            differences,
+        }
     }
 
     #[test]
@@ -276,7 +299,7 @@ mod tests {
         let shown: Value = serde_json::from_str(&json(&all)).unwrap();
         assert_eq!(shown["differences"][0]["nearest"], "m3");
         assert_eq!(shown["differences"][1]["printed"], Value::Null);
-        assert_eq!(shown["differences"][1]["slips"][0]["kind"], "missing term");
+        assert_eq!(shown["differences"][1]["mistakes"][0]["kind"], "missing term");
         assert_eq!((&shown["equations"], &shown["wrench"]), (&json!(1), &json!(true)));
         assert_eq!(shown["rounded"], 0);
     }

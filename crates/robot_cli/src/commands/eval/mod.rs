@@ -45,7 +45,7 @@ use crate::suggested::FUNCTION;
 States are a JSON array of objects with the keys q, qd, qdd, tau and wrench (fx, fy, fz, mx, my, mz; wrench_NAME
 for each of several tips), or CSV with a header such as q1,q2,qd1,qd2,fx,fy,fz,mx,my,mz. A function needs all
 its inputs except the wrench, whose default is 0. States may have more of these keys and columns than it needs,
-but no others. The wrench is the one that the tip exerts on its surroundings.
+and the columns t, kinetic, potential and energy of a simulated motion, but no others. The wrench is the one that the tip exerts on its surroundings.
 If a state has a nonzero wrench, inverse_dynamics means inverse_dynamics_wrench, inverse_dynamics_friction means
 inverse_dynamics_wrench_friction, and likewise for forward_dynamics. The values come from the same straight-line
 program from which the code is printed. States are read, and their outputs printed, one by one, however many

@@ -67,7 +67,7 @@ impl Target for RustOptions {
     }
 }
 
-/// The lints that generated code cannot satisfy, because its names come from robot files and
+/// The lints that generated code does not satisfy, most of them because its names come from robot files and because
 /// straight-line arithmetic is long and has constants with many digits.
 const ALLOWED_LINTS: [&str; 17] = [
     // Users of a module do not use all of its functions.
