@@ -22,7 +22,7 @@ pub(crate) struct Kink {
 /// twice within one part, or touches 0 without passing it, is not noticed.
 const PARTS: usize = 4;
 /// The distance from a kink at which the values before and after it are compared, as a fraction of the whole time.
-const NEAR: f64 = 1e-9;
+pub(crate) const NEAR: f64 = 1e-9;
 
 /// Finds the first kink of each coordinate. `times` are those of the samples, in ascending order; `value` evaluates
 /// expressions at a time and returns NaN if it cannot.
@@ -42,7 +42,7 @@ pub(crate) fn kinks<'g>(
 }
 
 /// The arguments of `abs` and `sign` in an expression.
-fn switches<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
+pub(crate) fn switches<'g>(root: Expr<'g>) -> Vec<Expr<'g>> {
     let inner = |expr: Expr<'g>| match expr.view() {
         View::Call(Function::Abs | Function::Sign, inner) => Some(inner),
         _ => None,

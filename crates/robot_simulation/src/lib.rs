@@ -28,6 +28,7 @@ mod friction;
 mod grid;
 mod integration;
 mod kinks;
+mod limits;
 mod motion;
 pub mod plot;
 mod program;

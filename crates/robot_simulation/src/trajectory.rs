@@ -10,6 +10,7 @@ use robot_symbolic::{Expr, Formula, Graph, walk};
 use crate::csv::unit;
 use crate::error::Error;
 use crate::kinks::{Kink, kinks, poles};
+use crate::limits::replace_by_limits;
 use crate::motion::is_energy;
 use crate::table::{Table, check_times};
 use crate::{expressions, grid};
@@ -119,7 +120,8 @@ impl Trajectory {
 
     /// Reads expressions such as `q1 = 0.5*sin(t)`, one for each coordinate, in t (s) and the robot's parameters, and
     /// expressions for the components of wrenches with the names of [`Trajectory::from_table`]; a component without one
-    /// is 0. Velocities and accelerations are exact derivatives. The samples are `step` apart over the `duration`, both
+    /// is 0. Velocities and accelerations are exact derivatives; where the argument of an `abs` or a `sign` is 0, the means
+    /// of their limits from both sides. The samples are `step` apart over the `duration`, both
     /// in s. `parameters` are those with other than their nominal values.
     ///
     /// # Errors
@@ -155,7 +157,10 @@ impl Trajectory {
         let sample = |exprs: &[Expr<'_>]| -> Vec<Vec<f64>> {
             times.iter().map(|t| at(&graph, exprs, &values, *t)).collect()
         };
-        let motion = [sample(&q), sample(&qd), sample(&qdd)];
+        let mut motion = [sample(&q), sample(&qd), sample(&qdd)];
+        let value = |exprs: &[Expr<'_>], t: f64| at(&graph, exprs, &values, t);
+        let [_, velocities, accelerations] = &mut motion;
+        replace_by_limits(&q, time, &times, &value, [velocities, accelerations]);
         let wrenches = has_wrench.then(|| sample(&wrenches));
         let names = robot.symbols(JointVariable::Position);
         let mut wrong =

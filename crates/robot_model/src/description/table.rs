@@ -56,7 +56,7 @@ impl<'a> Table<'a> {
 
     /// Whether the value of a key is a table that has another key. Neither key becomes known by this.
     pub(super) fn has_within(&self, key: &str, inner: &str) -> bool {
-        let value = self.keys.get(key).map(|value| value.get_ref());
+        let value = self.keys.get(key).map(Spanned::get_ref);
         matches!(value, Some(DeValue::Table(table)) if table.contains_key(inner))
     }
 

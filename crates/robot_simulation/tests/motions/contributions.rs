@@ -255,3 +255,36 @@ fn figures_are_the_same_bytes_each_time() {
     assert_eq!(png[..8], *b"\x89PNG\r\n\x1a\n");
     assert_eq!(png, figure.png().unwrap());
 }
+
+/// Where the argument of `abs` or `sign` is 0, derivatives are limits, not those with sgn 0 = 0: `T` is the time from
+/// there, at the start of the motion, within it and at its end.
+#[test]
+fn derivatives_at_zeros_of_absolute_values_are_limits() {
+    let robot = robot_file("planar_2r");
+    let robot = &compiled(&robot, false, false).robot;
+    let at_zero = |text: &str, zero: f64| {
+        let text = format!("q1 = {}", text.replace('T', &format!("(t - {zero})")));
+        let found = Trajectory::from_expressions(robot, &[], &[text.as_str(), "q2 = 0"], 1.0, 0.25);
+        let found = found.unwrap_or_else(|error| panic!("{text}: {error}"));
+        let row = found.t.iter().position(|t| *t == zero).unwrap();
+        [found.qd[row][0], found.qdd[row][0]]
+    };
+    for zero in [0.0, 0.5, 1.0] {
+        for (text, expected) in [
+            ("abs(T)^2", [0.0, 2.0]),
+            ("abs(T^2)", [0.0, 2.0]),
+            ("3*T + sign(T)*T*abs(T)", [3.0, 2.0]),
+            ("abs(abs(T))^2 - T", [-1.0, 2.0]),
+            ("0.1/(2 + abs(sin(T))^2)", [0.0, -0.05]),
+            ("T^3 + abs(T + 2)", [1.0, 0.0]),
+        ] {
+            let found = at_zero(text, zero);
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!((found - expected).abs() < 1e-12, "{text} at {zero}: {found}");
+            }
+        }
+    }
+    // The acceleration of T |T| jumps from -2 to 2.
+    let jump = [0.0, 0.5, 1.0].map(|zero| at_zero("T*abs(T)", zero)[1]);
+    assert_eq!(jump, [2.0, 0.0, -2.0]);
+}
