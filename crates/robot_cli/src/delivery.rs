@@ -1,7 +1,6 @@
 //! Files that commands write, and the check that they are up to date.
 
 use std::borrow::Cow;
-use std::ffi::OsStr;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -63,6 +62,19 @@ pub(crate) fn file_of(path: Option<&Path>) -> Option<&Path> {
     path.filter(|path| path.as_os_str() != "-")
 }
 
+/// The endings of names of files that this program reads or writes.
+#[rustfmt::skip]
+const ENDINGS: [&str; 30] = [
+    "toml", "urdf", "xacro", "plan", "rs", "c", "h", "cc", "cpp", "hpp", "cu", "cuh", "ino", "py", "m", "js", "mjs", "ts",
+    "mts", "wgsl", "wasm", "html", "svg", "pdf", "tex", "typ", "md", "json", "csv", "txt",
+];
+
+/// Whether the name of a file ends as that of another kind of file than the one with this ending.
+pub(crate) fn is_of_other_kind(path: &Path, own: &str) -> bool {
+    let is = |ending: &str| path.extension().is_some_and(|end| end.eq_ignore_ascii_case(ending));
+    !is(own) && ENDINGS.into_iter().any(is)
+}
+
 /// The destination of a text, which has been checked.
 pub(crate) struct Delivery<'a> {
     path: Option<Cow<'a, Path>>,
@@ -75,12 +87,6 @@ impl OutputArguments {
     /// The file that is given, if there is one.
     pub(crate) fn file(&self) -> Option<&PathBuf> {
         self.output.as_ref().filter(|path| file_of(Some(path)).is_some())
-    }
-
-    /// The file that is given, if its name has one of these endings.
-    pub(crate) fn file_ending_in(&self, endings: &[&str]) -> Option<&PathBuf> {
-        let has = |end: &OsStr| endings.iter().any(|ending| end.eq_ignore_ascii_case(ending));
-        self.file().filter(|path| path.extension().is_some_and(has))
     }
 
     /// Whether neither a file nor standard output is given.
@@ -111,6 +117,22 @@ impl OutputArguments {
         let writer = self.force.writer(inputs, path.is_some() && !self.check)?;
         let path = path.map(Cow::Borrowed);
         Delivery { path, check: self.check, writer, ownership }.opened()
+    }
+
+    /// The destination of a text of a kind, such as "a schema is JSON", whose files end in `ending`. The error about an
+    /// output that is an input has priority over one about its name, and this one over that about a file of others.
+    pub(crate) fn open_kind(
+        &self,
+        (kind, ending): (&str, &str),
+        ownership: Ownership,
+        inputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<Delivery<'_>, Failure> {
+        let unowned = self.open_as(Ownership::Edited, inputs)?;
+        if let Some(path) = self.file().filter(|path| is_of_other_kind(path, ending)) {
+            let name = shown(&path.with_extension(ending));
+            return Err(Failure::Usage(vec![format!("{kind}; name the file {name}")]));
+        }
+        Delivery { ownership, ..unowned }.opened()
     }
 
     /// The destination of a text with the mark of this program, at a path that the user did not give.
@@ -300,6 +322,14 @@ fn up_to_date<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_of_other_kinds_of_files_are_recognized() {
+        let is_other = |name: &str| is_of_other_kind(Path::new(name), "json");
+        let others = ["g.rs", "Cargo.TOML", "o.plan", ".json.md"];
+        assert_eq!(others.map(is_other), [true; 4]);
+        assert_eq!(["a.json", "a.JSON", "a", "a.dat", ".plan", "plan"].map(is_other), [false; 6]);
+    }
 
     #[test]
     fn sizes_are_those_of_people() {

@@ -27,18 +27,18 @@ pub fn nearest_word<'n>(
     let compared = candidates.into_iter().map(|candidate| {
         let same = candidate.to_lowercase();
         let distance = strsim::damerau_levenshtein(&lower, &same);
-        let slips = match same.starts_with(&lower) && length >= 3 {
+        let edits = match same.starts_with(&lower) && length >= 3 {
             true => distance.min(1),
             false => distance,
         };
         let other_letter = same.chars().next() != lower.chars().next();
-        (slips, distance, other_letter, candidate)
+        (edits, distance, other_letter, candidate)
     });
     compared
-        .min_by_key(|(slips, distance, other_letter, _)| (*slips, *distance, *other_letter))
-        .filter(|(slips, .., candidate)| {
+        .min_by_key(|(edits, distance, other_letter, _)| (*edits, *distance, *other_letter))
+        .filter(|(edits, .., candidate)| {
             let longest = candidate.len().max(length);
-            *slips == 0 || (longest > 1 && *slips <= (longest / 3).clamp(1, 3))
+            *edits == 0 || (longest > 1 && *edits <= (longest / 3).clamp(1, 3))
         })
         .map(|(.., candidate)| candidate)
 }

@@ -11,7 +11,7 @@ use robot_document::{EquationOptions, Form, equations};
 use robot_document::{latex, latex::Page, markdown, typst};
 
 use crate::Terminal;
-use crate::delivery::{Delivery, ForceArgument, file_of};
+use crate::delivery::{Delivery, ForceArgument, file_of, is_of_other_kind};
 use crate::displayed::centimeters;
 use crate::failure::Failure;
 use crate::forms::{EquationArguments, FormName};
@@ -97,14 +97,18 @@ impl Arguments {
                 "--format contradicts the name of a file .{extension}; leave it out, or name the file otherwise"
             )]));
         }
-        match (self.format.or(named), extension.as_deref()) {
+        // In a text file, each notation can be written.
+        let is_other = self.output.as_ref().is_some_and(|path| is_of_other_kind(path, "txt"));
+        match (named.or(self.format.filter(|_| !is_other)), extension.as_deref()) {
             (Some(format), _) => Ok(format),
             (None, None) => Ok(Format::Latex),
-            (None, Some(other)) => Err(Failure::Usage(vec![format!(
-                "a document is not written as .{}; name the file NAME.tex, NAME.typ or NAME.md, or choose its notation with \
-                 --format",
-                robot_build::shown(std::path::Path::new(other))
-            )])),
+            (None, Some(other)) => {
+                let choice = if is_other { "" } else { ", or choose its notation with --format" };
+                Err(Failure::Usage(vec![format!(
+                    "a document is not written as .{}; name the file NAME.tex, NAME.typ or NAME.md{choice}",
+                    robot_build::shown(std::path::Path::new(other))
+                )]))
+            }
         }
     }
 

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use robot_build::{Errors, Ownership, RobotFile, robot_inputs, shown};
+use robot_build::{Errors, Ownership, RobotFile, robot_inputs};
 use robot_model::description::{self, Format, Options};
 
 use crate::Terminal;
@@ -33,13 +33,8 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let output = self.output.open_as(Ownership::Edited, robot_inputs(&self.file))?;
-        // An input with such a name is reported as an input.
-        if let Some(path) = self.output.file_ending_in(&["urdf"]) {
-            let toml = shown(&path.with_extension("toml"));
-            let message = format!("a robot file is TOML; name the file {toml}");
-            return Err(Failure::Usage(vec![message]));
-        }
+        let (kind, inputs) = (("a robot file is TOML", "toml"), robot_inputs(&self.file));
+        let output = self.output.open_kind(kind, Ownership::Edited, inputs)?;
         let source = RobotFile::read(&self.file)?.source;
         let options = Options { friction: self.friction, ..self.reading.options().reading() };
         let import =

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use robot_build::{Options, Programs, Source, planned, shown};
+use robot_build::{Options, Ownership, Programs, Source, planned, shown};
 use robot_evidence::{Compiler, Profile, prove};
 use robot_report::{Accuracy, Compiled, Input, report};
 
@@ -66,10 +66,8 @@ impl Arguments {
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
-            self.check_ending(&["pdf", "png", "svg", "md", "tex", "typ"])?;
-            let output = self.output.open(inputs)?;
-            // An input with such a name is reported as an input.
-            self.check_ending(&["txt", "csv", "json", "urdf", "plan"])?;
+            let kind = ("a report is an HTML page", "html");
+            let output = self.output.open_kind(kind, Ownership::Marked, inputs)?;
             if self.open && output.path().is_none() {
                 let message = "--open shows a file, and `-` is standard output; name a file";
                 return Err(Failure::Usage(vec![message.to_owned()]));
@@ -90,18 +88,6 @@ impl Arguments {
             return Err(Failure::Usage(vec![message]));
         }
         self.output.open(inputs)
-    }
-
-    /// Checks that the name of the page does not end as that of another kind of file.
-    fn check_ending(&self, others: &[&str]) -> Result<(), Failure> {
-        match self.output.file_ending_in(others) {
-            None => Ok(()),
-            Some(path) => {
-                let html = shown(&path.with_extension("html"));
-                let message = format!("a report is an HTML page; name the file {html}");
-                Err(Failure::Usage(vec![message]))
-            }
-        }
     }
 
     fn page(&self, source: &Source, options: &Options) -> Result<String, Failure> {

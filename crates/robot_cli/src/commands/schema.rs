@@ -1,7 +1,7 @@
 //! `schema`: the JSON schema of robot files, for editors.
 
 use clap::Args;
-use robot_build::{FunctionKind, MARKER};
+use robot_build::{FunctionKind, MARKER, Ownership};
 use robot_model::description::shape::{
     AXES, Content, IDENTIFIER, Key, LABEL, Presence, ROBOT_FILE, Shape,
 };
@@ -26,7 +26,8 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        self.output.open([])?.deliver(&format!("{:#}\n", document()), terminal)
+        let output = self.output.open_kind(("a schema is JSON", "json"), Ownership::Marked, [])?;
+        output.deliver(&format!("{:#}\n", document()), terminal)
     }
 }
 

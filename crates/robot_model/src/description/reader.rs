@@ -106,13 +106,21 @@ impl<'a> Reader<'a> {
 
     /// The value of a formula. `None` if it contains a name without a nominal value.
     pub(super) fn known(&self, formula: &Formula) -> Option<f64> {
-        let mut complete = true;
-        let value = formula.evaluate(|name| {
-            let value = self.parameter(name).and_then(|known| known.value.as_ref());
-            complete &= value.is_some();
-            value.map_or(0.0, Rational::to_f64)
+        let nominal = |name: &str| self.parameter(name).and_then(|known| known.value.as_ref());
+        if !formula.symbols().all(|(name, _)| nominal(name).is_some()) {
+            return None;
+        }
+        let value = formula.evaluate(|name| nominal(name).map_or(f64::NAN, Rational::to_f64));
+        if !value.is_finite() || !formula.text().contains(['+', '-']) {
+            return Some(value);
+        }
+        // Terms that cancel leave what equations have, not a rounding error: 0.3 - 0.1 - 0.2 is 0.
+        let graph = Graph::new();
+        let exact = formula.lower(&graph, &mut |name| match nominal(name) {
+            Some(value) => graph.number(Number::Rational(value.clone())),
+            None => graph.zero(),
         });
-        complete.then_some(value)
+        Some(exact.as_number().map_or(value, |exact| exact.to_f64()))
     }
 
     /// Whether a formula is the number 0, independently of the parameters.
@@ -190,7 +198,6 @@ impl<'a> Reader<'a> {
         }
         let reason = match known {
             Some(value) if value.is_infinite() => "this is infinite",
-            Some(value) if value.is_nan() => "this is not a number",
             _ => undefined.or(unbounded).unwrap_or("this is not a number"),
         };
         let is_lost = reason == LARGE_ANGLE;
