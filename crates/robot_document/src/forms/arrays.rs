@@ -357,7 +357,7 @@ fn column(rows: &[Vec<Math>], available: f64) -> Option<Math> {
         if lines.len() > MAX_ENTRY || all > MAX_LINES {
             return None;
         }
-        let entry = if lines.len() > 1 { Math::Lines(lines) } else { lines.pop()? };
+        let entry = if lines.len() > 1 { Math::Lines(lines) } else { lines.pop()?.math };
         column.push(vec![entry]);
     }
     Some(Math::Matrix(column))

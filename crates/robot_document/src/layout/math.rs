@@ -37,7 +37,16 @@ pub enum Math {
     /// A matrix in brackets, row by row.
     Matrix(Vec<Vec<Math>>),
     /// The lines of a sum that does not fit on one line, one below the other.
-    Lines(Vec<Math>),
+    Lines(Vec<Line>),
+}
+
+/// A line of a formula that takes several lines.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Line {
+    /// The pieces of the line. A parenthesis that opens or closes in another line is a [`Math::Sign`].
+    pub math: Math,
+    /// How much further the line is indented than those that start with a term of the whole sum, in quads.
+    pub indent: usize,
 }
 
 /// A symbol of the equations with its layout.
@@ -219,7 +228,7 @@ impl Math {
             | Math::Fenced(_, inside) => vec![inside],
             Math::Fraction(parts) => parts.iter().collect(),
             Math::Matrix(rows) => rows.iter().flatten().collect(),
-            Math::Lines(lines) => lines.iter().collect(),
+            Math::Lines(lines) => lines.iter().map(|line| &line.math).collect(),
             _ => vec![],
         }
     }

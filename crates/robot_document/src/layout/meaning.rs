@@ -156,7 +156,7 @@ impl<'g> Reader<'g, '_> {
             Math::Letter('π') => Ok(self.graph.pi()),
             Math::Row(pieces) => self.sum(pieces),
             Math::Lines(lines) => {
-                let pieces = lines.iter().flat_map(Math::pieces).cloned();
+                let pieces = lines.iter().flat_map(|line| line.math.pieces()).cloned();
                 self.sum(&pieces.collect::<Vec<_>>())
             }
             Math::Fraction(parts) => {

@@ -4,7 +4,7 @@
 //! they are scaled by the largest ratio among the letters of cmmi7 and cmr7. Spaces are those in chapter 18 of The
 //! TeXbook. Estimates are rather too wide than too narrow, so that a line that seems to fit does fit.
 
-use super::math::{Fence, Math, Script};
+use super::math::{Fence, Line, Math, Script};
 
 /// The widths of thin, medium and thick spaces, in pt.
 const SPACES: [f64; 3] = [1.667, 2.222, 2.778];
@@ -152,8 +152,10 @@ fn measure(math: &Math, size: Size) -> f64 {
         Math::Lines(lines) => {
             // A sign at the start of a further line has the same spaces as one within a sum.
             let before = |place| if place > 0 { 2.0 * SPACES[1] } else { 0.0 };
-            let lines = lines.iter().enumerate();
-            lines.map(|(place, line)| measure(line, Size::Text) + before(place)).fold(0.0, f64::max)
+            let width = |(place, line): (usize, &Line)| {
+                measure(&line.math, Size::Text) + before(place) + line.indent as f64 * points
+            };
+            lines.iter().enumerate().map(width).fold(0.0, f64::max)
         }
     }
 }

@@ -98,11 +98,11 @@ fn rows(equation: &Equation, layout: Layout, number: Option<&str>) -> Result<Vec
             0 if equation.is_name() => (mathml::formula(&equation.left), vec![]),
             0 => {
                 let equals = mathml::formula(&Math::Sign('=')).attribute("form", "infix");
-                (mathml::formula(&equation.left), vec![equals, mathml::formula(line)])
+                (mathml::formula(&equation.left), vec![equals, mathml::formula(&line.math)])
             }
             _ => {
-                let indent = element("mspace").attribute("width", "2em");
-                (element("mrow"), vec![indent, mathml::continued(line)])
+                let indent = mathml::space(2 + line.indent);
+                (element("mrow"), vec![indent, mathml::continued(&line.math)])
             }
         };
         let mut cells = vec![holding("mtd", left), element("mtd").with_all(right)];

@@ -31,7 +31,7 @@ fn display(
     let lines = right_side(equation, layout.width - width(&equation.left), 0.0)?;
     let lines = lines.iter().enumerate();
     let lines: Vec<String> = lines
-        .map(|(place, line)| if place == 0 { formula(line) } else { continued(line) })
+        .map(|(place, line)| if place == 0 { formula(&line.math) } else { continued(line) })
         .collect();
     let left = formula(&equation.left);
     let display = match lines.as_slice() {

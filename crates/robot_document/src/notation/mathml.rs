@@ -6,7 +6,7 @@
 use robot_model::signs::{Accent, Font};
 
 use crate::markup::{Element, element, holding};
-use crate::math::{Fence, Math, Script};
+use crate::math::{Fence, Line, Math, Script};
 
 /// The MathML of a formula, without the enclosing `math` element.
 #[must_use]
@@ -50,12 +50,21 @@ pub fn formula(math: &Math) -> Element {
         }
         Math::Matrix(rows) => matrix(rows),
         Math::Lines(lines) => {
-            let one = |(place, line)| if place == 0 { formula(line) } else { continued(line) };
+            let one = |(place, line): (usize, &Line)| match (place, line.indent) {
+                (0, _) => formula(&line.math),
+                (_, 0) => continued(&line.math),
+                (_, indent) => element("mrow").with_all([space(indent), continued(&line.math)]),
+            };
             let row = |line| element("mtr").with(holding("mtd", line));
             let rows = lines.iter().enumerate().map(one).map(row);
             element("mtable").with_all(rows).attribute("columnalign", "left")
         }
     }
+}
+
+/// The space at the beginning of a line, in quads.
+pub(super) fn space(quads: usize) -> Element {
+    element("mspace").attribute("width", format!("{quads}em"))
 }
 
 /// The MathML of a line or term that continues a sum: the sign at its beginning is an operator between the preceding

@@ -3,7 +3,8 @@
 //! A line can start at a `+` or `-`, or within a product at a factor, after a `·`, both also within parentheses. Each
 //! line and each break has a cost; the lines with the lowest total cost are used. A break costs more within a product,
 //! and within parentheses the more, the shorter their sum is. A product that takes several lines preferably starts on a
-//! line of its own, and its further lines are indented more. The numerator of a fraction that is too wide for a line is
+//! line of its own, and its further lines are indented more. Lines that start within parentheses are indented more than
+//! the term that contains them, if the lines are wide enough. The numerator of a fraction that is too wide for a line is
 //! written beside it.
 
 mod fractions;
@@ -11,7 +12,7 @@ mod sequence;
 
 use sequence::Sequence;
 
-use super::math::Math;
+use super::math::{Line, Math};
 use super::width::text_width;
 use crate::error::{Centimeters, Error};
 use crate::forms::Equation;
@@ -28,19 +29,26 @@ pub struct TooWide {
 /// # Errors
 ///
 /// If a piece that cannot be broken does not fit on a line.
-pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Math>, TooWide> {
+pub fn broken(math: &Math, first: f64, rest: f64) -> Result<Vec<Line>, TooWide> {
     lines_of(math, Limits { first, rest, number: 0.0 })
 }
 
 /// The lines of a formula; the numerators of fractions are written beside them only if it has no lines otherwise.
-fn lines_of(math: &Math, limits: Limits) -> Result<Vec<Math>, TooWide> {
-    let whole = |math: &Math| Sequence::new(math, limits.rest).lines(limits);
+fn lines_of(math: &Math, limits: Limits) -> Result<Vec<Line>, TooWide> {
+    let whole = |math: &Math| {
+        let lines = |deepest| Sequence::new(math, limits.rest, deepest).lines(limits);
+        lines(DEEPEST).or_else(|_| lines(0))
+    };
     whole(math).or_else(|wide| {
         let narrowest = limits.first.min(limits.rest - limits.number);
         let split = fractions::split(math, narrowest * WIDEST_FRACTION).ok_or(wide)?;
         whole(&split)
     })
 }
+
+/// The largest indent of a line that starts with a term within parentheses, in quads. If a formula does not fit with
+/// such indents, it has none.
+const DEEPEST: usize = 3;
 
 /// The largest width of a fraction that is kept whole in a formula that is too wide otherwise, as a part of a line.
 const WIDEST_FRACTION: f64 = 0.5;
@@ -67,9 +75,9 @@ pub(crate) fn right_side(
     equation: &Equation,
     available: f64,
     number: f64,
-) -> Result<Vec<Math>, Error> {
+) -> Result<Vec<Line>, Error> {
     if equation.is_name() {
-        return Ok(vec![Math::default()]);
+        return Ok(vec![Line { math: Math::default(), indent: 0 }]);
     }
     let limits = Limits { first: available - EQUALS, rest: available - INDENT, number };
     lines_of(&equation.right, limits).map_err(|wide| Error::Narrow {
@@ -86,11 +94,6 @@ struct Limits {
     rest: f64,
     /// The width that the last line leaves free for the number.
     number: f64,
-}
-
-/// Whether a line that starts with these pieces continues a product.
-pub(crate) fn is_within_product(line: &[Math]) -> bool {
-    line.starts_with(&[Math::Sign('·')])
 }
 
 /// The terms of a sum with their signs. A minus sign after an equals sign does not start a term.
@@ -114,7 +117,7 @@ mod tests {
     }
 
     fn lines(latex: &str, first: f64, rest: f64) -> Vec<String> {
-        broken(&math(latex), first, rest).unwrap().iter().map(formula).collect()
+        broken(&math(latex), first, rest).unwrap().iter().map(|line| formula(&line.math)).collect()
     }
 
     #[test]
@@ -212,6 +215,30 @@ mod tests {
         }
     }
 
+    /// Lines within parentheses are indented more than the term that contains them, and more again if this term continues
+    /// on a line of its own.
+    #[test]
+    fn lines_within_parentheses_are_indented() {
+        let sum = r"a_1 + m \left(b_1 + n \left(c_1 + c_2 + c_3\right) + b_2\right) k_1 k_2 k_3 \left(d_1 + d_2 + d_3\right) + e_1";
+        let found = broken(&math(sum), 60.0, 75.0).unwrap();
+        let shown: Vec<_> = found.iter().map(|line| (line.indent, formula(&line.math))).collect();
+        let shown: Vec<_> = shown.iter().map(|(indent, line)| (*indent, line.as_str())).collect();
+        let expected = [
+            (0, "a_1"),
+            (0, "+m( b_1 + n( c_1"),
+            (2, "+c_2 + c_3 )"),
+            (1, "+b_2 ) k_1 k_2 k_3"),
+            (1, r"\cdot ( d_1 + d_2"),
+            (2, "+d_3 ) + e_1"),
+        ];
+        assert_eq!(shown, expected);
+        // Without the width for it, they are not.
+        let deep = r"a \left(b + \left(c + \left(d_{123456} + e_{123456}\right)\right)\right)";
+        let [narrow, wide] = [60.0, 90.0].map(|width| broken(&math(deep), width, width).unwrap());
+        let deepest = |lines: &[Line]| lines.iter().map(|line| line.indent).max();
+        assert_eq!([deepest(&narrow), deepest(&wide)], [Some(0), Some(3)]);
+    }
+
     /// A number and its power of ten are one factor.
     #[test]
     fn a_power_of_ten_stays_with_its_number() {
@@ -245,9 +272,9 @@ mod tests {
             let narrow = right_side(&equation, available - 36.0, 0.0).unwrap();
             assert!((whole.len()..=narrow.len()).contains(&beside.len()), "{available}");
             let before = if beside.len() == 1 { EQUALS } else { INDENT };
-            let last = width(beside.last().unwrap());
+            let last = width(&beside.last().unwrap().math);
             assert!(last <= available - 36.0 - before, "{available}: {last}");
-            let printed: String = beside.iter().map(formula).collect();
+            let printed: String = beside.iter().map(|line| formula(&line.math)).collect();
             assert_eq!(printed.replace(' ', ""), formula(&equation.right).replace(' ', ""));
             fewer += usize::from(beside.len() < narrow.len());
         }
@@ -285,7 +312,7 @@ mod tests {
             let lines = right_side(&equation, available, 0.0).unwrap();
             for (place, line) in lines.iter().enumerate() {
                 let before = if place == 0 { 7.78 + 2.0 * 2.78 } else { 10.0 + 2.0 * 2.22 };
-                let room = available - before - width(line);
+                let room = available - before - 10.0 * line.indent as f64 - width(&line.math);
                 assert!(room >= 0.0, "{available} pt, line {place}: {room} pt");
                 tight = tight.min(room);
             }
@@ -324,8 +351,9 @@ mod tests {
             let mut found = String::new();
             for (place, line) in lines.iter().enumerate() {
                 let limit = if place == 0 { first } else { rest };
-                assert!(width(line) <= limit, "seed {seed}: {} {line:?}", width(line));
-                found.push_str(&formula(line));
+                let width = width(&line.math) + 10.0 * line.indent as f64;
+                assert!(width <= limit, "seed {seed}: {width} {line:?}");
+                found.push_str(&formula(&line.math));
             }
             let bare = |latex: &str| {
                 let fences = latex.replace(r"\left(", "(").replace(r"\right)", ")");

@@ -1,11 +1,11 @@
 //! The places where lines can start, the cost of a line between two of them, and the lines with the lowest cost.
 
 use super::{Limits, TooWide, starts_term};
-use crate::layout::math::{Fence, Math};
+use crate::layout::math::{Fence, Line, Math};
 use crate::layout::width::{in_row, width};
 
-/// The additional indent of lines within a product, in pt.
-const DEEPER: f64 = 10.0;
+/// The width of a quad, by which lines within a product or within parentheses are indented more, in pt.
+const QUAD: f64 = 10.0;
 /// The width of a `·` that is added at the beginning of a line, in pt.
 const DOT: f64 = 2.78;
 /// The spaces around a sign, which the indent of a line contains, in pt.
@@ -41,11 +41,27 @@ pub(super) struct Sequence<'m> {
     /// The widths of the tokens before each place, in pt.
     before: Vec<f64>,
     starts: Vec<Start>,
+    sums: Vec<Sum>,
     /// The width of a line.
     line: f64,
-    /// The number of parentheses around the current place, and the cost that they add to a start.
+    /// The largest indent of lines that start with a term, in quads.
+    deepest: usize,
+    /// The innermost sum in parentheses at the current place, the number of parentheses around it, and the cost that they
+    /// add to a start.
+    sum: Option<usize>,
     depth: usize,
     nesting: u32,
+}
+
+/// A sum in parentheses.
+struct Sum {
+    /// The sum in parentheses that contains it.
+    outer: Option<usize>,
+    /// The token of the parenthesis that opens it, and the first token of the term to which it belongs.
+    open: usize,
+    term: usize,
+    /// The largest indent of lines that start with its terms, in quads.
+    indent: usize,
 }
 
 #[derive(Clone, Copy)]
@@ -64,6 +80,8 @@ struct Start {
     connection: Connection,
     /// The first token of the term.
     term: usize,
+    /// The sum in parentheses in which it is.
+    sum: Option<usize>,
 }
 
 /// The way in which a line is joined to the preceding one.
@@ -83,24 +101,46 @@ impl Start {
         let is_within = self.connection != Connection::Sign && last.token < self.term;
         self.cost + if is_within { WITHIN } else { 0 }
     }
+
+    /// How much more a line that starts here is indented than one that starts with a term of the same sum, in quads.
+    fn deeper(self) -> usize {
+        usize::from(self.connection != Connection::Sign)
+    }
 }
 
 impl<'m> Sequence<'m> {
-    pub(super) fn new(math: &'m Math, line: f64) -> Sequence<'m> {
-        let mut sequence = Sequence { before: vec![0.0], line, ..Sequence::default() };
-        sequence.starts.push(Start { token: 0, cost: 0, connection: Connection::Sign, term: 0 });
+    /// The sequence of a formula, for lines of this width; those that start with a term have at most an indent of
+    /// `deepest` quads.
+    pub(super) fn new(math: &'m Math, line: f64, deepest: usize) -> Sequence<'m> {
+        let mut sequence = Sequence { before: vec![0.0], line, deepest, ..Sequence::default() };
+        let connection = Connection::Sign;
+        sequence.starts.push(Start { token: 0, cost: 0, connection, term: 0, sum: None });
         sequence.row(math.pieces(), 0);
         sequence
     }
 
     /// The lines with the lowest cost.
-    pub(super) fn lines(&self, limits: Limits) -> Result<Vec<Math>, TooWide> {
+    pub(super) fn lines(&self, limits: Limits) -> Result<Vec<Line>, TooWide> {
         let costs = self.costs(limits);
         let (mut lines, mut place) = (vec![], 0);
+        // The indents of terms of sums whose parentheses have been opened, in quads.
+        let mut indents: Vec<usize> = vec![];
+        let of_sum = |indents: &[usize], sum: Option<usize>| {
+            sum.and_then(|sum| indents.get(sum)).copied().unwrap_or_default()
+        };
         while let Some(start) = self.starts.get(place) {
             let best = costs.get(place).copied().flatten();
             let (_, next) = best.ok_or_else(|| TooWide { needed: self.widest() })?;
-            lines.push(self.line(*start, self.starts.get(next)));
+            let following = self.starts.get(next);
+            let end = following.map_or(self.tokens.len(), |next| next.token);
+            let indent = of_sum(&indents, start.sum).min(self.deepest) + start.deeper();
+            lines.push(Line { math: self.line(*start, end), indent });
+            for sum in self.sums.iter().skip(indents.len()).take_while(|sum| sum.open < end) {
+                // The term of the sum started in an earlier line.
+                let is_late = sum.outer == start.sum && sum.term == start.term;
+                let late = if is_late { start.deeper() } else { 0 };
+                indents.push(of_sum(&indents, sum.outer) + 1 + late);
+            }
             place = next;
         }
         Ok(lines)
@@ -144,15 +184,27 @@ impl<'m> Sequence<'m> {
             cost: LINE + self.nesting + cost,
             connection,
             term: *term,
+            sum: self.sum,
         });
+    }
+
+    /// The largest indent of lines that start with a term of the sum in parentheses, in quads.
+    fn indent(&self, sum: Option<usize>) -> usize {
+        sum.and_then(|sum| self.sums.get(sum)).map_or(0, |sum| sum.indent)
     }
 
     /// Adds a sum in parentheses to the term that starts at `term`; `whole` is its width with the parentheses, in pt.
     fn fenced(&mut self, piece: &'m Math, inside: &'m Math, whole: f64, term: usize) {
         let around = whole - width(inside);
         let open = self.tokens.len();
-        let (depth, nesting) = (self.depth, self.nesting);
+        let (outer, depth, nesting) = (self.sum, self.depth, self.nesting);
+        let of_term = self.starts.iter().rev().take_while(|start| start.token >= term);
+        let mut factors = of_term.filter(|start| start.connection != Connection::Sign);
+        let is_late = factors.any(|start| start.sum == outer && start.term == term);
+        let indent = self.indent(outer) + 1 + usize::from(is_late);
         self.push(Token::Open(piece, open), around / 2.0);
+        self.sum = Some(self.sums.len());
+        self.sums.push(Sum { outer, open, term, indent });
         self.depth += 1;
         self.nesting += match () {
             () if whole <= SHORT * self.line => SHORT_SUM,
@@ -161,7 +213,7 @@ impl<'m> Sequence<'m> {
         };
         let is_first = !self.tokens.iter().skip(term).any(|one| matches!(one, Token::Close));
         self.row(inside.pieces(), if is_first { term } else { open + 1 });
-        (self.depth, self.nesting) = (depth, nesting);
+        (self.sum, self.depth, self.nesting) = (outer, depth, nesting);
         let close = self.tokens.len();
         if let Some(token) = self.tokens.get_mut(open) {
             *token = Token::Open(piece, close);
@@ -189,10 +241,10 @@ impl<'m> Sequence<'m> {
         let mut costs: Vec<Option<(u32, usize)>> = vec![None; end];
         costs.push(Some((0, end)));
         for (place, start) in self.starts.iter().enumerate().rev() {
-            let limit = match (place, start.connection) {
-                (0, _) => limits.first,
-                (_, Connection::Sign) => limits.rest,
-                _ => limits.rest - DEEPER,
+            let indent = self.indent(start.sum).min(self.deepest) + start.deeper();
+            let limit = match place {
+                0 => limits.first,
+                _ => limits.rest - QUAD * indent as f64,
             };
             let mut best: Option<(u32, usize)> = None;
             let is_factor = start.connection != Connection::Sign;
@@ -236,8 +288,7 @@ impl<'m> Sequence<'m> {
         widths.fold(0.0, f64::max)
     }
 
-    fn line(&self, start: Start, next: Option<&Start>) -> Math {
-        let end = next.map_or(self.tokens.len(), |next| next.token);
+    fn line(&self, start: Start, end: usize) -> Math {
         let mut pieces = vec![];
         if start.connection == Connection::Factor {
             pieces.push(Math::Sign('·'));

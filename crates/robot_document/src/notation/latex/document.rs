@@ -7,6 +7,7 @@ use super::{formula, text};
 use crate::breaking::broken;
 use crate::document::{Block, Cell, Document, Inline};
 use crate::error::Error;
+use crate::math::Line;
 use crate::notation::front::{Below, Front};
 use crate::notation::tabular::{Part, Placed, SIZES, natural_width, tables};
 use crate::width::width;
@@ -282,10 +283,11 @@ fn wrapped(inlines: &[Inline], available: f64) -> String {
     let one = |inline: &Inline| match inline {
         Inline::Math(math) if width(math) > available => {
             // A formula that cannot be broken is printed unbroken.
-            let lines = broken(math, available, available).unwrap_or_else(|_| vec![math.clone()]);
-            let lines: Vec<String> =
-                lines.iter().map(|line| format!("\\({}\\)", formula(line))).collect();
-            lines.join(" ")
+            let Ok(lines) = broken(math, available, available) else {
+                return format!("\\({}\\)", formula(math));
+            };
+            let line = |line: &Line| format!("\\({}\\)", formula(&line.math));
+            lines.iter().map(line).collect::<Vec<_>>().join(" ")
         }
         other => line(std::slice::from_ref(other)),
     };

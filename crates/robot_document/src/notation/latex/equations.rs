@@ -1,10 +1,10 @@
 //! Displayed equations in an environment of amsmath, broken into lines.
 
-use crate::breaking::{is_within_product, number_width, right_side};
+use crate::breaking::{number_width, right_side};
 use crate::document::NumberedEquation;
 use crate::error::Error;
 use crate::latex::formula;
-use crate::math::Math;
+use crate::math::{Line, Math};
 use crate::width::{text_width, width};
 
 /// The lines on which equations must fit.
@@ -89,7 +89,7 @@ impl Writer {
             }
             let mut row = match (place, self.rows.is_empty()) {
                 (0, _) if equation.is_name() => format!("  {left} &"),
-                (0, _) => format!("  {left} &= {}", formula(line)),
+                (0, _) => format!("  {left} &= {}", formula(&line.math)),
                 (_, true) => format!(r"  \phantom{{{left}}} &\quad {}", continued(line)),
                 (_, false) => format!(r"    &\quad {}", continued(line)),
             };
@@ -141,13 +141,12 @@ enum Cut {
 }
 
 /// A further line of an equation: the sign at its beginning has the same spaces as within a sum.
-pub(in crate::notation) fn continued(line: &Math) -> String {
-    match line.pieces() {
-        [Math::Sign(_), rest @ ..] => {
-            let sign = formula(&Math::row(line.pieces().iter().take(1).cloned().collect()));
-            let indent = if is_within_product(line.pieces()) { r"\quad " } else { "" };
-            format!("{indent}{{}}{sign} {}", formula(&Math::Row(rest.to_vec())))
+pub(in crate::notation) fn continued(line: &Line) -> String {
+    let indent = r"\quad ".repeat(line.indent);
+    match line.math.pieces() {
+        [sign @ Math::Sign(_), rest @ ..] => {
+            format!("{indent}{{}}{} {}", formula(sign), formula(&Math::Row(rest.to_vec())))
         }
-        _ => formula(line),
+        _ => format!("{indent}{}", formula(&line.math)),
     }
 }

@@ -3,7 +3,7 @@
 use robot_model::signs::Letter;
 
 use super::equations::continued;
-use crate::math::{Fence, Math, Script};
+use crate::math::{Fence, Line, Math, Script};
 
 /// The LaTeX of a formula, for math mode.
 #[must_use]
@@ -161,13 +161,13 @@ impl Writer {
     }
 
     /// The lines of an entry, aligned with its row by the last line, from which the gap to the next entry is measured.
-    fn lines(&mut self, lines: &[Math]) {
+    fn lines(&mut self, lines: &[Line]) {
         self.push(r"\begin{array}[b]{@{}l@{}}");
         for (place, line) in lines.iter().enumerate() {
             match place {
                 0 => {
                     self.push(" ");
-                    self.write(line, Spacing::Wide);
+                    self.write(&line.math, Spacing::Wide);
                 }
                 _ => self.push(&format!(r" \\ {}", continued(line))),
             }

@@ -2,7 +2,7 @@
 
 use robot_model::signs::{Accent, Font, FunctionName, Letter};
 
-use crate::math::{Fence, Math, Script};
+use crate::math::{Fence, Line, Math, Script};
 
 /// The deepest nesting of groups; deeper nesting is an error.
 const MAX_DEPTH: usize = 200;
@@ -247,7 +247,7 @@ impl<'t> Reader<'t> {
         };
         let sum = Reader { latex: &lines.replace(r"\\", " "), place: 0, ..*self }.whole()?;
         self.place += lines.len() + end.len();
-        Ok(Math::Lines(vec![sum]))
+        Ok(Math::Lines(vec![Line { math: sum, indent: 0 }]))
     }
 
     /// Reads an argument: a group, or a single piece.

@@ -7,7 +7,7 @@ use crate::breaking::right_side;
 use crate::document::{Cell, Document, Inline, NumberedEquation};
 use crate::error::Error;
 use crate::latex::{Layout, Page};
-use crate::math::Math;
+use crate::math::Line;
 use crate::notation::front::{Below, Front};
 use crate::notation::tabular::{Part, Placed, SIZES, tables};
 use crate::width::width;
@@ -51,9 +51,9 @@ fn equation(
     let available = layout.width - width(&equation.left) - MARGIN;
     let left = formula(&equation.left);
     let lines = right_side(equation, available, layout.number(numbered))?;
-    let shown = |(place, line): (usize, &Math)| match place {
+    let shown = |(place, line): (usize, &Line)| match place {
         0 if equation.is_name() => format!("{left} &"),
-        0 => format!("{left} & = {}", formula(line)),
+        0 => format!("{left} & = {}", formula(&line.math)),
         _ => format!("& quad {}", continued(line, Place::Free)),
     };
     let lines: Vec<String> = lines.iter().enumerate().map(shown).collect();

@@ -3,8 +3,7 @@
 use robot_model::signs::FunctionName;
 
 use super::text::quoted;
-use crate::breaking::is_within_product;
-use crate::math::{Fence, Math, Script};
+use crate::math::{Fence, Line, Math, Script};
 
 /// The Typst source of a formula, for math mode.
 #[must_use]
@@ -55,8 +54,8 @@ fn shown(math: &Math, place: Place) -> String {
             format!("mat(delim: \"[\", {layout}, {})", rows.join("; "))
         }
         Math::Lines(lines) => {
-            let line = |(index, line)| match index {
-                0 => format!("inline({})", shown(line, Place::Argument)),
+            let line = |(index, line): (usize, &Line)| match index {
+                0 => format!("inline({})", shown(&line.math, Place::Argument)),
                 _ => format!("inline({})", continued(line, Place::Argument)),
             };
             let lines: Vec<String> = lines.iter().enumerate().map(line).collect();
@@ -66,13 +65,13 @@ fn shown(math: &Math, place: Place) -> String {
 }
 
 /// A further line of an equation: the sign at its beginning has the same spaces as within a sum.
-pub(super) fn continued(line: &Math, place: Place) -> String {
-    match line.pieces() {
+pub(super) fn continued(line: &Line, place: Place) -> String {
+    let indent = "quad ".repeat(line.indent);
+    match line.math.pieces() {
         [first @ Math::Sign('+' | '-'), rest @ ..] => {
-            format!("{} med {}", shown(first, place), row(rest, place))
+            format!("{indent}{} med {}", shown(first, place), row(rest, place))
         }
-        pieces if is_within_product(pieces) => format!("quad {}", shown(line, place)),
-        _ => shown(line, place),
+        _ => format!("{indent}{}", shown(&line.math, place)),
     }
 }
 

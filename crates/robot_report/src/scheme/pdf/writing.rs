@@ -103,7 +103,7 @@ fn formula(math: &Math, rise: f64, scale: f64, runs: &mut Vec<Run>) {
         Math::Matrix(rows) => {
             rows.iter().flatten().for_each(|entry| formula(entry, rise, scale, runs));
         }
-        Math::Lines(lines) => lines.iter().for_each(|line| formula(line, rise, scale, runs)),
+        Math::Lines(lines) => lines.iter().for_each(|line| formula(&line.math, rise, scale, runs)),
     }
 }
 
