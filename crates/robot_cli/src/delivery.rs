@@ -75,6 +75,26 @@ pub(crate) fn is_of_other_kind(path: &Path, own: &str) -> bool {
     !is(own) && ENDINGS.into_iter().any(is)
 }
 
+/// A kind of output.
+#[derive(Clone, Copy)]
+pub(crate) struct Kind<'k> {
+    /// What it is, as in "a schema is JSON".
+    pub(crate) doc: &'k str,
+    /// The ending of the names of its files.
+    pub(crate) ending: &'k str,
+}
+
+impl Kind<'_> {
+    /// Checks that the file's name does not end as that of another kind of file, which could be an earlier output.
+    pub(crate) fn check(&self, path: &Path) -> Result<(), Failure> {
+        if !is_of_other_kind(path, self.ending) {
+            return Ok(());
+        }
+        let name = shown(&path.with_extension(self.ending));
+        Err(Failure::Usage(vec![format!("{}; name the file {name}", self.doc)]))
+    }
+}
+
 /// The destination of a text, which has been checked.
 pub(crate) struct Delivery<'a> {
     path: Option<Cow<'a, Path>>,
@@ -119,19 +139,16 @@ impl OutputArguments {
         Delivery { path, check: self.check, writer, ownership }.opened()
     }
 
-    /// The destination of a text of a kind, such as "a schema is JSON", whose files end in `ending`. The error about an
-    /// output that is an input has priority over one about its name, and this one over that about a file of others.
+    /// The destination of a text of one kind. The error about an output that is an input has priority over one about its
+    /// name, and this one over that about a file of others.
     pub(crate) fn open_kind(
         &self,
-        (kind, ending): (&str, &str),
+        kind: Kind<'_>,
         ownership: Ownership,
         inputs: impl IntoIterator<Item = PathBuf>,
     ) -> Result<Delivery<'_>, Failure> {
         let unowned = self.open_as(Ownership::Edited, inputs)?;
-        if let Some(path) = self.file().filter(|path| is_of_other_kind(path, ending)) {
-            let name = shown(&path.with_extension(ending));
-            return Err(Failure::Usage(vec![format!("{kind}; name the file {name}")]));
-        }
+        self.file().map_or(Ok(()), |path| kind.check(path))?;
         Delivery { ownership, ..unowned }.opened()
     }
 

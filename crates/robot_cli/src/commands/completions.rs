@@ -4,7 +4,7 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 use robot_build::{MARKER, Ownership};
 
-use crate::delivery::OutputArguments;
+use crate::delivery::{Kind, OutputArguments};
 use crate::failure::Failure;
 use crate::{Cli, NAME, Terminal};
 
@@ -27,8 +27,9 @@ pub(crate) struct Arguments {
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let shell = self.shell.to_string();
-        let kind = format!("this is a script for {shell}");
-        let output = self.output.open_kind((&kind, &shell), Ownership::Marked, [])?;
+        let doc = format!("this is a script for {shell}");
+        let kind = Kind { doc: &doc, ending: &shell };
+        let output = self.output.open_kind(kind, Ownership::Marked, [])?;
         let mut script = vec![];
         clap_complete::generate(self.shell, &mut Cli::command(), NAME, &mut script);
         let mut script = String::from_utf8_lossy(&script).into_owned();

@@ -7,7 +7,7 @@ use robot_build::{Errors, Ownership, RobotFile, robot_inputs};
 use robot_model::description::{self, Format, Options};
 
 use crate::Terminal;
-use crate::delivery::OutputArguments;
+use crate::delivery::{Kind, OutputArguments};
 use crate::failure::Failure;
 use crate::reading::ReadingArguments;
 use crate::text;
@@ -33,8 +33,8 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let (kind, inputs) = (("a robot file is TOML", "toml"), robot_inputs(&self.file));
-        let output = self.output.open_kind(kind, Ownership::Edited, inputs)?;
+        let kind = Kind { doc: "a robot file is TOML", ending: "toml" };
+        let output = self.output.open_kind(kind, Ownership::Edited, robot_inputs(&self.file))?;
         let source = RobotFile::read(&self.file)?.source;
         let options = Options { friction: self.friction, ..self.reading.options().reading() };
         let import =

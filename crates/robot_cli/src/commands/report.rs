@@ -8,7 +8,7 @@ use robot_evidence::{Compiler, Profile, prove};
 use robot_report::{Accuracy, Compiled, Input, report};
 
 use crate::Terminal;
-use crate::delivery::{Delivery, OutputArguments};
+use crate::delivery::{Delivery, Kind, OutputArguments};
 use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::watched;
@@ -45,6 +45,9 @@ pub(crate) struct Arguments {
     without_live: bool,
 }
 
+/// What a report is written as.
+pub(crate) const PAGE: Kind<'_> = Kind { doc: "a report is an HTML page", ending: "html" };
+
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         let output = self.output(terminal)?;
@@ -66,8 +69,7 @@ impl Arguments {
     fn output(&self, terminal: &Terminal<'_>) -> Result<Delivery<'_>, Failure> {
         let inputs = self.robot.inputs();
         if !self.output.is_open() {
-            let kind = ("a report is an HTML page", "html");
-            let output = self.output.open_kind(kind, Ownership::Marked, inputs)?;
+            let output = self.output.open_kind(PAGE, Ownership::Marked, inputs)?;
             if self.open && output.path().is_none() {
                 let message = "--open shows a file, and `-` is standard output; name a file";
                 return Err(Failure::Usage(vec![message.to_owned()]));

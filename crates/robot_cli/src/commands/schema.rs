@@ -8,7 +8,7 @@ use robot_model::description::shape::{
 use serde_json::{Map, Value, json};
 
 use crate::Terminal;
-use crate::delivery::OutputArguments;
+use crate::delivery::{Kind, OutputArguments};
 use crate::failure::Failure;
 
 #[derive(Args)]
@@ -26,7 +26,8 @@ pub(crate) struct Arguments {
 
 impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
-        let output = self.output.open_kind(("a schema is JSON", "json"), Ownership::Marked, [])?;
+        let kind = Kind { doc: "a schema is JSON", ending: "json" };
+        let output = self.output.open_kind(kind, Ownership::Marked, [])?;
         output.deliver(&format!("{:#}\n", document()), terminal)
     }
 }

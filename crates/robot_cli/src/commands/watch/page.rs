@@ -9,7 +9,7 @@ use robot_build::{
 };
 use robot_report::{Compiled, Reloading, reloading};
 
-use crate::commands::report::input;
+use crate::commands::report::{PAGE, input};
 use crate::failure::Failure;
 
 /// A page that reloads itself, and the picture next to it that triggers the reload.
@@ -30,6 +30,8 @@ struct Last {
 impl Page {
     /// Prepares a page, after checking that its files may be written.
     pub(super) fn open(path: PathBuf, writer: Writer) -> Result<Page, Failure> {
+        writer.check(&[(&path, Ownership::Edited)])?;
+        PAGE.check(&path)?;
         let page = Page { path, writer, last: None };
         let picture = page.picture();
         let files = [&page.path, &picture].map(|path| (path.as_path(), Ownership::Marked));

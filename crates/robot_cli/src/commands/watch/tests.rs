@@ -322,6 +322,16 @@ fn an_edited_page_stays() {
     assert_eq!(std::fs::read_to_string(&path).unwrap(), edited);
 }
 
+/// A generated module is not an earlier page.
+#[test]
+fn a_file_of_another_kind_is_not_a_page() {
+    let (_folder, path, _) = page_in_folder();
+    let code = path.with_extension("rs");
+    std::fs::write(&code, format!("// {}\n", robot_build::MARKER)).unwrap();
+    assert!(Page::open(path, Writer::new()).is_ok());
+    assert!(Page::open(code, Writer::new()).is_err());
+}
+
 /// A page that is edited during the watch is not replaced at its end, either.
 #[test]
 fn a_page_that_is_edited_meanwhile_stays() {
