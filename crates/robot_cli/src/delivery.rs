@@ -64,9 +64,9 @@ pub(crate) fn file_of(path: Option<&Path>) -> Option<&Path> {
 
 /// The endings of names of files that this program reads or writes.
 #[rustfmt::skip]
-const ENDINGS: [&str; 30] = [
+const ENDINGS: [&str; 29] = [
     "toml", "urdf", "xacro", "plan", "rs", "c", "h", "cc", "cpp", "hpp", "cu", "cuh", "ino", "py", "m", "js", "mjs", "ts",
-    "mts", "wgsl", "wasm", "html", "svg", "pdf", "tex", "typ", "md", "json", "csv", "txt",
+    "mts", "wgsl", "wasm", "html", "svg", "pdf", "tex", "typ", "md", "json", "csv",
 ];
 
 /// Whether the name of a file ends as that of another kind of file than the one with this ending.
@@ -345,7 +345,7 @@ mod tests {
         let is_other = |name: &str| is_of_other_kind(Path::new(name), "json");
         let others = ["g.rs", "Cargo.TOML", "o.plan", ".json.md"];
         assert_eq!(others.map(is_other), [true; 4]);
-        assert_eq!(["a.json", "a.JSON", "a", "a.dat", ".plan", "plan"].map(is_other), [false; 6]);
+        assert_eq!(["a.json", "a.JSON", "a", "a.txt", ".plan", "plan"].map(is_other), [false; 6]);
     }
 
     #[test]

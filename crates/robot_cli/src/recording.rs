@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use robot_build::{Output, Ownership, Writer, sealed};
 use robot_simulation::plot::Figure;
 
-use crate::delivery::{file_of, write};
+use crate::delivery::{Kind, file_of, write};
 use crate::failure::Failure;
 use crate::outgoing::Outgoing;
 
@@ -48,6 +48,8 @@ impl<'a> Recording<'a> {
             .chain(plot.map(|path| (path, Ownership::Marked)))
             .collect();
         writer.check(&outputs)?;
+        let kind = Kind { doc: "this table is CSV", ending: "csv" };
+        table.map_or(Ok(()), |path| kind.check(path))?;
         Ok(Recording { table, plot, writer })
     }
 

@@ -14,6 +14,7 @@ use crate::Terminal;
 use crate::delivery::{Delivery, ForceArgument, file_of, is_of_other_kind};
 use crate::displayed::centimeters;
 use crate::failure::Failure;
+use crate::format::contradicts_name;
 use crate::forms::{EquationArguments, FormName};
 use crate::function::check_values_once;
 use crate::progress::watched;
@@ -90,15 +91,12 @@ impl Arguments {
             Some("md") => Some(Format::Markdown),
             _ => None,
         };
-        if let (Some(format), Some(named), Some(extension)) = (self.format, named, &extension)
+        if let (Some(format), Some(named), Some(path)) = (self.format, named, &self.output)
             && format != named
         {
-            return Err(Failure::Usage(vec![format!(
-                "--format contradicts the name of a file .{extension}; leave it out, or name the file otherwise"
-            )]));
+            return Err(contradicts_name(path));
         }
-        // In a text file, each notation can be written.
-        let is_other = self.output.as_ref().is_some_and(|path| is_of_other_kind(path, "txt"));
+        let is_other = self.output.as_ref().is_some_and(|path| is_of_other_kind(path, ""));
         match (named.or(self.format.filter(|_| !is_other)), extension.as_deref()) {
             (Some(format), _) => Ok(format),
             (None, None) => Ok(Format::Latex),

@@ -95,6 +95,8 @@ fn generated_files_of_other_kinds_are_not_replaced() {
             &["completions", "bash", "-o", path],
             &["report", &robot, "-o", path],
             &["scheme", &robot, "-o", path],
+            &["eval", &robot, "--function", "gravity", "--q", "0,0", "-o", path],
+            &["simulate", &robot, "--time", "0.1", "--force", "-o", path],
         ] {
             complaint(2, arguments, "");
             assert_eq!(fs::read_to_string(path).unwrap(), text, "{arguments:?}");
@@ -106,4 +108,34 @@ fn generated_files_of_other_kinds_are_not_replaced() {
     let text = folder.join("arm.txt");
     let written = run(&["document", &robot, "--format", "latex", "-o", text.to_str().unwrap()]);
     assert_eq!(written.code, 0, "{}", written.errors);
+}
+
+/// The ending of its name chooses the format of a file of results.
+#[test]
+fn results_have_the_format_of_their_file() {
+    let (folder, robot) = (folder("results"), robot("planar_2r"));
+    let command = |name: &str, format: &[&str]| {
+        let path = folder.join(name);
+        let arguments = ["eval", &robot, "--function", "gravity", "--q", "0,0", "-o"];
+        let end = [path.to_str().unwrap()];
+        let all: Vec<&str> = arguments.iter().chain(&end).chain(format).copied().collect();
+        (run(&all), path)
+    };
+    for (name, format, start) in [
+        ("a.csv", &[][..], "tau1,"),
+        ("b.CSV", &["--format", "csv"], "tau1,"),
+        ("c.txt", &["--format", "csv"], "tau1,"),
+        ("d.json", &[], "["),
+        ("e", &[], "["),
+        ("f.txt", &[], "["),
+    ] {
+        let (written, path) = command(name, format);
+        assert_eq!(written.code, 0, "{name}: {}", written.errors);
+        assert!(fs::read_to_string(path).unwrap().starts_with(start), "{name}");
+    }
+    for (name, format) in [("g.csv", "json"), ("h.json", "csv")] {
+        let (refused, path) = command(name, &["--format", format]);
+        assert!(refused.code == 2 && !path.exists(), "{name}");
+        assert!(refused.errors.contains("--format contradicts the name"), "{}", refused.errors);
+    }
 }

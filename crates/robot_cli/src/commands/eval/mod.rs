@@ -5,6 +5,7 @@ mod evaluation;
 mod infinite;
 mod output;
 
+use std::ffi::OsStr;
 use std::io::Read;
 use std::path::PathBuf;
 
@@ -24,8 +25,9 @@ use self::digits::Digits;
 use self::evaluation::{Evaluation, Task, failed};
 use self::output::Printer;
 use crate::Terminal;
-use crate::delivery::{ForceArgument, file_of};
+use crate::delivery::{ForceArgument, Kind, file_of};
 use crate::failure::Failure;
+use crate::format::contradicts_name;
 use crate::limits;
 use crate::options::help;
 use crate::outgoing::Outgoing;
@@ -71,12 +73,12 @@ pub(crate) struct Arguments {
     output: Option<PathBuf>,
     #[command(flatten)]
     force: ForceArgument,
-    /// Output format
-    #[arg(long, value_enum, default_value_t = Format::Json)]
-    format: Format,
+    /// Output format [default: csv for a file NAME.csv, else json]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum Format {
     Json,
     Csv,
@@ -86,6 +88,7 @@ impl Arguments {
     pub(crate) fn run(&self, terminal: &mut Terminal<'_>) -> Result<(), Failure> {
         self.settings.check_once()?;
         let (path, writer) = (file_of(self.output.as_deref()), self.writer()?);
+        let format = self.format()?;
         let file = self.robot.open()?;
         let described = file.read(terminal)?;
         let Described { robot, code, .. } = &described;
@@ -130,10 +133,7 @@ impl Arguments {
             handle,
             no_wrench: no_wrench.flatten(),
             takes_wrench,
-            printer: match self.format {
-                Format::Json => Printer::json(&function.outputs),
-                Format::Csv => Printer::csv(&function.outputs),
-            },
+            printer: Printer::new(format, &function.outputs),
             file: name,
             source: states.source(),
         };
@@ -165,6 +165,28 @@ impl Arguments {
             writer.check(&[(path, Ownership::Edited)])?;
         }
         Ok(writer)
+    }
+
+    /// The format that is chosen, or else the one given by the ending of the file's name.
+    fn format(&self) -> Result<Format, Failure> {
+        let Some(path) = file_of(self.output.as_deref()) else {
+            return Ok(self.format.unwrap_or(Format::Json));
+        };
+        let extension = path.extension().map(OsStr::to_ascii_lowercase);
+        let named = match extension.as_ref().and_then(|extension| extension.to_str()) {
+            Some("csv") => Some(Format::Csv),
+            Some("json") => Some(Format::Json),
+            _ => None,
+        };
+        if named.is_none() {
+            Kind { doc: "results are JSON or CSV", ending: "json" }.check(path)?;
+        }
+        if let (Some(format), Some(named)) = (self.format, named)
+            && format != named
+        {
+            return Err(contradicts_name(path));
+        }
+        Ok(self.format.or(named).unwrap_or(Format::Json))
     }
 
     /// Compiles the programs with the parameter values that are set.

@@ -4,6 +4,8 @@ use robot_codegen::module::Output;
 use robot_simulation::csv::push_number;
 use serde_json::Value;
 
+use super::Format;
+
 /// Prints the outputs at states.
 pub(super) enum Printer {
     /// An array with an object for each state.
@@ -33,7 +35,14 @@ enum Shape {
 }
 
 impl Printer {
-    pub(super) fn json(outputs: &[Output]) -> Printer {
+    pub(super) fn new(format: Format, outputs: &[Output]) -> Printer {
+        match format {
+            Format::Json => Printer::json(outputs),
+            Format::Csv => Printer::csv(outputs),
+        }
+    }
+
+    fn json(outputs: &[Output]) -> Printer {
         let field = |output: &Output| Field {
             key: format!("{}:", Value::from(output.name.as_str())),
             length: output.len(),
@@ -46,7 +55,7 @@ impl Printer {
         Printer::Json(outputs.iter().map(field).collect())
     }
 
-    pub(super) fn csv(outputs: &[Output]) -> Printer {
+    fn csv(outputs: &[Output]) -> Printer {
         let header: Vec<String> = outputs.iter().flat_map(columns).collect();
         Printer::Csv { header: header.join(",") }
     }
